@@ -96,24 +96,24 @@ Interpreter::Interpreter(const Recording& recording, const ValueTask& task, cons
     }
     for (const Place& target : program.stores[k]) steps.push_back({{Kind::kCopy, kCopied, 0, 0}, {result, result, result, target}});
   }
-  arrange(steps);
+  arrange(steps, slot_array, program.slots);
 }
 
 // A branch that depends on the kind of each instruction would take longer than most instructions. Of the kinds with an instruction whose
 // operands are known, the one with most of them is next, until it has none left.
-void Interpreter::arrange(const std::vector<std::pair<Batch, Step>>& steps) {
-  std::map<std::pair<int, int>, std::size_t> producers;
+void Interpreter::arrange(const std::vector<std::pair<Batch, Step>>& steps, int slot_array, int slots) {
+  std::vector<int> producers(to_index(slots), -1);
   std::vector<std::vector<std::size_t>> users(steps.size());
   std::vector<int> waits_for(steps.size(), 0);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const Step& step = steps[k].second;
     for (const Place& operand : {step.a, step.b, step.c}) {
-      const auto producer = producers.find({operand.array, operand.index});
-      if (producer == producers.end()) continue;
-      users[producer->second].push_back(k);
+      const int producer = operand.array == slot_array ? producers[to_index(operand.index)] : -1;
+      if (producer < 0) continue;
+      users[to_index(producer)].push_back(k);
       ++waits_for[k];
     }
-    if (step.target.array >= 0) producers[{step.target.array, step.target.index}] = k;
+    if (step.target.array == slot_array) producers[to_index(step.target.index)] = static_cast<int>(k);
   }
   std::map<std::pair<Kind, Operation>, std::vector<std::size_t>> ready;
   const auto add = [&](std::size_t k) { ready[{steps[k].first.kind, steps[k].first.operation}].push_back(k); };

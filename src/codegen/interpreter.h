@@ -39,8 +39,9 @@ class Interpreter final : public ValueCode {
     Operation operation;
     std::size_t first, last;
   };
-  /// Puts instructions of one kind side by side. @param steps one or more per instruction, in the order of the program.
-  void arrange(const std::vector<std::pair<Batch, Step>>& steps);
+  /// Puts instructions of one kind side by side. @param steps one or more per instruction, in the order of the program. @param slots the
+  /// number of entries of array `slot_array`, the only one of which steps read what other steps wrote.
+  void arrange(const std::vector<std::pair<Batch, Step>>& steps, int slot_array, int slots);
   template <class T, class Value>
   void compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays, const Value& value) const;
   template <class T>

@@ -24,7 +24,9 @@ bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, d
   Matrix matrix(layout.columns(), layout.columns());
   matrix.setFromTriplets(entries.begin(), entries.end());
   if (!matrix.coeffs().allFinite()) return false;
-  lu_->compute(matrix);
+  if (!analyzed_) lu_->analyzePattern(matrix);
+  analyzed_ = true;
+  lu_->factorize(matrix);
   return lu_->info() == Eigen::Success;
 }
 

@@ -47,6 +47,7 @@ class StageMatrix<std::complex<double>> {
 
   const CompiledSystem& system_;
   std::unique_ptr<Eigen::SparseLU<Matrix>> lu_;
+  bool analyzed_ = false;  ///< whether lu_ knows the pattern, which does not change
 };
 
 }  // namespace codesign

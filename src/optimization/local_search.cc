@@ -307,7 +307,7 @@ class Search {
       if (!goes_on()) break;
       const bool has_gained = had_best && (before - result_.objective > options_.relative_tolerance * std::abs(result_.objective) ||
                                            trials_.best_violation() < 0.9 * outside);
-      // Least squares leave the constraints that hold the best point once more.
+      // Least squares do not know the constraints: begun again at the best point, they would leave them again.
       const bool leaves_constraints = is_least_squares(last_) && !study_.constraints.empty();
       const bool begins_anew = trials_.have_best() && !leaves_constraints && (k == 0 || has_gained);
       if (!begins_anew && ++algorithm == algorithms_.size()) break;

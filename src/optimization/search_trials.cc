@@ -70,13 +70,16 @@ void SearchTrials::conclude(const std::string& failure) {
   }
 }
 
-std::vector<WatchedResult> SearchTrials::watched_at_best() const {
-  std::vector<WatchedResult> watched = program_.describe(best_.extremes, initial_extremes_, result_.rho);
-  count_range_of_run(ensemble_.scenarios().front(), result_.rho, cancel_, &watched);
-  return watched;
+// The range of a signal takes a run.
+const std::vector<WatchedResult>& SearchTrials::watched_at_best() {
+  if (!best_watched_) {
+    best_watched_ = program_.describe(best_.extremes, initial_extremes_, result_.rho);
+    count_range_of_run(ensemble_.scenarios().front(), result_.rho, cancel_, &*best_watched_);
+  }
+  return *best_watched_;
 }
 
-bool SearchTrials::best_keeps_bounds() const {
+bool SearchTrials::best_keeps_bounds() {
   if (best_violation_ == 0.0) return true;
   OptimizationResult best;
   best.margins = parameter_rows_.margins(result_.rho);
@@ -222,6 +225,7 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   result_.values = all.values;
   best_ = all;
   best_optimality_.reset();
+  best_watched_.reset();
   result_.failed = all.failed;
   result_.gradient = evaluation.gradient;
   result_.warnings = evaluation.warnings;

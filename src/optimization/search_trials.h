@@ -50,9 +50,9 @@ class SearchTrials {
   /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all constraints are met.
   double best_violation() const { return best_violation_; }
   /// Whether the best point keeps all constraints, each within its tolerance.
-  bool best_keeps_bounds() const;
+  bool best_keeps_bounds();
   /// The watched signals of the best point; empty without one.
-  std::vector<WatchedResult> watched_at_best() const;
+  const std::vector<WatchedResult>& watched_at_best();
   const ParameterRows& parameter_rows() const { return parameter_rows_; }
   /// Whether the search was cancelled, or an evaluation was lost with its worker.
   bool interrupted() const { return !interruption_.ok(); }
@@ -80,7 +80,9 @@ class SearchTrials {
   const ParameterRows parameter_rows_;
   Eigen::VectorXd last_rho_;
   EnsembleEvaluation last_, best_;
-  std::optional<Optimality> best_optimality_;  ///< of `best_`, once it was asked for
+  // Of `best_`, once they were asked for.
+  std::optional<Optimality> best_optimality_;
+  std::optional<std::vector<WatchedResult>> best_watched_;
   std::vector<Extremes> initial_extremes_;
   OptimizationResult result_;
   Warnings lost_branches_;  ///< the first `branch_lost` of all trial points
