@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "assembly/tree_kinematics.h"
+#include "system/tree_kinematics.h"
 #include "system/start_rotations.h"
 #include "system/system.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/tree_kinematics.h"
+#include "system/tree_kinematics.h"
 #include "equations/equations.h"
 #include "sparse/least_squares.h"
 

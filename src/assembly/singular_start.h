@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "assembly/loop_jacobian.h"
-#include "assembly/tree_kinematics.h"
+#include "system/tree_kinematics.h"
 #include "equations/equations.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "assembly/tree_kinematics.h"
+#include "system/tree_kinematics.h"
 #include "equations/equations.h"
 
 namespace codesign {

@@ -2,7 +2,6 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 
-#include <map>
 #include <vector>
 
 #include "equations/iteration_matrix.h"
@@ -55,11 +54,10 @@ class IdasTangent final : public IdasSensitivities {
     std::vector<Scalar> parameters;  ///< with the directions of `range`
     State<Scalar> state;
     ExtensionWorkspace<Scalar> extension;
-    VectorX<Scalar> G, Phi, Phi_rate;
-    std::map<ObjectivePart, VectorX<Scalar>> errors;
+    VectorX<Scalar> G, Phi, Phi_rate, residuals;
   };
 
-  /// The total derivative of a function of a state with lanes, read from a group's formulas.
+  /// The total derivative of a function of a state with lanes, read from a group's equations.
   template <class Function>
   void differentiate(const Function& function, const State<double>& state, Equations<double>* equations,
                      std::vector<State<double>>* directions, Eigen::VectorXd* gradient);
