@@ -148,9 +148,12 @@ template <class T>
 template <class Run>
 void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
   if (variants_.empty()) adopt();
-  if (attempt(instant, interpreted_, run, &variants_[current_]) < 0) return;
+  // What a run needs a few times takes less time than making code for it.
+  const bool interpreted = interpreted_ || part_ == EquationPart::kStart ||
+                           (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
+  if (attempt(instant, interpreted, run, &variants_[current_]) < 0) return;
   for (std::size_t k = 0; k < variants_.size() || adopt(); ++k) {
-    if (k == current_ || attempt(instant, interpreted_, run, &variants_[k]) >= 0) continue;
+    if (k == current_ || attempt(instant, interpreted, run, &variants_[k]) >= 0) continue;
     current_ = k;
     return;
   }
