@@ -9,10 +9,10 @@
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
 #include "assembly/tree_coordinates.h"
-#include "system/tree_kinematics.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
 #include "mechanism_codesign/status.h"
+#include "system/tree_kinematics.h"
 #include "text/cancel.h"
 
 namespace codesign {

@@ -18,7 +18,7 @@ T measured_error(const StateView<T>& view, int controller) {
   const double quantum = realization_of(view, controller).quantization;
   if (!(quantum > 0.0)) return error;
   const T setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t).value;
-  return setpoint - T(quantum) * rounded(T((setpoint - error) / T(quantum)));
+  return setpoint - T(quantum) * nearest_integer(T((setpoint - error) / T(quantum)));
 }
 
 /// The output of a PID at a sample, before its limit; updates its memory.

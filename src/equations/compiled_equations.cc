@@ -149,8 +149,8 @@ template <class Run>
 void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
   if (variants_.empty()) adopt();
   // What a run needs a few times takes less time than making code for it.
-  const bool interpreted = interpreted_ || part_ == EquationPart::kStart ||
-                           (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
+  const bool interpreted =
+      interpreted_ || part_ == EquationPart::kStart || (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
   if (attempt(instant, interpreted, run, &variants_[current_]) < 0) return;
   for (std::size_t k = 0; k < variants_.size() || adopt(); ++k) {
     if (k == current_ || attempt(instant, interpreted, run, &variants_[k]) >= 0) continue;
@@ -251,7 +251,7 @@ void CompiledEquations<T>::place(const VectorX<T>& theta, const VectorX<T>& thet
 
 template <class T>
 void CompiledEquations<T>::track_turns(State<T>* state) {
-  entries_.resize(state->turns.size());
+  entries_.resize(to_index(system_.layout().drop_slot));
   run(EquationFunction::kTurns, *state, {entries_, {}, {}, {}});
   for (std::size_t k = 0; k < entries_.size(); ++k) state->turns[k] = value_of(entries_[k]);
 }

@@ -27,7 +27,9 @@ Place spread(const Place& place, int lanes) {
   return {place.array, place.index * (lanes + 1)};
 }
 
-VectorX<Traced> vector(const std::vector<Traced>& x) { return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size())); }
+VectorX<Traced> vector(const std::vector<Traced>& x) {
+  return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
 
 std::size_t count_functions(const System& system, EquationPart part) {
   if (part == EquationPart::kMotion) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
@@ -49,9 +51,7 @@ bool is_tangent_leaf(const Recording::Node& node) {
 }  // namespace
 
 EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes)
-    : long_(system.layout().columns() > kMostColumns),
-      functions_(count_functions(system, part)),
-      known_(functions_.size()) {
+    : long_(system.layout().columns() > kMostColumns), functions_(count_functions(system, part)), known_(functions_.size()) {
   values_.recording.follow(std::move(outcomes));
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
@@ -131,7 +131,8 @@ void EquationCode::record_start(const System& system, RecordedEquations* equatio
   record(EquationFunction::kTurns, [&] {
     State<Traced> turned = state;
     formulas.track_turns(&turned);
-    return std::vector<VectorX<Traced>>{vector(turned.turns)};
+    // Without the flags of dropped rows, which no step changes.
+    return std::vector<VectorX<Traced>>{vector(turned.turns).head(system.layout().drop_slot)};
   });
   for (std::size_t k = 0; k < system.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);

@@ -76,9 +76,7 @@ class EquationCode {
   const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
 
   /// The columns of a signal's gradient, its second result: (q, s), v, z and t side by side.
-  const std::vector<int>& gradient_columns(EquationFunction function) const {
-    return at(function).columns;
-  }
+  const std::vector<int>& gradient_columns(EquationFunction function) const { return at(function).columns; }
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;

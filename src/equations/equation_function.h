@@ -28,7 +28,7 @@ enum class EquationFunction : std::size_t {
   kFirstWatched,       ///< signal minus reference; then a function with its gradient as well; then the same of the other watched signals
 
   kPlacement = 0,   ///< q and v at the tree coordinates theta and their rates, in place of q and v
-  kTurns,           ///< State::turns
+  kTurns,           ///< the joint positions in State::turns
   kFirstController  ///< three functions of each controller: its error; the output and the extra states after its first sample; after others
 };
 

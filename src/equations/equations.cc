@@ -60,8 +60,7 @@ void Equations<T>::begin_controllers(State<T>* state) {
     else
       return start_.controller_error(controller, *state);
   };
-  for (std::size_t c = 0; c < system_.controllers().size(); ++c)
-    begin_controller(system_, static_cast<int>(c), sampled, error, &state->s);
+  for (std::size_t c = 0; c < system_.controllers().size(); ++c) begin_controller(system_, static_cast<int>(c), sampled, error, &state->s);
 }
 
 template <class T>
@@ -71,12 +70,12 @@ void Equations<T>::jump(const std::vector<ControlEvent>& events, State<T>* state
   for (const ControlEvent& event : events) jump_controller(system_, event, sampled, &state->s);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                  \
-  template T Equations<T>::terminal(const State<T>&);                                            \
-  template T Equations<T>::watched(std::size_t, const State<T>&);                                \
-  template void Equations<T>::residuals(ObjectivePart, const State<T>&, VectorX<T>*);            \
-  template void Equations<T>::track_turns(State<T>*);                                            \
-  template void Equations<T>::begin_controllers(State<T>*);                                      \
+#define CODESIGN_INSTANTIATE(T)                                                       \
+  template T Equations<T>::terminal(const State<T>&);                                 \
+  template T Equations<T>::watched(std::size_t, const State<T>&);                     \
+  template void Equations<T>::residuals(ObjectivePart, const State<T>&, VectorX<T>*); \
+  template void Equations<T>::track_turns(State<T>*);                                 \
+  template void Equations<T>::begin_controllers(State<T>*);                           \
   template void Equations<T>::jump(const std::vector<ControlEvent>&, State<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE

@@ -28,7 +28,7 @@ Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
 
 /// The nearest integer, without derivative. Ties round to an even number, as in compiled code (Operation::kRound).
 template <class T>
-T rounded(const T& x) {
+T nearest_integer(const T& x) {
   return T(std::nearbyint(value_of(x)));
 }
 
@@ -36,7 +36,7 @@ T rounded(const T& x) {
 /// round to an even number of turns.
 template <class T>
 T nearest_turns(double reference, const T& angle) {
-  return T(2.0 * M_PI) * rounded(T((T(reference) - angle) / T(2.0 * M_PI)));
+  return T(2.0 * M_PI) * nearest_integer(T((T(reference) - angle) / T(2.0 * M_PI)));
 }
 
 }  // namespace codesign

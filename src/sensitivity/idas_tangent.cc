@@ -183,9 +183,10 @@ void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equa
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    group->equations.residuals(part, group->state, &group->residuals);
+    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes = group->residuals[static_cast<std::size_t>(part)];
+    group->equations.residuals(part, group->state, &in_lanes);
     for (int k = 0; k < group->range.count; ++k)
-      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = group->residuals[term].v[k];
+      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = in_lanes[term].v[k];
   });
 }
 

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 
+#include <array>
 #include <vector>
 
 #include "equations/iteration_matrix.h"
@@ -54,7 +55,8 @@ class IdasTangent final : public IdasSensitivities {
     std::vector<Scalar> parameters;  ///< with the directions of `range`
     State<Scalar> state;
     ExtensionWorkspace<Scalar> extension;
-    VectorX<Scalar> G, Phi, Phi_rate, residuals;
+    VectorX<Scalar> G, Phi, Phi_rate;
+    std::array<VectorX<Scalar>, 2> residuals;  ///< per ObjectivePart
   };
 
   /// The total derivative of a function of a state with lanes, read from a group's equations.

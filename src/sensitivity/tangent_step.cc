@@ -258,9 +258,10 @@ void TangentStep<N>::terminal_residuals(const State<double>& state, Directions<N
 
 template <int N>
 void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals) {
-  equations_.equations().residuals(part, state, &objective_residuals_);
-  residuals->resize(objective_residuals_.size());
-  for (Eigen::Index k = 0; k < objective_residuals_.size(); ++k) residuals->col(k) = objective_residuals_[k].directions();
+  VectorX<Lanes<N>>& terms = objective_residuals_[static_cast<std::size_t>(part)];
+  equations_.equations().residuals(part, state, &terms);
+  residuals->resize(terms.size());
+  for (Eigen::Index k = 0; k < terms.size(); ++k) residuals->col(k) = terms[k].directions();
 }
 
 template class TangentStep<4>;

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
 
+#include <array>
 #include <vector>
 
 #include "assembly/assembly.h"
@@ -90,7 +91,7 @@ class TangentStep {
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
   Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
-  VectorX<Lanes<N>> objective_residuals_;
+  std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
   State<Lanes<N>> start_;                             ///< with the initial sensitivities
   State<Lanes<N>> point_;                             ///< a point of the dense output

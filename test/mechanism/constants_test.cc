@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "math/ridders.h"
 #include "reading/urdf/urdf_fixture.h"
 
@@ -15,9 +14,7 @@ struct Mechanism {
   Topology topology;
 
   explicit Mechanism(const std::string& content) : robot(read_urdf(robot_text(kGround + content))), topology(derive_topology(robot)) {}
-  Constants<double> at(double length) const {
-    return evaluate_constants<double>(robot, topology, {length});
-  }
+  Constants<double> at(double length) const { return evaluate_constants<double>(robot, topology, {length}); }
 };
 
 std::string ball(const std::string& name, const std::string& mass, const std::string& twin = "") {
