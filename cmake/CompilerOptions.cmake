@@ -58,7 +58,7 @@ function(codesign_optimize target)
       list(APPEND hot_options -mmove-max=256 -mstore-max=256)
     endif()
   endif()
-  set(hot sparse/lu_schedule equations/formulas_double equations/formulas_lanes4 equations/formulas_lanes8 equations/derivative_products
+  set(hot sparse/lu_schedule equations/formulas_double equations/derivative_products
     integration/rosenbrock_step integration/applied_work integration/run_watch sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)

@@ -326,7 +326,7 @@ Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<d
 
 Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
-  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
+  if (system_.begins_controllers()) equations->begin_controllers(state);
   if (Status status = solve_rates(equations, state); !status.ok()) return status;
   return check_rest(*state);
 }

@@ -9,10 +9,10 @@
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
 #include "assembly/tree_coordinates.h"
-#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
 #include "mechanism_codesign/status.h"
+#include "system/tree_kinematics.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -21,7 +21,6 @@ namespace codesign {
 template <class T>
 struct ExtensionWorkspace {
   VectorX<T> theta, rate, Phi, Phi_rate, G;
-  std::vector<LinkMotion<T>> links;
   Eigen::MatrixXd errors, rows, scaled, changes, rates;  ///< derivatives, one column per direction
   LeastSquaresWorkspace solution;
 };

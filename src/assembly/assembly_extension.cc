@@ -31,8 +31,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   w.rate = theta_rate_.template cast<T>();
   set_given_start(system_, tree_, parameters, &w.theta, &w.rate);
   const auto place_extended = [&] {
-    link_motions(system_.robot(), tree_, parameters, w.theta, w.rate, &w.links);
-    body_coordinates(system_, equations->constants(), w.links, &state->q, &state->v);
+    equations->place(w.theta, w.rate, state);
     equations->constraint_errors(*state, &w.Phi, &w.Phi_rate);
   };
   place_extended();
@@ -40,7 +39,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   place_extended();
   correct(velocities_, w.Phi_rate, workspace, &w.rate);
   place_extended();
-  if (system_.begins_controllers()) equations->formulas().begin_controllers(state);
+  if (system_.begins_controllers()) equations->begin_controllers(state);
   extend_rates(start.z, equations, workspace, state);
 }
 

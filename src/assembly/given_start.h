@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "assembly/tree_kinematics.h"
 #include "system/start_rotations.h"
 #include "system/system.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 

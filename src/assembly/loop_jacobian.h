@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
 #include "sparse/least_squares.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 

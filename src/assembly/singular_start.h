@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "assembly/loop_jacobian.h"
-#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 

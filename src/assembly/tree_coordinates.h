@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "assembly/tree_kinematics.h"
 #include "equations/equations.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 

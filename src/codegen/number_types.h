@@ -9,16 +9,17 @@
 
 // Templates over the scalar that a .cc file defines are instantiated for these types; INSTANTIATE is a macro with the type as its argument.
 
-/// The types that hold values: real numbers, the complex step, and several directions at once.
+/// The types in which numbers of a design and functions of time are evaluated: real numbers, the complex step, and several directions at
+/// once.
 #define CODESIGN_FOR_EACH_VALUE_TYPE(INSTANTIATE) \
   INSTANTIATE(double)                             \
   INSTANTIATE(std::complex<double>)               \
   INSTANTIATE(Lanes<4>)                           \
   INSTANTIATE(Lanes<8>)
 
-/// The types of every formula that is also recorded for machine code.
-#define CODESIGN_FOR_EACH_NUMBER_TYPE(INSTANTIATE) \
-  CODESIGN_FOR_EACH_VALUE_TYPE(INSTANTIATE)        \
+/// The types of formulas: Traced records them, double serves observers.
+#define CODESIGN_FOR_EACH_FORMULA_TYPE(INSTANTIATE) \
+  INSTANTIATE(double)                               \
   INSTANTIATE(Traced)
 
 #endif  // MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_

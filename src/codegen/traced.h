@@ -58,6 +58,7 @@ Traced exp(const Traced& x);
 Traced atan2(const Traced& y, const Traced& x);
 Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
+inline Traced nearest_integer(const Traced& x) { return round(x); }
 /// As nearest_turns() in math/elementary.h, also for a reference that varies.
 inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
 

@@ -18,7 +18,7 @@ T measured_error(const StateView<T>& view, int controller) {
   const double quantum = realization_of(view, controller).quantization;
   if (!(quantum > 0.0)) return error;
   const T setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t).value;
-  return setpoint - T(quantum * std::round(value_of(T(setpoint - error)) / quantum));
+  return setpoint - T(quantum) * nearest_integer(T((setpoint - error) / T(quantum)));
 }
 
 /// The output of a PID at a sample, before its limit; updates its memory.
@@ -42,32 +42,44 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
   return output;
 }
 
-/// One event of a sampled controller.
+/// The output of a controller at a sample, within its limit; updates its memory in `s`.
 template <class T>
-void jump_controller(const StateView<T>& view, const ControlEvent& event, VectorX<T>* s) {
+T sample_controller(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
+  const auto c = static_cast<std::size_t>(controller);
+  const T output = view.system.controllers()[c].kind == ControllerKind::kPid ? sampled_pid_output(view, controller, is_first, s)
+                                                                             : law_output(view, controller);
+  return realization_of(view, controller).output_limit ? clamp(output, view.design.controllers[c].output_limit) : output;
+}
+
+/// The extra state that an event writes an output to (kSample) or reads one from (kApply): the output in effect, or a place in the queue of
+/// delayed ones.
+inline int output_state(const System& system, const ControlEvent& event) {
   const auto c = static_cast<std::size_t>(event.controller);
-  const Controller& resolved = view.system.controllers()[c];
-  const ControlRealization& realization = realization_of(view, event.controller);
-  const int queued = realization.queued();
-  const int slot = queued == 0 ? resolved.states.held : resolved.states.queue + static_cast<int>(event.sample % queued);
-  if (event.kind == ControlEvent::Kind::kApply) {
-    (*s)[resolved.states.held] = T((*s)[slot]);
-    return;
-  }
-  const T output = resolved.kind == ControllerKind::kPid ? sampled_pid_output(view, event.controller, event.sample == 0, s)
-                                                         : law_output(view, event.controller);
-  (*s)[slot] = realization.output_limit ? clamp(output, view.design.controllers[c].output_limit) : output;
+  const ControllerStates& states = system.controllers()[c].states;
+  const int queued = system.study().controllers[c].realization.queued();
+  return queued == 0 ? states.held : states.queue + static_cast<int>(event.sample % queued);
+}
+
+/// Carries the extra states over one event. @param sample (controller, is_first) -> its output at a sample; it updates the memory in `s`.
+template <class T, class Sample>
+void jump_controller(const System& system, const ControlEvent& event, const Sample& sample, VectorX<T>* s) {
+  const int place = output_state(system, event);
+  if (event.kind == ControlEvent::Kind::kApply)
+    (*s)[system.controllers()[static_cast<std::size_t>(event.controller)].states.held] = T((*s)[place]);
+  else
+    (*s)[place] = sample(event.controller, event.sample == 0);
 }
 
 /// The start of a controller at t = 0: its filter is at rest, and a sampled one takes its first sample.
-template <class T>
-void begin_controller(const StateView<T>& view, int controller, VectorX<T>* s) {
-  const ControlRealization& realization = realization_of(view, controller);
-  const int filter = view.system.controllers()[static_cast<std::size_t>(controller)].states.filter;
-  if (realization.is_sampled())
-    jump_controller(view, {ControlEvent::Kind::kSample, controller, 0}, s);
+/// @param sample as of jump_controller(). @param error controller -> its error.
+template <class T, class Sample, class Error>
+void begin_controller(const System& system, int controller, const Sample& sample, const Error& error, VectorX<T>* s) {
+  const auto c = static_cast<std::size_t>(controller);
+  const int filter = system.controllers()[c].states.filter;
+  if (system.study().controllers[c].realization.is_sampled())
+    jump_controller(system, {ControlEvent::Kind::kSample, controller, 0}, sample, s);
   else if (filter >= 0)
-    (*s)[filter] = controller_error(view, controller);
+    (*s)[filter] = error(controller);
 }
 
 }  // namespace codesign

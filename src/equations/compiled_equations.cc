@@ -148,9 +148,12 @@ template <class T>
 template <class Run>
 void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
   if (variants_.empty()) adopt();
-  if (attempt(instant, interpreted_, run, &variants_[current_]) < 0) return;
+  // What a run needs a few times takes less time than making code for it.
+  const bool interpreted =
+      interpreted_ || part_ == EquationPart::kStart || (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
+  if (attempt(instant, interpreted, run, &variants_[current_]) < 0) return;
   for (std::size_t k = 0; k < variants_.size() || adopt(); ++k) {
-    if (k == current_ || attempt(instant, interpreted_, run, &variants_[k]) >= 0) continue;
+    if (k == current_ || attempt(instant, interpreted, run, &variants_[k]) >= 0) continue;
     current_ = k;
     return;
   }
@@ -213,13 +216,12 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
 template <class T>
 void CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   G->resize(system_.layout().columns());
-  run(EquationFunction::kResidual, state.t, state.turns, {state.q, state.v, state.s, state.z}, {*G, {g, 1}, {}, {}});
+  run(EquationFunction::kResidual, state, {*G, {g, 1}, {}, {}});
 }
 
 template <class T>
 void CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
-  run(EquationFunction::kLinearization, state.t, state.turns, {state.q, state.v, state.s, state.z},
-      {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
+  run(EquationFunction::kLinearization, state, {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
 }
 
 template <class T>
@@ -230,14 +232,54 @@ void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* 
 }
 
 template <class T>
+T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state) {
+  T value(0.0);
+  run(function, state, {{&value, 1}, {}, {}, {}});
+  return value;
+}
+
+template <class T>
+void CompiledEquations<T>::residuals(EquationFunction function, const State<T>& state, std::size_t size, VectorX<T>* residuals) {
+  residuals->resize(static_cast<Eigen::Index>(size));
+  run(function, state, {*residuals, {}, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::place(const VectorX<T>& theta, const VectorX<T>& theta_rate, State<T>* state) {
+  run(EquationFunction::kPlacement, 0.0, state->turns, {theta, theta_rate, {}, {}}, {state->q, state->v, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::track_turns(State<T>* state) {
+  entries_.resize(to_index(system_.layout().drop_slot));
+  run(EquationFunction::kTurns, *state, {entries_, {}, {}, {}});
+  for (std::size_t k = 0; k < entries_.size(); ++k) state->turns[k] = value_of(entries_[k]);
+}
+
+template <class T>
+T CompiledEquations<T>::controller_error(int controller, const State<T>& state) {
+  return signal(controller_function(controller, ControllerFunction::kError), state);
+}
+
+template <class T>
+T CompiledEquations<T>::sample(int controller, bool is_first, State<T>* state) {
+  T output(0.0);
+  s_.resize(state->s.size());
+  run(controller_function(controller, is_first ? ControllerFunction::kFirstSample : ControllerFunction::kSample), *state,
+      {{&output, 1}, s_, {}, {}});
+  state->s = s_;
+  return output;
+}
+
+template <class T>
 T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient) {
   const Layout& layout = system_.layout();
   const int velocity = layout.positions(), rate = velocity + layout.n, time = rate + layout.columns();
   entries_.resize(to_index(time) + 1);
   T value(0.0);
-  run(function, state.t, state.turns, {state.q, state.v, state.s, state.z}, {{&value, 1}, entries_, {}, {}});
+  run(with_gradient(function), state, {{&value, 1}, entries_, {}, {}});
   gradient->clear();
-  const std::vector<int>& columns = variants_[current_].code->gradient_columns(function);
+  const std::vector<int>& columns = variants_[current_].code->gradient_columns(with_gradient(function));
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const int c = columns[k];
     if (c < velocity)

@@ -35,6 +35,7 @@ class CompiledEquations {
 
   /// Takes the values of all named parameters; the constants are evaluated when a function is first called.
   void set_design(const std::vector<T>& parameters);
+  const std::vector<T>& parameters() const { return parameters_; }
   /// With false machine code is neither made nor used: a few evaluations take less time than making it.
   void allow(bool machine_code) { interpreted_ = !machine_code; }
   /// Begins again with the first variant.
@@ -45,8 +46,19 @@ class CompiledEquations {
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
-  /// The value of kTerminal or of a watched signal, and its gradient. @param gradient overwritten.
+  /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
+  T signal(EquationFunction function, const State<T>& state);
   T signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient);
+  /// kIntegralResiduals or kTerminalResiduals. @param size number of terms.
+  void residuals(EquationFunction function, const State<T>& state, std::size_t size, VectorX<T>* residuals);
+
+  /// Sets q and v to those of tree coordinates and their rates.
+  void place(const VectorX<T>& theta, const VectorX<T>& theta_rate, State<T>* state);
+  /// Sets State::turns to the joint positions of the state.
+  void track_turns(State<T>* state);
+  /// The error of a controller; its output at a sample, which updates its memory in state->s.
+  T controller_error(int controller, const State<T>& state);
+  T sample(int controller, bool is_first, State<T>* state);
 
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only. The directions of the design are the
   /// directions of the parameters given to set_design().
@@ -90,6 +102,9 @@ class CompiledEquations {
   template <class Run>
   void add_variant(const Instant& instant, const Run& run);
   void run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4], const Out<T> (&results)[4]);
+  void run(EquationFunction function, const State<T>& at, const Out<T> (&results)[4]) {
+    run(function, at.t, at.turns, {at.q, at.v, at.s, at.z}, results);
+  }
 
   const CompiledSystem& system_;
   EquationPart part_;
@@ -97,7 +112,8 @@ class CompiledEquations {
   bool interpreted_ = false;
   std::vector<Variant> variants_;  ///< the first ones that the system knows, in its order
   std::size_t current_ = 0;        ///< the variant that served last
-  std::vector<T> entries_;         ///< workspace of signal()
+  std::vector<T> entries_;         ///< workspace of signal() and track_turns()
+  VectorX<T> s_;                   ///< workspace of sample()
   std::vector<T> nodes_;           ///< workspace of fill_numbers(): values of the recording's nodes
   LineVector slots_, rows_;        ///< workspace of the code
 };

@@ -38,7 +38,7 @@ class CompiledSystem final : public System {
 
  private:
   const ByVariable<Sparsity> patterns_;
-  const std::array<std::unique_ptr<EquationVariants>, 2> variants_;  ///< per EquationPart
+  const std::array<std::unique_ptr<EquationVariants>, kEquationParts> variants_;  ///< per EquationPart
 };
 
 }  // namespace codesign

@@ -27,6 +27,16 @@ Place spread(const Place& place, int lanes) {
   return {place.array, place.index * (lanes + 1)};
 }
 
+VectorX<Traced> vector(const std::vector<Traced>& x) {
+  return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+std::size_t count_functions(const System& system, EquationPart part) {
+  if (part == EquationPart::kMotion) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
+  if (part == EquationPart::kSignals) return static_cast<std::size_t>(watched_function(system.watched().size()));
+  return static_cast<std::size_t>(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
+}
+
 /// Whether a node is an entry of kNumbers: it depends on design, time or a turn reference, not on the state.
 bool is_number(const Recording::Node& node) {
   return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
@@ -41,73 +51,109 @@ bool is_tangent_leaf(const Recording::Node& node) {
 }  // namespace
 
 EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes)
-    : long_(system.layout().columns() > kMostColumns),
-      functions_(static_cast<std::size_t>(watched_function(part == EquationPart::kMotion ? 0 : system.watched().size()))),
-      known_(functions_.size()) {
+    : long_(system.layout().columns() > kMostColumns), functions_(count_functions(system, part)), known_(functions_.size()) {
   values_.recording.follow(std::move(outcomes));
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
   take_guards(0, &none);
-  part == EquationPart::kMotion ? record_motion(patterns, &equations) : record_signals(system, &equations);
+  if (part == EquationPart::kMotion) record_motion(patterns, &equations);
+  if (part == EquationPart::kSignals) record_signals(system, &equations);
+  if (part == EquationPart::kStart) record_start(system, &equations);
   if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
   for (const Recording::Guard& guard : values_.recording.guards()) outcomes_.push_back(guard.outcome);
   values_.number_nodes();
 }
 
+template <class Compute>
+void EquationCode::record(EquationFunction function, const Compute& compute) {
+  const std::size_t decisions = values_.recording.decisions().size();
+  const std::vector<VectorX<Traced>> results = compute();
+  take_guards(decisions, &at(function).guards);
+  take_outputs(function, results);
+}
+
 void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations) {
-  const auto at = [this](EquationFunction function) { return &functions_[static_cast<std::size_t>(function)]; };
-  std::size_t decisions = values_.recording.decisions().size();
-  equations->record_residual();
-  take_guards(decisions, &at(EquationFunction::kResidual)->guards);
-  const VectorX<Traced> g = VectorX<Traced>::Constant(1, equations->g);
-  take_outputs(EquationFunction::kResidual, {&equations->G, &g});
-
-  decisions = values_.recording.decisions().size();
-  VectorX<Traced> Phi, Phi_rate;
-  equations->formulas.constraint_errors(equations->state, &Phi, &Phi_rate);
-  take_guards(decisions, &at(EquationFunction::kConstraintErrors)->guards);
-  take_outputs(EquationFunction::kConstraintErrors, {&Phi, &Phi_rate});
-
-  const Linearization<Traced> derivatives = derive_linearization(patterns, EliminationOrder::kForward, equations);
-  const auto vector = [](const std::vector<Traced>& x) -> VectorX<Traced> {
-    return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
-  };
-  const VectorX<Traced> by_position = vector(derivatives.position), by_velocity = vector(derivatives.velocity),
-                        by_rate = vector(derivatives.rate);
+  record(EquationFunction::kResidual, [&] {
+    equations->record_residual();
+    return std::vector<VectorX<Traced>>{equations->G, VectorX<Traced>::Constant(1, equations->g)};
+  });
+  record(EquationFunction::kConstraintErrors, [&] {
+    std::vector<VectorX<Traced>> errors(2);
+    equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
+    return errors;
+  });
+  record(EquationFunction::kLinearization, [&] {
+    const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, equations);
+    return std::vector<VectorX<Traced>>{vector(d.position), vector(d.velocity), vector(d.rate), d.time};
+  });
   // The derivatives decide nothing: they hold where the residual holds.
-  at(EquationFunction::kLinearization)->guards = at(EquationFunction::kResidual)->guards;
-  take_outputs(EquationFunction::kLinearization, {&by_position, &by_velocity, &by_rate, &derivatives.time});
+  at(EquationFunction::kLinearization).guards = at(EquationFunction::kResidual).guards;
 }
 
 void EquationCode::record_signals(const System& system, RecordedEquations* equations) {
+  std::vector<EquationFunction> functions{EquationFunction::kTerminal};
+  for (std::size_t k = 0; k < system.watched().size(); ++k) functions.push_back(watched_function(k));
   std::vector<Traced> values;
-  const auto record = [&](auto&& signal) {
-    const std::size_t decisions = values_.recording.decisions().size();
-    values.push_back(signal());
-    Recorded& function = functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + values.size() - 1];
-    take_guards(decisions, &function.guards);
-  };
-  record([&] { return equations->formulas.terminal(equations->state); });
-  for (std::size_t k = 0; k < system.watched().size(); ++k) record([&] { return equations->formulas.watched(k, equations->state); });
-  const std::vector<JacobianEntry> entries = derive_gradients(system, values, EliminationOrder::kReverse, &values_.recording);
-  std::vector<std::vector<Traced>> rows(values.size());
-  for (const JacobianEntry& entry : entries) {
-    rows[to_index(entry.row)].push_back(entry.value);
-    functions_[static_cast<std::size_t>(EquationFunction::kTerminal) + to_index(entry.row)].columns.push_back(entry.column);
+  for (EquationFunction function : functions)
+    record(function, [&] {
+      values.push_back(values.empty() ? equations->formulas.terminal(equations->state)
+                                      : equations->formulas.watched(values.size() - 1, equations->state));
+      return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, values.back())};
+    });
+  std::vector<std::vector<Traced>> gradients(values.size());
+  for (const JacobianEntry& entry : derive_gradients(system, values, EliminationOrder::kReverse, &values_.recording)) {
+    gradients[to_index(entry.row)].push_back(entry.value);
+    at(with_gradient(functions[to_index(entry.row)])).columns.push_back(entry.column);
   }
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const VectorX<Traced> value = VectorX<Traced>::Constant(1, values[k]);
-    const VectorX<Traced> gradient = Eigen::Map<const VectorX<Traced>>(rows[k].data(), static_cast<Eigen::Index>(rows[k].size()));
-    take_outputs(static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kTerminal) + k), {&value, &gradient});
+    take_outputs(with_gradient(functions[k]), {VectorX<Traced>::Constant(1, values[k]), vector(gradients[k])});
+    at(with_gradient(functions[k])).guards = at(functions[k]).guards;
+  }
+  const auto residuals = [&](EquationFunction function, ObjectivePart part) {
+    record(function, [&] {
+      std::vector<VectorX<Traced>> result(1);
+      equations->formulas.residuals(part, equations->state, &result[0]);
+      return result;
+    });
+  };
+  residuals(EquationFunction::kIntegralResiduals, ObjectivePart::kIntegral);
+  residuals(EquationFunction::kTerminalResiduals, ObjectivePart::kTerminal);
+}
+
+void EquationCode::record_start(const System& system, RecordedEquations* equations) {
+  Formulas<Traced>& formulas = equations->formulas;
+  const State<Traced>& state = equations->state;
+  record(EquationFunction::kPlacement, [&] {
+    std::vector<VectorX<Traced>> motion(2);
+    equations->record_placement(&motion[0], &motion[1]);
+    return motion;
+  });
+  record(EquationFunction::kTurns, [&] {
+    State<Traced> turned = state;
+    formulas.track_turns(&turned);
+    // Without the flags of dropped rows, which no step changes.
+    return std::vector<VectorX<Traced>>{vector(turned.turns).head(system.layout().drop_slot)};
+  });
+  for (std::size_t k = 0; k < system.controllers().size(); ++k) {
+    const auto controller = static_cast<int>(k);
+    formulas.load(state);
+    record(controller_function(controller, ControllerFunction::kError),
+           [&] { return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, formulas.controller_error(controller))}; });
+    if (!system.study().controllers[k].realization.is_sampled()) continue;
+    for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample})
+      record(controller_function(controller, which), [&] {
+        VectorX<Traced> s = state.s;
+        const Traced output = formulas.sample(controller, which == ControllerFunction::kFirstSample, &s);
+        return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, output), s};
+      });
   }
 }
 
-void EquationCode::take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results) {
-  Recording* const recording = &values_.recording;
+void EquationCode::take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results) {
   for (std::size_t k = 0; k < results.size(); ++k)
-    for (Eigen::Index i = 0; i < results[k]->size(); ++i)
-      functions_[static_cast<std::size_t>(function)].outputs.push_back(
-          {(*results[k])[i].node_in(recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+    for (Eigen::Index i = 0; i < results[k].size(); ++i)
+      at(function).outputs.push_back(
+          {results[k][i].node_in(&values_.recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
 void EquationCode::take_guards(std::size_t first, std::vector<Recording::Guard>* guards) {

@@ -76,9 +76,7 @@ class EquationCode {
   const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
 
   /// The columns of a signal's gradient, its second result: (q, s), v, z and t side by side.
-  const std::vector<int>& gradient_columns(EquationFunction function) const {
-    return functions_[static_cast<std::size_t>(function)].columns;
-  }
+  const std::vector<int>& gradient_columns(EquationFunction function) const { return at(function).columns; }
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
@@ -94,12 +92,18 @@ class EquationCode {
     std::vector<Recording::Guard> guards;
     std::vector<int> columns;  ///< of the gradient of a signal
   };
+  Recorded& at(EquationFunction function) { return functions_[static_cast<std::size_t>(function)]; }
+  const Recorded& at(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)]; }
   void record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations);
   void record_signals(const System& system, RecordedEquations* equations);
+  void record_start(const System& system, RecordedEquations* equations);
+  /// Records one function whose results `compute` returns.
+  template <class Compute>
+  void record(EquationFunction function, const Compute& compute);
   /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
   /// design_guards_.
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
-  void take_outputs(EquationFunction function, const std::vector<const VectorX<Traced>*>& results);
+  void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
   std::unique_ptr<CompiledFunction> compile(std::size_t function, const Scalar& scalar) const;

@@ -8,22 +8,44 @@ namespace codesign {
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,  ///< kResidual, kLinearization, kConstraintErrors
-  kSignals  ///< kTerminal and the watched signals
+  kMotion,   ///< kResidual, kLinearization, kConstraintErrors
+  kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
+  kStart     ///< kPlacement, kTurns and the controllers' functions
 };
+constexpr std::size_t kEquationParts = 3;
 
-/// The recorded functions of Equations; each enumerator lists the arrays of results, in order.
+/// The recorded functions of Equations, numbered in each part; each enumerator lists the arrays of results, in order.
 enum class EquationFunction : std::size_t {
-  kResidual,          ///< G, g
+  kResidual = 0,      ///< G, g
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
-  kTerminal,          ///< w, its gradient
-  kFirstWatched       ///< signal minus reference, its gradient
+  kMotionEnd,         ///< number of functions of the part
+
+  kTerminal = 0,       ///< w
+  kTerminalGradient,   ///< w, its gradient
+  kIntegralResiduals,  ///< theory (22a), one per term of the integrand
+  kTerminalResiduals,  ///< one per terminal term
+  kFirstWatched,       ///< signal minus reference; then a function with its gradient as well; then the same of the other watched signals
+
+  kPlacement = 0,   ///< q and v at the tree coordinates theta and their rates, in place of q and v
+  kTurns,           ///< the joint positions in State::turns
+  kFirstController  ///< three functions of each controller: its error; the output and the extra states after its first sample; after others
 };
 
-/// The function of the k-th watched signal.
+/// The function of the k-th watched signal, and of kTerminal or a watched signal with its gradient.
 constexpr EquationFunction watched_function(std::size_t k) {
-  return static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kFirstWatched) + k);
+  return static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kFirstWatched) + 2 * k);
+}
+constexpr EquationFunction with_gradient(EquationFunction function) {
+  return static_cast<EquationFunction>(static_cast<std::size_t>(function) + 1);
+}
+
+/// A function of a controller.
+enum class ControllerFunction : std::size_t { kError, kFirstSample, kSample, kEnd };
+constexpr EquationFunction controller_function(int controller, ControllerFunction which) {
+  return static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kFirstController) +
+                                       static_cast<std::size_t>(ControllerFunction::kEnd) * static_cast<std::size_t>(controller) +
+                                       static_cast<std::size_t>(which));
 }
 
 }  // namespace codesign

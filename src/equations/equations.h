@@ -2,31 +2,37 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_H_
 #define MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_H_
 
+#include <type_traits>
 #include <vector>
 
+#include "control/control_clock.h"
 #include "equations/compiled_equations.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
 
 namespace codesign {
 
-/// The equations of motion of one design, doc/theory.md (14), as integrators and sensitivities use them. residual(), linearize() and
-/// constraint_errors() run what was recorded of the formulas for this mechanism. T: double, std::complex<double> or Lanes<N>. Call
-/// set_design() first. No allocation after the first evaluation; not thread-safe: one per thread, while the CompiledSystem is shared.
+/// The equations of motion of one design, doc/theory.md (14), as integrators and sensitivities use them: what was recorded of the formulas
+/// for this mechanism. T: double, std::complex<double> or Lanes<N>. With double the formulas themselves serve observers (formulas()).
+/// Call set_design() first. No allocation after the first evaluation; not thread-safe: one per thread, while the CompiledSystem is shared.
 template <class T>
 class Equations {
  public:
   /// @param system must outlive the equations.
-  explicit Equations(const CompiledSystem& system) : formulas_(system), compiled_(system), signals_(system, EquationPart::kSignals) {}
+  explicit Equations(const CompiledSystem& system)
+      : system_(system),
+        formulas_(system),
+        compiled_(system),
+        signals_(system, EquationPart::kSignals),
+        start_(system, EquationPart::kStart) {}
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
   void set_design(const std::vector<T>& parameters) {
-    compiled_.set_design(parameters);
-    signals_.set_design(parameters);
-    formulas_.set_design(parameters);
+    for (CompiledEquations<T>* part : {&compiled_, &signals_, &start_}) part->set_design(parameters);
+    if constexpr (kIsReal) formulas_.set_design(parameters);
   }
-  /// The parameters, constants and constraint rows of the present design.
-  const std::vector<T>& parameters() const { return formulas_.view().design.parameters; }
+  const std::vector<T>& parameters() const { return compiled_.parameters(); }
+  /// The constants and constraint rows of the present design; for double only.
   const Constants<T>& constants() const { return formulas_.view().design.constants; }
   const PairRows<T>& rows(int pair) const { return formulas_.view().design.rows[static_cast<std::size_t>(pair)]; }
 
@@ -39,27 +45,46 @@ class Equations {
     compiled_.constraint_errors(state, Phi, Phi_rate);
   }
 
-  /// The sum w of the terminal terms, theory (21), and its gradient. @param gradient overwritten, here and below.
+  /// The sum w of the terminal terms of the objective, theory (21), and its gradient. @param gradient overwritten, here and below.
+  T terminal(const State<T>& state);
   T terminal_gradient(const State<T>& state, SparseGradient<T>* gradient) {
     return signals_.signal(EquationFunction::kTerminal, state, gradient);
   }
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units, and its gradient.
+  T watched(std::size_t k, const State<T>& state);
   T watched_gradient(std::size_t k, const State<T>& state, SparseGradient<T>* gradient) {
     return signals_.signal(watched_function(k), state, gradient);
   }
+  /// Formulas::residuals().
+  void residuals(ObjectivePart part, const State<T>& state, VectorX<T>* residuals);
 
+  /// Sets q and v, of the sizes of the layout, to those of tree coordinates theta (TreeLayout) and their rates.
+  void place(const VectorX<T>& theta, const VectorX<T>& theta_rate, State<T>* state) { start_.place(theta, theta_rate, state); }
   /// Sets State::turns to the joint positions of the state; integrators call it after each step.
-  void track_turns(State<T>* state) { formulas_.track_turns(state); }
+  void track_turns(State<T>* state);
+  /// Sets the states of controllers to their values at t = 0, theory (50), (51): filters at rest, first samples taken.
+  void begin_controllers(State<T>* state);
+  /// Carries the states of sampled controllers over the events of an instant, theory (51). The rates state->z do not change; solve for
+  /// them afterwards.
+  void jump(const std::vector<ControlEvent>& events, State<T>* state);
 
-  /// The formulas, for everything that is not compiled: signals, energies, friction, reactions.
+  /// The formulas, for what observers read: signals, energies, friction, reactions; for double only.
   Formulas<T>& formulas() { return formulas_; }
   const Formulas<T>& formulas() const { return formulas_; }
   /// The recorded equations, for instance to do without machine code.
   CompiledEquations<T>& compiled() { return compiled_; }
 
  private:
-  Formulas<T> formulas_;
-  CompiledEquations<T> compiled_, signals_;
+  static constexpr bool kIsReal = std::is_same_v<T, double>;
+  struct NoFormulas {
+    explicit NoFormulas(const CompiledSystem&) {}
+  };
+
+  T sample(int controller, bool is_first, State<T>* state);
+
+  const CompiledSystem& system_;
+  std::conditional_t<kIsReal, Formulas<double>, NoFormulas> formulas_;
+  CompiledEquations<T> compiled_, signals_, start_;
 };
 
 }  // namespace codesign

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "control/control_clock.h"
 #include "elements/contact_friction.h"
 #include "elements/friction_state.h"
 #include "elements/power_kind.h"
@@ -24,8 +23,8 @@ enum class ObjectivePart { kIntegral, kTerminal };
 ///   rows n+m to end:    sigma - s'                         integrals of controllers, then states of friction laws
 /// Layout gives the place of each row and of each unknown of z = (a, lambda, sigma).
 ///
-/// T is the scalar: double for values, std::complex<double> for checks by the complex step, Lanes<N> for N directional derivatives, Traced
-/// to record the operations that are compiled. Call set_design() first. No allocation after the first evaluation; not thread-safe.
+/// T is the scalar: Traced to record the operations, from which everything that integrators and sensitivities evaluate is made
+/// (Equations), or double for observers. Call set_design() first. No allocation after the first evaluation; not thread-safe.
 template <class T>
 class Formulas {
  public:
@@ -46,20 +45,17 @@ class Formulas {
   /// @param errors, rates one value per row of the pair.
   void pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const;
 
-  /// Sets the states of controllers to their values at t = 0, theory (50), (51): filters at rest, first samples taken.
-  void begin_controllers(State<T>* state);
-  /// Carries the states of sampled controllers over the events of an instant, theory (51). The rates state->z do not change; solve for
-  /// them afterwards.
-  void jump(const std::vector<ControlEvent>& events, State<T>* state);
+  /// The output of a sampled controller at a sample of the loaded state, theory (51); its memory in `s` is updated.
+  T sample(int controller, bool is_first, VectorX<T>* s) const;
 
   /// Sets State::turns to the joint positions of the state. To be called after each step, so that positions count whole turns.
   void track_turns(State<T>* state);
 
   /// The sum w of the terminal terms of the objective, theory (21).
   T terminal(const State<T>& state);
-  /// Signal minus reference of each term of the integrand g or of the terminal terms w, theory (21), in SI units; the weights are numbers
-  /// of the design.
-  void errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors);
+  /// sqrt(weight) (signal - reference) of each term of the integrand g or of the terminal terms w, whose squares are the terms, theory
+  /// (22a). Zero for a weight that is not positive, where the root has no derivative.
+  void residuals(ObjectivePart part, const State<T>& state, VectorX<T>* residuals);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
   T watched(std::size_t k, const State<T>& state);
   /// The value of a signal at a state, in SI units.

@@ -53,15 +53,8 @@ void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
 }
 
 template <class T>
-void Formulas<T>::begin_controllers(State<T>* state) {
-  load(*state);
-  for (std::size_t c = 0; c < view_.system.controllers().size(); ++c) begin_controller(view_, static_cast<int>(c), &state->s);
-}
-
-template <class T>
-void Formulas<T>::jump(const std::vector<ControlEvent>& events, State<T>* state) {
-  load(*state);
-  for (const ControlEvent& event : events) jump_controller(view_, event, &state->s);
+T Formulas<T>::sample(int controller, bool is_first, VectorX<T>* s) const {
+  return sample_controller(view_, controller, is_first, s);
 }
 
 template <class T>
@@ -92,7 +85,7 @@ void Formulas<T>::track_turns(State<T>* state) {
   for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p)
     for (std::size_t e = 0; e < view_.design.constants.pairs[p].coordinates.size(); ++e) {
       const int pair = static_cast<int>(p), element = static_cast<int>(e);
-      state->turns[static_cast<std::size_t>(layout.turn(pair, element))] = value_of(view_.coordinate_value(pair, element));
+      state->turns[static_cast<std::size_t>(layout.turn(pair, element))] = view_.coordinate_value(pair, element);
     }
 }
 

@@ -16,14 +16,18 @@ T Formulas<T>::terminal(const State<T>& state) {
 }
 
 template <class T>
-void Formulas<T>::errors(ObjectivePart part, const State<T>& state, VectorX<T>* errors) {
+void Formulas<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<T>* residuals) {
+  using std::sqrt;
   load(state);
   const bool terminal = part == ObjectivePart::kTerminal;
   const std::vector<ResolvedTerm>& terms = terminal ? view_.system.terminal() : view_.system.integral();
   const ObjectiveNumbers<T>& numbers = terminal ? view_.design.terminal : view_.design.integral;
-  errors->resize(static_cast<Eigen::Index>(terms.size()));
+  residuals->resize(static_cast<Eigen::Index>(terms.size()));
   for (std::size_t k = 0; k < terms.size(); ++k)
-    (*errors)[static_cast<Eigen::Index>(k)] = signal_error(view_, terms[k].signal, numbers.references[k]);
+    (*residuals)[static_cast<Eigen::Index>(k)] =
+        is_less(T(0.0), numbers.weights[k], true)
+            ? T(sqrt(numbers.weights[k]) * signal_error(view_, terms[k].signal, numbers.references[k]))
+            : T(0.0);
 }
 
 template <class T>

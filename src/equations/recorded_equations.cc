@@ -8,6 +8,7 @@
 
 #include "equations/equation_code.h"
 #include "math/to_index.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 namespace {
@@ -67,6 +68,14 @@ RecordedEquations::RecordedEquations(const System& system, Recording* to) : reco
   state.t = std::numeric_limits<double>::quiet_NaN();
   make_leaves(Arrays::kQ, recording, &state.q), make_leaves(Arrays::kV, recording, &state.v);
   make_leaves(Arrays::kS, recording, &state.s), make_leaves(Arrays::kZ, recording, &state.z);
+}
+
+void RecordedEquations::record_placement(VectorX<Traced>* q, VectorX<Traced>* v) {
+  const StateView<Traced>& view = formulas.view();
+  const TreeLayout tree(view.system.robot());
+  VectorX<Traced> theta(tree.size), rate(tree.size);
+  make_leaves(Arrays::kQ, recording, &theta), make_leaves(Arrays::kV, recording, &rate);
+  body_coordinates(view.system, view.design.constants, link_motions(view.system.robot(), tree, view.design.parameters, theta, rate), q, v);
 }
 
 std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,

@@ -19,6 +19,8 @@ struct RecordedEquations {
   /// @param system and `recording` must outlive this.
   RecordedEquations(const System& system, Recording* recording);
 
+  /// Records q and v at tree coordinates, TreeLayout, and their rates, which are the leaves of kQ and kV here.
+  void record_placement(VectorX<Traced>* q, VectorX<Traced>* v);
   /// Records G and g, theory (14), (21).
   void record_residual() { formulas.residual(state, &G, &g); }
 

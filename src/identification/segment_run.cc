@@ -76,7 +76,7 @@ Status SegmentRun::sample(double time, Eigen::Index row) {
   if (reads_rates_)
     if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
   for (Eigen::Index output = 0; output < values_.cols(); ++output)
-    values_(row, output) = integrator_.equations().formulas().watched(static_cast<std::size_t>(output), state_);
+    values_(row, output) = integrator_.equations().watched(static_cast<std::size_t>(output), state_);
   for_each_group([&](auto* group) {
     group->step.all_watched(integrator_.step(), state_, reads_rates_, integrator_.assembly(), &group->outputs);
     for (Eigen::Index output = 0; output < values_.cols(); ++output)

@@ -236,7 +236,7 @@ Status IdasIntegrator::Implementation::jump() {
   const std::vector<ControlEvent>& events = clock_.due(state_.t);
   if (events.empty()) return {};
   before_jump_ = state_;
-  equations().formulas().jump(events, &state_);
+  equations().jump(events, &state_);
   if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
   return begin_anew([&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
 }

@@ -88,7 +88,7 @@ Status RosenbrockIntegrator::jump() {
   if (jump_events_.empty()) return {};
   before_jump_ = step_.state();
   State<double>& behind = behind_jump_ = before_jump_;
-  step_.equations().formulas().jump(jump_events_, &behind);
+  step_.equations().jump(jump_events_, &behind);
   if (Status status = assembly_.solve_rates(&step_.equations(), &behind); !status.ok()) return status;
   step_.restart(behind);
   work_.start(behind, run_watch_.motion());

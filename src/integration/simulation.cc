@@ -84,7 +84,7 @@ class Simulation::Implementation {
     // The rates of a multistep method do not fulfil the equations.
     if (system_->study().solver.integrator == IntegratorKind::kIdas)
       integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
-    return integrator_->psi() + integrator_->equations().formulas().terminal(sample_);
+    return integrator_->psi() + integrator_->equations().terminal(sample_);
   }
   double time() const { return integrator_->state().t; }
 

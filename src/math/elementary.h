@@ -26,11 +26,17 @@ Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
   return atan2(y, x);
 }
 
+/// The nearest integer, without derivative. Ties round to an even number, as in compiled code (Operation::kRound).
+template <class T>
+T nearest_integer(const T& x) {
+  return T(std::nearbyint(value_of(x)));
+}
+
 /// The whole turns, a multiple of 2 pi [rad], that bring `angle` nearest to `reference` when added to it. They have no derivative. Ties
-/// round to an even number of turns, as in compiled code (Operation::kRound).
+/// round to an even number of turns.
 template <class T>
 T nearest_turns(double reference, const T& angle) {
-  return T(2.0 * M_PI * std::nearbyint((reference - value_of(angle)) / (2.0 * M_PI)));
+  return T(2.0 * M_PI) * nearest_integer(T((T(reference) - angle) / T(2.0 * M_PI)));
 }
 
 }  // namespace codesign

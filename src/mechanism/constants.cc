@@ -164,7 +164,7 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
 
 #define CODESIGN_INSTANTIATE(T) \
   template void evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&, MassWorkspace<T>*, Constants<T>*);
-CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
+CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

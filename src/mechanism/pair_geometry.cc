@@ -295,7 +295,7 @@ void pair_constants(const RobotDescription& robot, const Topology& topology, con
 #define CODESIGN_INSTANTIATE(T)                                                                                                \
   template void pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
                                   const std::vector<T>&, PairConstants<T>*);
-CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
+CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -39,7 +39,7 @@ Status AdjointGradient::advance(double limit) {
   return status;
 }
 
-double AdjointGradient::objective() { return integrator_.psi() + integrator_.equations().formulas().terminal(integrator_.state()); }
+double AdjointGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state()); }
 
 // The backward pass begins with the gradient of the terminal terms as the adjoint of the last state, and 1 for psi.
 void AdjointGradient::prepare() {
@@ -135,7 +135,7 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
     add(state.v, at.v());
     add(state.z, at.z());
     cast_state(integrator_.state(), &state);
-    sum += equations.formulas().terminal(state).directions().head(range.count);
+    sum += equations.terminal(state).directions().head(range.count);
   }
 }
 

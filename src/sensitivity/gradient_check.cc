@@ -60,7 +60,7 @@ void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times, 
       State<double> real = real_part(state);
       if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) continue;
       integrator->assembly().extend_rates(real.z, &step->equations(), &state);
-      (*watched)[place] = step->equations().formulas().watched(k, state);
+      (*watched)[place] = step->equations().watched(k, state);
     }
 }
 
@@ -68,7 +68,7 @@ void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times, 
 void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step) {
   if (events.empty()) return;
   State<Complex> state = step->state();
-  step->equations().formulas().jump(events, &state);
+  step->equations().jump(events, &state);
   State<double> real = real_part(state);
   if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) return;
   integrator->assembly().extend_rates(real.z, &step->equations(), &state);
@@ -98,7 +98,7 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
     step.track_turns();
     if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
   }
-  result.objective = step.psi() + step.equations().formulas().terminal(step.state());
+  result.objective = step.psi() + step.equations().terminal(step.state());
   const WatchLayout layout(system.study());
   for (std::size_t k = 0; k < layout.entries().size(); ++k) {
     const WatchedSignal& watched = system.study().watched[k];

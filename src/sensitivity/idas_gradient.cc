@@ -50,7 +50,7 @@ const State<double>& IdasGradient::consistent_state() {
   return end_;
 }
 
-double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().formulas().terminal(consistent_state()); }
+double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(consistent_state()); }
 
 void IdasGradient::take_directions() {
   directions_.resize(static_cast<std::size_t>(tangent_->count()), integrator_.state());

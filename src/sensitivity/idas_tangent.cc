@@ -2,7 +2,6 @@
 #include "sensitivity/idas_tangent.h"
 
 #include "equations/derivative_products.h"
-#include "sensitivity/residual_rows.h"
 
 namespace codesign {
 
@@ -132,7 +131,7 @@ bool IdasTangent::jump(const std::vector<ControlEvent>& events, const State<doub
                        Equations<double>* equations, std::vector<State<double>>* directions) {
   groups_.for_each([&](auto* group) {
     group->load(before, directions);
-    group->equations.formulas().jump(events, &group->state);
+    group->equations.jump(events, &group->state);
     for (int k = 0; k < group->range.count; ++k) group->take(k, &(*directions)[static_cast<std::size_t>(group->range.first + k)]);
   });
   if (!factor(behind, equations)) return false;
@@ -159,20 +158,20 @@ void IdasTangent::differentiate(const Function& function, const State<double>& s
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    const auto value = function(&group->equations.formulas(), group->state);
+    const auto value = function(&group->equations, group->state);
     for (int k = 0; k < group->range.count; ++k) (*gradient)[group->range.first + k] += value.v[k];
   });
 }
 
 void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                            Eigen::VectorXd* gradient) {
-  const auto sum = [](auto* formulas, const auto& lanes) { return formulas->terminal(lanes); };
+  const auto sum = [](auto* of_group, const auto& lanes) { return of_group->terminal(lanes); };
   differentiate(sum, state, equations, directions, gradient);
 }
 
 void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
                           Eigen::VectorXd* gradient) {
-  const auto signal = [k](auto* formulas, const auto& lanes) { return formulas->watched(k, lanes); };
+  const auto signal = [k](auto* of_group, const auto& lanes) { return of_group->watched(k, lanes); };
   differentiate(signal, state, equations, directions, gradient);
 }
 
@@ -183,13 +182,11 @@ void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equa
   if (!factor(state, equations)) return;
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
-    auto& formulas = group->equations.formulas();
     group->load(state, directions);
-    auto& errors = group->errors[part];
-    formulas.errors(part, group->state, &errors);
-    residuals_of(part, formulas.view().design, &errors);
+    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes = group->residuals[static_cast<std::size_t>(part)];
+    group->equations.residuals(part, group->state, &in_lanes);
     for (int k = 0; k < group->range.count; ++k)
-      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = errors[term].v[k];
+      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = in_lanes[term].v[k];
   });
 }
 

@@ -2,7 +2,7 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
 
-#include <map>
+#include <array>
 #include <vector>
 
 #include "equations/iteration_matrix.h"
@@ -56,10 +56,10 @@ class IdasTangent final : public IdasSensitivities {
     State<Scalar> state;
     ExtensionWorkspace<Scalar> extension;
     VectorX<Scalar> G, Phi, Phi_rate;
-    std::map<ObjectivePart, VectorX<Scalar>> errors;
+    std::array<VectorX<Scalar>, 2> residuals;  ///< per ObjectivePart
   };
 
-  /// The total derivative of a function of a state with lanes, read from a group's formulas.
+  /// The total derivative of a function of a state with lanes, read from a group's equations.
   template <class Function>
   void differentiate(const Function& function, const State<double>& state, Equations<double>* equations,
                      std::vector<State<double>>* directions, Eigen::VectorXd* gradient);

@@ -10,18 +10,6 @@
 
 namespace codesign {
 
-/// Residuals sqrt(weight) (signal - reference), whose squares are the terms of the objective, theory (21), from signals minus references.
-/// Zero for a weight of zero, where the root has no derivative.
-template <class T>
-void residuals_of(ObjectivePart part, const Design<T>& design, VectorX<T>* errors) {
-  using std::sqrt;
-  const std::vector<T>& weights = (part == ObjectivePart::kTerminal ? design.terminal : design.integral).weights;
-  for (Eigen::Index k = 0; k < errors->size(); ++k) {
-    const T& weight = weights[static_cast<std::size_t>(k)];
-    (*errors)[k] = value_of(weight) > 0.0 ? T(sqrt(weight) * (*errors)[k]) : T(0.0);
-  }
-}
-
 /// Gathers the Jacobian of the residuals while an integration runs, doc/theory.md (22a): the rows of the integrand at the points of Gauss's
 /// rule in each step, times the roots of their weights in the integral, and the rows of the terminal terms at the end. Only the triangular
 /// root of all rows is kept.

@@ -115,7 +115,7 @@ Status RosenbrockGradient::advance(double limit) {
   return status;
 }
 
-double RosenbrockGradient::objective() { return integrator_.psi() + integrator_.equations().formulas().terminal(integrator_.state()); }
+double RosenbrockGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state()); }
 
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setConstant(count(), std::numeric_limits<double>::quiet_NaN());

@@ -70,7 +70,7 @@ bool SignalWatch::go_to(std::size_t k, double time) {
 
 double SignalWatch::value(std::size_t k, double time) {
   if (!go_to(k, time)) return 0.0;
-  const double value = integrator_->equations().formulas().watched(k, state_);
+  const double value = integrator_->equations().watched(k, state_);
   if (!std::isfinite(value)) status_ = failed(k, time);
   return value;
 }

@@ -5,8 +5,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "elements/objective.h"
-#include "sensitivity/residual_rows.h"
 #include "sparse/row_product.h"
 
 namespace codesign {
@@ -65,7 +63,7 @@ template <int N>
 void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
                           const Assembly& assembly) {
   point_ = equations_.lanes(before, y_);
-  equations_.equations().formulas().jump(events, &point_);
+  equations_.equations().jump(events, &point_);
   assembly.extend_rates(behind.z, &equations_.equations(), &extension_, &point_);
   take_up(behind, point_);
 }
@@ -211,7 +209,7 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
 
 template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state) {
-  return equations_.equations().formulas().terminal(equations_.lanes(state, y_)).directions();
+  return equations_.equations().terminal(equations_.lanes(state, y_)).directions();
 }
 
 // The derivative of RosenbrockStep::interpolate() for a fixed time.
@@ -228,7 +226,7 @@ template <int N>
 Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
                                                     bool reads_rates, const Assembly& assembly) {
   go_to(step, state, reads_rates, assembly);
-  return equations_.equations().formulas().watched(k, point_).directions();
+  return equations_.equations().watched(k, point_).directions();
 }
 
 template <int N>
@@ -242,32 +240,28 @@ template <int N>
 void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
                                  Directions<N>* signals) {
   go_to(step, state, reads_rates, assembly);
-  Formulas<Lanes<N>>& formulas = equations_.equations().formulas();
-  formulas.load(point_);
   signals->resize(static_cast<Eigen::Index>(system_.watched().size()));
   for (std::size_t k = 0; k < system_.watched().size(); ++k)
-    signals->col(static_cast<Eigen::Index>(k)) = watched_value<Lanes<N>>(formulas.view(), k).directions();
+    signals->col(static_cast<Eigen::Index>(k)) = equations_.equations().watched(k, point_).directions();
 }
 
 template <int N>
 void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals) {
   interpolate(step, state.t);
-  differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), &integral_errors_, residuals);
+  differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), residuals);
 }
 
 template <int N>
 void TangentStep<N>::terminal_residuals(const State<double>& state, Directions<N>* residuals) {
-  differentiate_residuals(ObjectivePart::kTerminal, equations_.lanes(state, y_), &terminal_errors_, residuals);
+  differentiate_residuals(ObjectivePart::kTerminal, equations_.lanes(state, y_), residuals);
 }
 
 template <int N>
-void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, VectorX<Lanes<N>>* errors,
-                                             Directions<N>* residuals) {
-  Formulas<Lanes<N>>& formulas = equations_.equations().formulas();
-  formulas.errors(part, state, errors);
-  residuals_of(part, formulas.view().design, errors);
-  residuals->resize(errors->size());
-  for (Eigen::Index k = 0; k < errors->size(); ++k) residuals->col(k) = (*errors)[k].directions();
+void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals) {
+  VectorX<Lanes<N>>& terms = objective_residuals_[static_cast<std::size_t>(part)];
+  equations_.equations().residuals(part, state, &terms);
+  residuals->resize(terms.size());
+  for (Eigen::Index k = 0; k < terms.size(); ++k) residuals->col(k) = terms[k].directions();
 }
 
 template class TangentStep<4>;

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
 #define MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
 
+#include <array>
 #include <vector>
 
 #include "assembly/assembly.h"
@@ -78,7 +79,7 @@ class TangentStep {
   void interpolate(const RosenbrockStep<double>& step, double time);
   /// Sets point_ to the state of the dense output with its derivatives.
   void go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly);
-  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, VectorX<Lanes<N>>* errors, Directions<N>* residuals);
+  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 
   const CompiledSystem& system_;
@@ -90,7 +91,7 @@ class TangentStep {
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
   Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
-  VectorX<Lanes<N>> integral_errors_, terminal_errors_;
+  std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
   State<Lanes<N>> start_;                             ///< with the initial sensitivities
   State<Lanes<N>> point_;                             ///< a point of the dense output

@@ -107,7 +107,7 @@ void InverseDynamics<T>::weigh(std::size_t k, const Vector3<T>& gravity) {
 }
 
 #define CODESIGN_INSTANTIATE(T) template class InverseDynamics<T>;
-CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
+CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -13,6 +13,9 @@
 namespace codesign {
 namespace {
 
+using Complex = std::complex<double>;
+constexpr double kStep = 1e-30;
+
 #define SKIP_WITHOUT_CODE() \
   if (!ValueCode::is_available()) GTEST_SKIP() << "no machine code on this processor"
 
@@ -20,39 +23,24 @@ double largest_difference(const VectorX<double>& x, const VectorX<double>& y) {
   return (x - y).lpNorm<Eigen::Infinity>() / (1.0 + y.lpNorm<Eigen::Infinity>());
 }
 
-template <int N>
-double largest_difference(const VectorX<Lanes<N>>& x, const VectorX<Lanes<N>>& y) {
-  double largest = 0.0;
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    const double size = 1.0 + std::abs(y[k].a) + y[k].directions().norm();
-    largest = std::max({largest, std::abs(x[k].a - y[k].a) / size, (x[k].directions() - y[k].directions()).norm() / size});
-  }
-  return largest;
-}
-
-template <class T>
-VectorX<T> as_vector(const std::vector<T>& x) {
-  return Eigen::Map<const VectorX<T>>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
-
-/// The recorded equations and the formulas.
+/// The recorded equations and what they are compared with: the formulas, or for Lanes the complex step along each direction.
 template <class T>
 struct Twins {
   explicit Twins(const CompiledSystem& mechanism) : system(mechanism), with(system), formulas(system) {}
 
-  void set_design(const std::vector<T>& parameters) {
+  void set_design(const std::vector<double>& parameters) {
     with.set_design(parameters);
     formulas.set_design(parameters);
   }
 
-  void expect_same(const State<T>& state) {
-    VectorX<T> G, expected;
-    T g(0.0), expected_g(0.0);
+  void expect_same(const State<double>& state) {
+    VectorX<double> G, expected;
+    double g = 0.0, expected_g = 0.0;
     with.residual(state, &G, &g);
     formulas.residual(state, &expected, &expected_g);
     EXPECT_LT(largest_difference(G, expected), 1e-12);
-    EXPECT_LT(largest_difference(VectorX<T>(VectorX<T>::Constant(1, g)), VectorX<T>(VectorX<T>::Constant(1, expected_g))), 1e-12);
-    VectorX<T> Phi, Phi_rate, expected_Phi, expected_rate;
+    EXPECT_LT(std::abs(g - expected_g), 1e-12 * (1.0 + std::abs(expected_g)));
+    VectorX<double> Phi, Phi_rate, expected_Phi, expected_rate;
     with.constraint_errors(state, &Phi, &Phi_rate);
     formulas.constraint_errors(state, &expected_Phi, &expected_rate);
     EXPECT_LT(largest_difference(Phi, expected_Phi), 1e-12);
@@ -60,8 +48,57 @@ struct Twins {
   }
 
   const CompiledSystem& system;
-  Equations<T> with;
-  Formulas<T> formulas;
+  Equations<double> with;
+  Formulas<double> formulas;
+};
+
+/// The same for N directional derivatives, which are compared with the complex step along each direction.
+template <int N>
+struct Twins<Lanes<N>> {
+  explicit Twins(const CompiledSystem& mechanism) : with(mechanism), complex(mechanism) {}
+
+  void set_design(const std::vector<Lanes<N>>& values) {
+    with.set_design(values);
+    parameters = values;
+  }
+
+  void expect_same(const State<Lanes<N>>& state) {
+    VectorX<Lanes<N>> G, Phi, Phi_rate;
+    Lanes<N> g(0.0);
+    with.residual(state, &G, &g);
+    with.constraint_errors(state, &Phi, &Phi_rate);
+    for (int lane = 0; lane < N; ++lane) {
+      const auto along = [lane](const auto& from, auto* to) {
+        to->resize(from.size());
+        for (decltype(from.size()) k = 0; k < from.size(); ++k) (*to)[k] = {from[k].a, kStep * from[k].v[lane]};
+      };
+      std::vector<Complex> design;
+      along(parameters, &design);
+      complex.set_design(design);
+      State<Complex> moved;
+      moved.t = state.t;
+      moved.turns = state.turns;
+      along(state.q, &moved.q), along(state.v, &moved.v), along(state.s, &moved.s), along(state.z, &moved.z);
+      VectorX<Complex> expected, expected_Phi, expected_rate;
+      Complex expected_g;
+      complex.residual(moved, &expected, &expected_g);
+      complex.constraint_errors(moved, &expected_Phi, &expected_rate);
+      expect_near(G, expected, lane), expect_near(Phi, expected_Phi, lane), expect_near(Phi_rate, expected_rate, lane);
+      expect_near(VectorX<Lanes<N>>::Constant(1, g), VectorX<Complex>::Constant(1, expected_g), lane);
+    }
+  }
+
+  static void expect_near(const VectorX<Lanes<N>>& x, const VectorX<Complex>& y, int lane) {
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const double size = 1.0 + std::abs(y[k].real()) + x[k].directions().norm();
+      EXPECT_LT(std::abs(x[k].a - y[k].real()), 1e-12 * size);
+      EXPECT_LT(std::abs(x[k].v[lane] - y[k].imag() / kStep), 1e-11 * size);
+    }
+  }
+
+  Equations<Lanes<N>> with;
+  Equations<Complex> complex;
+  std::vector<Lanes<N>> parameters;
 };
 
 /// A generic state; for Lanes with generic directions.
@@ -265,7 +302,7 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
                                  {directions[0], directions[1], directions[2], directions[3]}, {result, g_result, {}, {}});
   VectorX<Lanes<4>> expected;
   Lanes<4> g;
-  twins.formulas.residual(state, &expected, &g);
+  twins.with.residual(state, &expected, &g);
   for (Eigen::Index row = 0; row < expected.size(); ++row)
     EXPECT_LT((result.col(row) - expected[row].directions()).norm(), 1e-11 * (1.0 + expected[row].directions().norm())) << row;
   EXPECT_LT((g_result - g.directions()).norm(), 1e-11 * (1.0 + g.directions().norm()));

@@ -15,7 +15,8 @@
 
 namespace codesign {
 
-/// The equations of a mechanism at a generic state, and the formulas with complex numbers for derivatives by the complex step.
+/// The equations of a mechanism at a generic state, and the recorded values with complex numbers for derivatives by the complex step, which
+/// share nothing with the derived ones.
 class EquationsFixture {
  public:
   EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {});
@@ -28,23 +29,23 @@ class EquationsFixture {
 
   static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values);
 
-  /// Expects all derivatives at `state` to agree with the complex step of the formulas, and those along directions with lanes of them; the
-  /// same numbers with and without machine code.
+  /// Expects all derivatives at `state`, and those along directions, to agree with the complex step; the same numbers with and without
+  /// machine code.
   void expect_exact_derivatives(double tolerance);
   void expect_exact_derivatives_of_real(double tolerance);
 
   /// Expects the same bits with and without machine code.
   void expect_same_bits();
-  /// Expects the directional derivatives of [G; g] to be those of the formulas in lanes.
+  /// Expects the directional derivatives of [G; g] to be those of the complex step.
   void expect_exact_lanes();
 
-  /// Expects [G; g] to agree with the formulas in complex numbers.
+  /// Expects [G; g] to agree with the formulas.
   void expect_exact_residual();
 
   RobotDescription robot;
   CompiledSystem system;
   Equations<double> real;
-  Formulas<std::complex<double>> complex;
+  Equations<std::complex<double>> complex;
   State<double> state;
 };
 

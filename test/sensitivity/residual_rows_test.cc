@@ -31,13 +31,12 @@ Rooted run_with_root(RosenbrockGradient* engine, const CompiledSystem& system) {
   return result;
 }
 
-/// The residuals in complex arithmetic, written down anew: the run with steps of the same sizes, the signals of the terms one by one.
+/// The residuals in complex arithmetic: the run with steps of the same sizes, the residuals at each point.
 class Replay {
  public:
-  explicit Replay(const CompiledSystem& system) : system_(system), integrator_(system), step_(system, integrator_.step().tableau()) {}
+  explicit Replay(const CompiledSystem& system) : integrator_(system), step_(system, integrator_.step().tableau()) {}
 
   VectorX<Complex> residuals(const std::vector<Complex>& parameters, const std::vector<double>& real, const std::vector<double>& steps) {
-    parameters_ = parameters;
     residuals_.clear();
     step_.equations().set_design(parameters);
     integrator_.start(real);
@@ -50,7 +49,7 @@ class Replay {
       step_.track_turns();
       for (const double sign : {-1.0, 1.0}) add_point(0.5 + sign / std::sqrt(12.0));
     }
-    add(system_.study().terminal, system_.terminal(), step_.state(), 1.0);
+    add(ObjectivePart::kTerminal, step_.state(), 1.0);
     return Eigen::Map<const VectorX<Complex>>(residuals_.data(), static_cast<Eigen::Index>(residuals_.size()));
   }
 
@@ -59,20 +58,17 @@ class Replay {
     State<Complex> state;
     Complex psi;
     step_.interpolate(theta, &state, &psi);
-    add(system_.study().integral, system_.integral(), state, 0.5 * step_.step_size());
+    add(ObjectivePart::kIntegral, state, 0.5 * step_.step_size());
   }
-  void add(const std::vector<ObjectiveTerm>& terms, const std::vector<ResolvedTerm>& resolved, const State<Complex>& state, double factor) {
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-      const Complex signal = step_.equations().formulas().signal(resolved[k].signal, state);
-      const Complex reference = Reference<Complex>(terms[k].reference, parameters_).at(state.t).value;
-      residuals_.push_back(std::sqrt(factor * terms[k].weight.at(parameters_)) * (signal - reference));
-    }
+  void add(ObjectivePart part, const State<Complex>& state, double factor) {
+    VectorX<Complex> residuals;
+    step_.equations().residuals(part, state, &residuals);
+    for (const Complex& residual : residuals) residuals_.push_back(std::sqrt(factor) * residual);
   }
 
-  const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   RosenbrockStep<Complex> step_;
-  std::vector<Complex> parameters_, residuals_;
+  std::vector<Complex> residuals_;
 };
 
 class ResidualRowsTest : public ::testing::TestWithParam<std::size_t> {};

@@ -94,7 +94,7 @@ TEST(TangentEquations, FollowTheBranchOfTheState) {
   tangents.residual(state, y, &actual);
   VectorX<Lanes<4>> G;
   Lanes<4> g;
-  tangents.equations().formulas().residual(tangents.lanes(state, y), &G, &g);
+  tangents.equations().residual(tangents.lanes(state, y), &G, &g);
   for (Eigen::Index k = 0; k < G.size(); ++k)
     EXPECT_LT((actual.col(k) - G[k].directions()).norm(), 1e-12 * (1.0 + G[k].directions().norm()));
 }

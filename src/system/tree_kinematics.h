@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_TREE_KINEMATICS_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_TREE_KINEMATICS_H_
+#ifndef MECHANISM_CODESIGN_SYSTEM_TREE_KINEMATICS_H_
+#define MECHANISM_CODESIGN_SYSTEM_TREE_KINEMATICS_H_
 
 #include <vector>
 
@@ -78,4 +78,4 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
 
 }  // namespace codesign
 
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_TREE_KINEMATICS_H_
+#endif  // MECHANISM_CODESIGN_SYSTEM_TREE_KINEMATICS_H_

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "assembly/tree_kinematics.h"
+#include "system/tree_kinematics.h"
 
 #include <cmath>
 #include <functional>
@@ -181,7 +181,7 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   template void link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, const VectorX<T>&, \
                              std::vector<LinkMotion<T>>*);                                                                            \
   template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
-CODESIGN_FOR_EACH_NUMBER_TYPE(CODESIGN_INSTANTIATE)
+CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 }  // namespace codesign

@@ -1,9 +1,0 @@
-// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/formulas_loop.h"
-#include "equations/formulas_samples.h"
-
-namespace codesign {
-
-template class Formulas<Lanes<4>>;
-
-}  // namespace codesign
