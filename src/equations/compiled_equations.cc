@@ -162,9 +162,8 @@ int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, cons
   transposed ? take_products(variant) : take_design(variant);
   if (variant->failed >= 0) return variant->failed;
   const CompiledFunction& code =
-      transposed
-          ? variant->code->transposed().function(instant.function, interpreted)
-          : variant->code->function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit, interpreted || kIsComplex<T>});
+      transposed ? variant->code->transposed().function(instant.function, interpreted)
+                 : variant->code->function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit, interpreted || kIsComplex<T>});
   const std::size_t slots = code.slots * sizeof(CodeNumber<T>) / sizeof(double);
   if (slots_.size() < slots) slots_.resize(slots);
   if (rows_.size() < code.rows) rows_.resize(code.rows);

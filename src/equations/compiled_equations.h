@@ -113,12 +113,12 @@ class CompiledEquations {
   EquationPart part_;
   std::vector<T> parameters_;
   bool interpreted_ = false;
-  std::vector<Variant> variants_;  ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;        ///< the variant that served last
+  std::vector<Variant> variants_;        ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;              ///< the variant that served last
   std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
-  std::vector<T> entries_;         ///< workspace of signal()
-  std::vector<T> nodes_;           ///< workspace of fill_numbers(): values of the recording's nodes
-  LineVector slots_, rows_;        ///< workspace of the code
+  std::vector<T> entries_;               ///< workspace of signal()
+  std::vector<T> nodes_;                 ///< workspace of fill_numbers(): values of the recording's nodes
+  LineVector slots_, rows_;              ///< workspace of the code
 };
 
 }  // namespace codesign

@@ -14,8 +14,8 @@
 namespace codesign {
 
 /// Sums the transposed products of TransposedCode over many evaluations of one variant and one design, and multiplies the sums with the
-/// derivatives of the design's numbers by the tuned parameters, theory (18d). Functions of time have other derivatives at each instant; they
-/// are evaluated with lanes of the parameters that appear in them. No allocation after the first start(); not thread-safe.
+/// derivatives of the design's numbers by the tuned parameters, theory (18d). Functions of time have other derivatives at each instant;
+/// they are evaluated with lanes of the parameters that appear in them. No allocation after the first start(); not thread-safe.
 class DesignProducts {
  public:
   /// @param system, code must outlive the object.

@@ -16,7 +16,7 @@ inline double direct_cost(int parameters) {
 }
 
 /// Cost of the adjoint method by any number of parameters.
-constexpr double kAdjointCost = 4.2;
+constexpr double kAdjointCost = 4.0;
 
 }  // namespace codesign
 

@@ -41,7 +41,8 @@ TEST(Adjoints, OfGeneratedFormulasAreTheTransposedComplexStep) {
   inputs.insert(inputs.end(), weights.begin(), weights.end());
   const std::vector<double> values = node_values(some.recording, inputs);
   Eigen::MatrixXd derived(1, kSomeLeaves);
-  for (int k = 0; k < kSomeLeaves; ++k) derived(0, k) = value_of_node(adjoints[static_cast<std::size_t>(leaves[static_cast<std::size_t>(k)])], values);
+  for (int k = 0; k < kSomeLeaves; ++k)
+    derived(0, k) = value_of_node(adjoints[static_cast<std::size_t>(leaves[static_cast<std::size_t>(k)])], values);
   const Eigen::MatrixXd reference = complex_step_jacobian(
       [&](const Eigen::VectorXcd& x) {
         const std::vector<std::complex<double>> results = some_results(std::vector<std::complex<double>>(x.begin(), x.end()));
@@ -68,8 +69,8 @@ TEST(Adjoints, OfATargetThatIsAnOutputAreItsWeights) {
   Recording recording;
   const Traced x(&recording, recording.leaf(0, 0, true)), y(&recording, recording.leaf(0, 1, true)),
       weight(&recording, recording.leaf(kWeights, 0, true));
-  const std::vector<Traced> adjoints = derive_adjoints(&recording, {{x.node(), weight}, {x.node(), weight}, {y.node(), 3.0}},
-                                                       targets(recording, {x.node(), y.node()}));
+  const std::vector<Traced> adjoints =
+      derive_adjoints(&recording, {{x.node(), weight}, {x.node(), weight}, {y.node(), 3.0}}, targets(recording, {x.node(), y.node()}));
   EXPECT_EQ(adjoints[static_cast<std::size_t>(x.node())].node(), (weight + weight).node());
   EXPECT_EQ(adjoints[static_cast<std::size_t>(y.node())].value(), 3.0);
 }
