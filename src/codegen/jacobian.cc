@@ -12,20 +12,6 @@
 namespace codesign {
 namespace {
 
-/// x * y, with the factors that do not vary multiplied first: such a product is computed once per design.
-Traced product(Recording* recording, const Traced& x, const Traced& y) {
-  const auto varies = [recording](const Traced& z) { return !z.is_literal() && recording->node(z.node()).varies; };
-  if (varies(x) == varies(y)) return folded(recording, x * y);
-  const Traced &fixed = varies(x) ? y : x, &moving = varies(x) ? x : y;
-  const Recording::Node node = recording->node(moving.node());
-  if (node.operation == Operation::kMultiply && recording->node(node.a).varies != recording->node(node.b).varies) {
-    const bool first = recording->node(node.a).varies;
-    const Traced inner(recording, first ? node.b : node.a), rest(recording, first ? node.a : node.b);
-    return folded(recording, (fixed * folded(recording, inner)) * rest);
-  }
-  return folded(recording, x * y);
-}
-
 /// The linearized graph. Vertices are the nodes of the recording, then one vertex per output; those between leaves and outputs are
 /// eliminated one after another.
 class Elimination {

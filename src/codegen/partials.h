@@ -21,6 +21,9 @@ std::vector<Partial> partials_of(Recording* recording, int node);
 /// x, as a literal if its node is one, so that products with it are simplified.
 Traced folded(Recording* recording, const Traced& x);
 
+/// x * y, with the factors that do not vary multiplied first: such a product is computed once per design.
+Traced product(Recording* recording, const Traced& x, const Traced& y);
+
 }  // namespace codesign
 
 #endif  // MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "codegen/operate.h"
+#include "equations/design_products.h"
 #include "equations/equation_code.h"
 #include "math/to_index.h"
 
@@ -55,9 +56,18 @@ template <class T>
 CompiledEquations<T>::Variant::Variant(const EquationCode* of) : code(of), numbered(&of->numbered(kLanesOf<T> > 0)) {}
 
 template <class T>
+CompiledEquations<T>::CompiledEquations(const CompiledSystem& system, EquationPart part) : system_(system), part_(part) {}
+
+template <class T>
+CompiledEquations<T>::CompiledEquations(CompiledEquations&&) noexcept = default;
+template <class T>
+CompiledEquations<T>::~CompiledEquations() = default;
+
+template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
   for (Variant& variant : variants_) variant.ready = false;
+  multiplied_.clear();
   current_ = 0;
 }
 
@@ -66,7 +76,21 @@ void CompiledEquations<T>::take_design(Variant* variant) {
   if (variant->ready) return;
   fill_numbers(variant);
   set_functions(variant);
+  if constexpr (std::is_same_v<T, double>)
+    if (variant->products) variant->products->start(parameters_);
   variant->ready = true;
+}
+
+// The numbers of the transposed code begin with those of the values.
+template <class T>
+void CompiledEquations<T>::take_products(Variant* variant) {
+  if (!variant->products) {
+    const TransposedCode& code = variant->code->transposed();
+    variant->products = std::make_unique<DesignProducts>(system_, code);
+    variant->numbered = &code.numbered();
+    variant->ready = false;
+  }
+  take_design(variant);
 }
 
 template <class T>
@@ -134,9 +158,12 @@ bool CompiledEquations<T>::adopt() {
 template <class T>
 template <class Run>
 int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run, Variant* variant) {
-  take_design(variant);
+  const bool transposed = instant.mode == Mode::kTransposed;
+  transposed ? take_products(variant) : take_design(variant);
   if (variant->failed >= 0) return variant->failed;
-  const CompiledFunction& code = variant->code->function(instant.function, {kLanesOf<T>, instant.split, interpreted || kIsComplex<T>});
+  const CompiledFunction& code =
+      transposed ? variant->code->transposed().function(instant.function, interpreted)
+                 : variant->code->function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit, interpreted || kIsComplex<T>});
   const std::size_t slots = code.slots * sizeof(CodeNumber<T>) / sizeof(double);
   if (slots_.size() < slots) slots_.resize(slots);
   if (rows_.size() < code.rows) rows_.resize(code.rows);
@@ -185,7 +212,7 @@ template <class T>
 void CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
                                const Out<T> (&results)[4]) {
   const auto numbers = [](In<T> array) { return reinterpret_cast<const CodeNumber<T>*>(array.data()); };
-  evaluate({function, false, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+  evaluate({function, Mode::kValues, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
     std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
     std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
     const int failed = run_values(code, arrays);
@@ -202,7 +229,7 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
                     [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   if constexpr (kLanesOf < T >> 0) {
     const auto first = [](In<double> array) { return array.data(); };
-    evaluate({function, true, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+    evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
       std::transform(std::begin(values), std::end(values), arrays.begin(), first);
       if (const int failed = run_values(code, arrays); failed >= 0) return failed;
       std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
@@ -211,6 +238,30 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
       return -1;
     });
   }
+}
+
+template <class T>
+void CompiledEquations<T>::add_transposed(EquationFunction function, const State<T>& state, const In<double> (&weights)[4],
+                                          Out<double> adjoint) {
+  if constexpr (std::is_same_v<T, double>) {
+    const In<double> parts[] = {state.q, state.v, state.s, state.z};
+    const auto first = [](In<double> array) { return array.data(); };
+    evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+      std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
+      std::transform(std::begin(weights), std::end(weights), arrays.begin() + Arrays::kResults, first);
+      return run_values(code, arrays);
+    });
+    Variant& variant = variants_[current_];
+    take_products(&variant);
+    if (std::find(multiplied_.begin(), multiplied_.end(), current_) == multiplied_.end()) multiplied_.push_back(current_);
+    variant.products->add(function, state.t, {rows_.data(), static_cast<std::ptrdiff_t>(rows_.size())}, adjoint);
+  }
+}
+
+template <class T>
+void CompiledEquations<T>::add_gradient(Out<double> gradient) {
+  if constexpr (std::is_same_v<T, double>)
+    for (std::size_t k : multiplied_) variants_[k].products->add_to(variants_[k].numbers, gradient);
 }
 
 template <class T>

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_EQUATIONS_COMPILED_EQUATIONS_H_
 
 #include <complex>
+#include <memory>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -18,6 +19,7 @@
 
 namespace codesign {
 
+class DesignProducts;
 class EquationCode;
 struct CompiledFunction;
 struct NumberedRecording;
@@ -31,7 +33,9 @@ struct NumberedRecording;
 template <class T>
 class CompiledEquations {
  public:
-  explicit CompiledEquations(const CompiledSystem& system, EquationPart part = EquationPart::kMotion) : system_(system), part_(part) {}
+  explicit CompiledEquations(const CompiledSystem& system, EquationPart part = EquationPart::kMotion);
+  CompiledEquations(CompiledEquations&&) noexcept;
+  ~CompiledEquations();
 
   /// Takes the values of all named parameters; the constants are evaluated when a function is first called.
   void set_design(const std::vector<T>& parameters);
@@ -67,6 +71,15 @@ class CompiledEquations {
   void tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
                 const In<double> (&directions)[4], const Out<double> (&results)[4]);
 
+  // The next two functions exist for T = double only. The products by parameters are summed up since set_design().
+
+  /// Adds the derivatives of the sum of weights times results of a function of EquationPart::kMotion by q and s, v and z at fixed
+  /// parameters to `adjoint`, theory (18e). @param weights one array per result in the order of EquationFunction; then empty arrays.
+  /// @param adjoint (q, s), v and z side by side; more entries are not touched.
+  void add_transposed(EquationFunction function, const State<T>& state, const In<double> (&weights)[4], Out<double> adjoint);
+  /// Adds the derivatives of all these sums by the tuned parameters at fixed states. @param gradient p entries, order of Study::tuned.
+  void add_gradient(Out<double> gradient);
+
  private:
   /// A variant with its inputs for the present design.
   struct Variant {
@@ -78,16 +91,21 @@ class CompiledEquations {
     int failed = -1;                                                    ///< the first decision that the design makes otherwise, -1 if none
     std::vector<T> numbers;                                             ///< array EquationArrays::kNumbers
     std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions;  ///< functions of time, order of the recording
+    std::unique_ptr<DesignProducts> products;                           ///< of add_transposed(), if it was called
   };
+  /// What of a function is evaluated: values (with tangents, for Lanes), tangents along given directions, or transposed products.
+  enum class Mode { kValues, kSplit, kTransposed };
   /// Where a function is evaluated.
   struct Instant {
     EquationFunction function;
-    bool split;
+    Mode mode;
     double t;
     const std::vector<double>& turns;
   };
 
   void take_design(Variant* variant);
+  /// Prepares a variant for transposed products.
+  void take_products(Variant* variant);
   void fill_numbers(Variant* variant);
   void set_functions(Variant* variant) const;
   /// Evaluates the functions of time and copies the turn references to the code's inputs.
@@ -110,12 +128,13 @@ class CompiledEquations {
   EquationPart part_;
   std::vector<T> parameters_;
   bool interpreted_ = false;
-  std::vector<Variant> variants_;  ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;        ///< the variant that served last
-  std::vector<T> entries_;         ///< workspace of signal() and track_turns()
-  VectorX<T> s_;                   ///< workspace of sample()
-  std::vector<T> nodes_;           ///< workspace of fill_numbers(): values of the recording's nodes
-  LineVector slots_, rows_;        ///< workspace of the code
+  std::vector<Variant> variants_;        ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;              ///< the variant that served last
+  std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
+  std::vector<T> entries_;               ///< workspace of signal() and track_turns()
+  VectorX<T> s_;                         ///< workspace of sample()
+  std::vector<T> nodes_;                 ///< workspace of fill_numbers(): values of the recording's nodes
+  LineVector slots_, rows_;              ///< workspace of the code
 };
 
 }  // namespace codesign

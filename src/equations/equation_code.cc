@@ -7,6 +7,7 @@
 
 #include "codegen/traced.h"
 #include "equations/recorded_equations.h"
+#include "equations/transposed_code.h"
 #include "math/to_index.h"
 
 namespace codesign {
@@ -51,7 +52,10 @@ bool is_tangent_leaf(const Recording::Node& node) {
 }  // namespace
 
 EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes)
-    : long_(system.layout().columns() > kMostColumns), functions_(count_functions(system, part)), known_(functions_.size()) {
+    : system_(system),
+      long_(system.layout().columns() > kMostColumns),
+      functions_(count_functions(system, part)),
+      known_(functions_.size()) {
   values_.recording.follow(std::move(outcomes));
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
@@ -213,6 +217,26 @@ void NumberedRecording::number_nodes() {
   }
 }
 
+EquationCode::~EquationCode() = default;
+
+const TransposedCode& EquationCode::transposed() const {
+  std::call_once(transposed_once_,
+                 [this] { transposed_ = std::make_unique<TransposedCode>(system_, values_.recording, functions_, long_); });
+  return *transposed_;
+}
+
+std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task, const ValueProgram& program,
+                                                 bool interpreted) {
+  auto compiled = std::make_unique<CompiledFunction>();
+  compiled->slots = to_index(program.slots);
+  if (!interpreted) compiled->values = ValueCode::compile(recording, task, program, Arrays::kSlots);
+  if (compiled->values) return compiled;
+  auto interpreter = std::make_unique<Interpreter>(recording, task, program, Arrays::kSlots);
+  compiled->interpreter = interpreter.get();
+  compiled->values = std::move(interpreter);
+  return compiled;
+}
+
 const CompiledFunction& EquationCode::function(EquationFunction function, const Scalar& scalar) const {
   const auto f = static_cast<std::size_t>(function);
   Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
@@ -270,15 +294,8 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   std::vector<Place> value_places;
   const ValueTask task = value_task(function, scalar, &value_places);
   const ValueProgram program(from.recording, task);
-  auto compiled = std::make_unique<CompiledFunction>();
-  compiled->slots = to_index(program.slots);
   const bool interpreted = scalar.interpreted || long_;
-  if (!interpreted) compiled->values = ValueCode::compile(from.recording, task, program, Arrays::kSlots);
-  if (!compiled->values) {
-    auto interpreter = std::make_unique<Interpreter>(from.recording, task, program, Arrays::kSlots);
-    compiled->interpreter = interpreter.get();
-    compiled->values = std::move(interpreter);
-  }
+  auto compiled = compile_values(from.recording, task, program, interpreted);
   if (scalar.lanes == 0) return compiled;
   for (int n : task.kept) value_places[to_index(n)] = {Arrays::kSlots, program.slot[to_index(n)]};
   StraightLine::RowLayouts layouts;

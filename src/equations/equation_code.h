@@ -21,11 +21,13 @@
 namespace codesign {
 
 struct RecordedEquations;
+class TransposedCode;
 
 /// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that depend on design, time and turn
 /// references; up to four results (see EquationFunction); and two workspaces of the code.
 struct EquationArrays {
   static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9, kRows = 10;
+  static constexpr int kAdjoints = kRows;  ///< results of TransposedCode, whose results take the place of weights
 };
 
 /// One function for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
@@ -34,6 +36,17 @@ struct CompiledFunction {
   std::unique_ptr<StraightLine> tangents;
   const Interpreter* interpreter = nullptr;  ///< `values` if they are interpreted
   std::size_t slots = 0, rows = 0;           ///< sizes of the workspaces kSlots and kRows [doubles]
+};
+
+/// The code for the values of a task, with interpreter if `interpreted` or where machine code cannot be made.
+std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task, const ValueProgram& program,
+                                                 bool interpreted);
+
+/// The results of one recorded function, and the decisions that they depend on.
+struct RecordedFunction {
+  std::vector<ValueTask::Output> outputs;
+  std::vector<Recording::Guard> guards;
+  std::vector<int> columns;  ///< of the gradient of a signal
 };
 
 /// A recording, and the array and index of each of its nodes that the code reads as an input: entries of the state, and numbers that depend
@@ -69,6 +82,7 @@ class EquationCode {
   /// ones have their expected outcomes.
   /// @throws std::logic_error if the formulas decide something without is_less().
   EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes = {});
+  ~EquationCode();
 
   /// One function, made by the first call. It is interpreted also where machine code cannot be made: on other processors than x86-64 and
   /// for very long programs. For a split scalar the arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
@@ -80,20 +94,16 @@ class EquationCode {
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
+  /// The transposed derivatives of the functions of EquationPart::kMotion, made by the first call.
+  const TransposedCode& transposed() const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
   /// The outcomes of all decisions in turn, of which a variant is known.
   const std::vector<bool>& outcomes() const { return outcomes_; }
 
  private:
-  /// The results of one function, and the decisions that they depend on.
-  struct Recorded {
-    std::vector<ValueTask::Output> outputs;
-    std::vector<Recording::Guard> guards;
-    std::vector<int> columns;  ///< of the gradient of a signal
-  };
-  Recorded& at(EquationFunction function) { return functions_[static_cast<std::size_t>(function)]; }
-  const Recorded& at(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)]; }
+  RecordedFunction& at(EquationFunction function) { return functions_[static_cast<std::size_t>(function)]; }
+  const RecordedFunction& at(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)]; }
   void record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations);
   void record_signals(const System& system, RecordedEquations* equations);
   void record_start(const System& system, RecordedEquations* equations);
@@ -110,14 +120,17 @@ class EquationCode {
   ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
   std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
+  const System& system_;
   bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
-  std::vector<Recorded> functions_;  ///< per EquationFunction; empty for those of the other part
+  std::vector<RecordedFunction> functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
   std::vector<bool> outcomes_;
 
   mutable std::once_flag differentiated_;
   mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
+  mutable std::once_flag transposed_once_;
+  mutable std::unique_ptr<TransposedCode> transposed_;
   struct Known {
     std::atomic<bool> made{false};
     std::unique_ptr<CompiledFunction> code;

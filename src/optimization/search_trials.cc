@@ -16,9 +16,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kStartCounts = 1e-3;      // the share of the slope at the start in the scale of (24j)
-constexpr double kMostSlope = 1e-2;        // beyond which a loose tolerance does not let a search end
-constexpr double kLeastMultiplier = 1e-4;  // of that scale, so that to widen a bound by 1 % is worth a millionth
+constexpr Eigen::Index kMostRootColumns = 40;  // computed for flat directions alone, where gradients go backward
+constexpr double kStartCounts = 1e-3;          // the share of the slope at the start in the scale of (24j)
+constexpr double kMostSlope = 1e-2;            // beyond which a loose tolerance does not let a search end
+constexpr double kLeastMultiplier = 1e-4;      // of that scale, so that to widen a bound by 1 % is worth a millionth
 
 }  // namespace
 
@@ -146,8 +147,8 @@ void SearchTrials::find_flat_directions() {
   if (size < 2 || !is_sum_of_squares(study_)) return;
   Eigen::MatrixXd root = best_.total.jacobian_root;
   if (root.size() == 0) {
-    // The adjoint was chosen because the Jacobian of so many parameters costs too much.
-    if (prefers_adjoint(*ensemble_.scenarios().front().system)) return;
+    // The Jacobian of so many parameters costs too much.
+    if (size > kMostRootColumns && prefers_adjoint(*ensemble_.scenarios().front().system)) return;
     const EnsembleEvaluation again = ensemble_.evaluate(result_.rho, Derivatives::kGaussNewton, cancel_);
     result_.statistics += again.total.statistics;
     if (!again.total.status.ok()) return;

@@ -14,8 +14,8 @@ AdjointGradient::Backward::Backward(const CompiledSystem& system, const Rosenbro
   final_adjoint.setZero(IncrementLayout(system.layout()).size());
 }
 
-AdjointGradient::AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points)
-    : system_(system), most_points_(most_points), plan_(std::move(plan)), integrator_(system) {}
+AdjointGradient::AdjointGradient(const CompiledSystem& system, int most_points)
+    : system_(system), most_points_(most_points), integrator_(system) {}
 
 // The workspace of the backward pass is allocated only when a gradient is requested.
 Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
@@ -26,7 +26,6 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
   if (!back_) {
     back_.emplace(system_, integrator_.step().tableau(), most_points_);
     back_->replay.settle_pivots_as(integrator_.step());
-    share(plan_);
   }
   back_->path.clear();
   back_->path.append(0.0, integrator_.initial_state());
@@ -56,7 +55,6 @@ void AdjointGradient::prepare() {
   back_->replay.equations().set_design(parameters);
   back_->replay.start(integrator_.initial_state());
   back_->replay.choose_pivots(back_->path.size() > 1 ? back_->path.step_size(1) : integrator_.step().step_size());
-  back_->parameters->for_each([&](auto* lanes) { lanes->start(parameters); });
 }
 
 /// Continues the solution at point k, which `point` holds.
@@ -104,12 +102,7 @@ bool AdjointGradient::step_back(int k) {
   adjoint.clear();
   if (has_stages) adjoint.reverse_stages(step);
   if (is_projected) adjoint.reverse_projection(back_->point, step);
-  adjoint.reverse_matrices(back_->point, step);
-  back_->parameters->for_each([&](auto* lanes) {
-    if (has_stages) lanes->add_stages(adjoint);
-    if (is_projected) lanes->add_projection(adjoint);
-    lanes->add_matrices(back_->point, adjoint);
-  });
+  adjoint.reverse_matrices(back_->point);
   return true;
 }
 
@@ -139,17 +132,6 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
   }
 }
 
-void AdjointGradient::share(LanePlan plan) {
-  plan_ = std::move(plan);
-  back_->parameters.emplace(LaneCount{plan_.lanes, 1}, system_, plan_);
-}
-
-bool AdjointGradient::plan_holds() {
-  bool holds = true;
-  back_->parameters->for_each([&](const auto* lanes) { holds = holds && lanes->plan_holds(); });
-  return holds;
-}
-
 bool AdjointGradient::go_back() {
   prepare();
   for (int k = back_->path.size(); k-- > 0;) {
@@ -161,16 +143,11 @@ bool AdjointGradient::go_back() {
 
 void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setZero(static_cast<Eigen::Index>(system_.study().tuned.size()));
-  bool done = go_back();
-  if (done && !plan_holds()) {
-    share(unshared_lanes(system_));
-    done = go_back();
-  }
-  if (!done) {
+  if (!go_back()) {
     gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  back_->parameters->for_each([&](auto* lanes) { lanes->collect(gradient); });
+  back_->adjoint.add_gradient(*gradient);
   add_boundaries(gradient);
 }
 

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "integration/rosenbrock_integrator.h"
+#include "sensitivity/adjoint_step.h"
 #include "sensitivity/gradient_engine.h"
-#include "sensitivity/parameter_lanes.h"
+#include "sensitivity/lane_groups.h"
 #include "sensitivity/step_path.h"
 
 namespace codesign {
@@ -16,8 +17,8 @@ namespace codesign {
 /// gradient() goes back along its steps. Equal to the gradient of RosenbrockGradient up to rounding.
 class AdjointGradient final : public GradientEngine {
  public:
-  /// @param plan which parameters share a lane. @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.
-  AdjointGradient(const CompiledSystem& system, LanePlan plan, int most_points = 0);
+  /// @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.
+  explicit AdjointGradient(const CompiledSystem& system, int most_points = 0);
 
   Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
@@ -41,7 +42,6 @@ class AdjointGradient final : public GradientEngine {
     Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points);
     RosenbrockStep<double> replay;
     AdjointStep adjoint;
-    std::optional<LaneGroups<ParameterLanes>> parameters;
     Equations<Lanes<8>> boundary;
     std::vector<Lanes<8>> boundary_parameters;  ///< with the directions of eight of them
     ExtensionWorkspace<Lanes<8>> boundary_extension;
@@ -52,10 +52,8 @@ class AdjointGradient final : public GradientEngine {
     VectorX<double> final_adjoint;
   };
 
-  void share(LanePlan plan);
-  /// The backward pass over all steps; sums the explicit parts of the parameters. False if cancelled or if a step cannot be repeated.
+  /// The backward pass over all steps. False if cancelled or if a step cannot be repeated.
   bool go_back();
-  bool plan_holds();
   void prepare();
   bool step_back(int k);
   bool reach(int k);
@@ -65,7 +63,6 @@ class AdjointGradient final : public GradientEngine {
 
   const CompiledSystem& system_;
   const int most_points_;
-  LanePlan plan_;
   RosenbrockIntegrator integrator_;
   std::optional<Backward> back_;
   const Extremes none_;

@@ -28,11 +28,7 @@ class Evaluator::Implementation {
   Evaluation evaluate(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
     Evaluation evaluation;
     std::unique_ptr<GradientEngine>& engine = derivatives == Derivatives::kGaussNewton ? root_engine_ : engine_;
-    if (!engine) engine = make_gradient_engine(*system_, cancel, derivatives);
-    if (!engine) {
-      evaluation.status = {StatusCode::kCancelled, 0.0, "cancelled"};
-      return evaluation;
-    }
+    if (!engine) engine = make_gradient_engine(*system_, derivatives);
     if (const ControllerDescription* rounded = derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->study())) {
       evaluation.status = {StatusCode::kNonFiniteGradient, 0.0,
                            "there is no gradient: controllers." + rounded->name + ".quantization rounds a measurement"};
@@ -94,7 +90,7 @@ class Evaluator::Implementation {
   std::shared_ptr<const CompiledSystem> system_;
   WatchLayout watched_;
   std::vector<double> parameters_;  // workspace: all named parameters of one design
-  // Made by the first evaluation, which can be cancelled meanwhile. That for kGaussNewton may be of another kind; no result depends on
+  // Made by the first evaluation. That for kGaussNewton may be of another kind; no result depends on
   // which evaluations came before.
   std::unique_ptr<GradientEngine> engine_, root_engine_;
 };

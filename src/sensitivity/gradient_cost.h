@@ -5,7 +5,7 @@
 namespace codesign {
 
 // Estimated cost of a gradient, in units of one simulation without gradient; measured on mechanisms of 3 to 16 bodies,
-// doc/decisions/0018-adjoint.md. Lanes are evaluated in groups of eight or four.
+// doc/decisions/0083-transposed-products.md. Lanes are evaluated in groups of eight or four.
 
 /// Cost of direct sensitivities by this number of parameters.
 inline double direct_cost(int parameters) {
@@ -15,13 +15,8 @@ inline double direct_cost(int parameters) {
   return parameters > 0 ? cost + kFour : cost;
 }
 
-/// Cost of the adjoint method if the parameters share this number of lanes; each group has one more lane that checks the plan.
-inline double adjoint_cost(int lanes) {
-  constexpr double kThereAndBack = 4.2, kEight = 2.6, kFour = 1.5;
-  double cost = kThereAndBack;
-  for (; lanes > 3; lanes -= 7) cost += kEight;
-  return lanes > 0 ? cost + kFour : cost;
-}
+/// Cost of the adjoint method by any number of parameters.
+constexpr double kAdjointCost = 4.0;
 
 }  // namespace codesign
 

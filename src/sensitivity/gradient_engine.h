@@ -43,13 +43,12 @@ class GradientEngine {
 };
 
 /// Whether the gradient is computed by the adjoint: if solver.gradient is `adjoint`, or `auto` and the adjoint has the lower estimated
-/// cost; doc/decisions/0018-adjoint.md. Only the integrator `rosenbrock` has an adjoint.
+/// cost; doc/decisions/0083-transposed-products.md. Only the integrator `rosenbrock` has an adjoint.
 bool prefers_adjoint(const CompiledSystem& system);
 
-/// The engine for the study's integrator and gradient method. @param system must outlive it. @param cancel if it is set meanwhile, the
-/// result is nullptr. @param derivatives the highest level that start() will request; kGaussNewton always uses direct sensitivities.
-std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, const std::atomic<bool>* cancel = nullptr,
-                                                     Derivatives derivatives = Derivatives::kGradient);
+/// The engine for the study's integrator and gradient method. @param system must outlive it. @param derivatives the highest level that
+/// start() will request; kGaussNewton always uses direct sensitivities.
+std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, Derivatives derivatives = Derivatives::kGradient);
 
 }  // namespace codesign
 

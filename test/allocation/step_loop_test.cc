@@ -40,7 +40,7 @@ TEST_P(StepLoop, OfASimulationAsksForNoMemory) {
 
 /// The number of allocations in the steps of a second run.
 std::int64_t allocations_once_warm(const CompiledSystem& system, Derivatives derivatives) {
-  const auto engine = make_gradient_engine(system, nullptr, derivatives);
+  const auto engine = make_gradient_engine(system, derivatives);
   Eigen::VectorXd gradient;
   Eigen::MatrixXd root;
   std::int64_t count = 0;

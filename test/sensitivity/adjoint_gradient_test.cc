@@ -16,7 +16,7 @@ TEST_P(AdjointGradientTest, IsTheDirectGradientToRounding) {
   const GradientCase test = gradient_cases().at(index);
   const auto system = test.compile(method, "auto");
   RosenbrockGradient direct(*system);
-  AdjointGradient adjoint(*system, plan_lanes(*system));
+  AdjointGradient adjoint(*system);
   const GradientRun a = run_gradient(&direct, *system, system->parameters()), b = run_gradient(&adjoint, *system, system->parameters());
   ASSERT_TRUE(a.status.ok()) << a.status.cause;
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
@@ -41,7 +41,7 @@ TEST_P(AdjointGradientTest, IsTheSameFromAWayOfWhichLittleIsKept) {
   const auto& [index, method] = GetParam();
   const GradientCase test = gradient_cases().at(index);
   const auto system = test.compile(method, "auto");
-  AdjointGradient whole(*system, plan_lanes(*system)), parts(*system, plan_lanes(*system), 4);
+  AdjointGradient whole(*system), parts(*system, 4);
   const GradientRun a = run_gradient(&whole, *system, system->parameters()), b = run_gradient(&parts, *system, system->parameters());
   ASSERT_TRUE(a.status.ok() && b.status.ok());
   EXPECT_GT(a.steps, 8);
@@ -50,7 +50,7 @@ TEST_P(AdjointGradientTest, IsTheSameFromAWayOfWhichLittleIsKept) {
 
 TEST(AdjointGradient, StartsAnewToTheLastBit) {
   const auto system = servo("{}");
-  AdjointGradient engine(*system, plan_lanes(*system));
+  AdjointGradient engine(*system);
   const std::vector<double> there = system->parameters();
   std::vector<double> elsewhere = there;
   elsewhere[0] *= 1.3;
@@ -61,25 +61,10 @@ TEST(AdjointGradient, StartsAnewToTheLastBit) {
   EXPECT_NE(first.gradient, other.gradient);
 }
 
-// A plan that lacks rows, for example because a law did not act yet when it was made, is detected.
-TEST(AdjointGradient, DoesNotBelieveAWrongPlan) {
-  const auto system = servo("{}");
-  const LanePlan right = plan_lanes(*system);
-  LanePlan wrong = right;
-  wrong.lane.assign(wrong.lane.size(), 0);
-  wrong.lanes = 1;
-  for (std::size_t k = 0; k < wrong.rows.size(); ++k)
-    if (k != 2) wrong.rows[k].clear();
-  AdjointGradient by_right(*system, right), by_wrong(*system, wrong);
-  const GradientRun a = run_gradient(&by_right, *system, system->parameters()), b = run_gradient(&by_wrong, *system, system->parameters());
-  ASSERT_TRUE(a.status.ok() && b.status.ok());
-  EXPECT_LT((a.gradient - b.gradient).norm(), 1e-12 * a.gradient.norm());
-}
-
 TEST(AdjointGradient, AtTheStartOnlyTerminalTermsCount) {
   const auto system = servo("{}");
   RosenbrockGradient direct(*system);
-  AdjointGradient adjoint(*system, plan_lanes(*system));
+  AdjointGradient adjoint(*system);
   Eigen::VectorXd a, b;
   ASSERT_TRUE(direct.start(system->parameters(), Derivatives::kGradient).ok() &&
               adjoint.start(system->parameters(), Derivatives::kGradient).ok());

@@ -22,6 +22,23 @@ TEST_P(AdjointStepTest, IsTheTransposedTangent) {
   }
 }
 
+// psi_rho = psi_y y_rho at the start + the products by parameters of all evaluations, for the gains and the weight.
+TEST_P(AdjointStepTest, TheParametersExplainWhatTheStartDoesNot) {
+  ServoSteps run(GetParam());
+  const Eigen::Index size = run.end.cols(), psi = size - 1;
+  const VectorX<double>& start = run.back(VectorX<double>::Unit(size, psi), [](std::size_t) {});
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(5);
+  run.adjoint.add_gradient(gradient);
+  for (Eigen::Index k = 0; k < 5; ++k) {
+    const VectorX<double> begin = run.begin.row(k).transpose();
+    const double expected = run.end(k, psi);
+    EXPECT_NEAR(gradient[k] + start.dot(begin), expected, 1e-12 * std::abs(expected)) << k;
+  }
+  // All parameters act on the motion or the integrand, except for the position of the start.
+  for (Eigen::Index k : {0, 1, 2, 4}) EXPECT_NE(gradient[k], 0.0) << k;
+  EXPECT_EQ(gradient[3], 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p"),
                          [](const auto& instance) { return std::string(instance.param); });
 

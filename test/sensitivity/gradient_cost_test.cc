@@ -6,20 +6,17 @@
 namespace codesign {
 namespace {
 
-// Lanes are evaluated in groups of eight and four; the adjoint uses one lane of each group to check its plan.
+// Lanes are evaluated in groups of eight and four.
 TEST(GradientCost, GrowsByGroups) {
   EXPECT_EQ(direct_cost(1), direct_cost(4));
   EXPECT_LT(direct_cost(4), direct_cost(5));
   EXPECT_EQ(direct_cost(5), direct_cost(8));
   EXPECT_LT(direct_cost(8), direct_cost(9));
-  EXPECT_EQ(adjoint_cost(1), adjoint_cost(3));
-  EXPECT_EQ(adjoint_cost(4), adjoint_cost(7));
-  EXPECT_LT(adjoint_cost(7), adjoint_cost(8));
 }
 
 TEST(GradientCost, TheAdjointHasToEarnItsWayBack) {
-  EXPECT_LT(direct_cost(8), adjoint_cost(1));
-  EXPECT_LT(adjoint_cost(8), direct_cost(64));
+  EXPECT_LT(direct_cost(8), kAdjointCost);
+  EXPECT_LT(kAdjointCost, direct_cost(16));
 }
 
 }  // namespace

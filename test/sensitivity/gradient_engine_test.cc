@@ -81,10 +81,9 @@ TEST(GradientEngine, NothingTunedIsNoGradient) {
   EXPECT_EQ(result.gradient.size(), 0);
 }
 
-TEST(GradientEngine, ItsMakingCanBeCancelled) {
+TEST(GradientEngine, ACancelledEvaluationCanBeRepeated) {
   const std::atomic<bool> cancel{true};
   const auto system = servo("{gradient: adjoint}");
-  EXPECT_EQ(make_gradient_engine(*system, &cancel), nullptr);
   Evaluator evaluator(system);
   Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
   for (Eigen::Index k = 0; k < rho.size(); ++k)

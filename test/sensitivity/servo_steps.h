@@ -57,7 +57,7 @@ struct ServoSteps {
         adjoint.reverse_stages(step);
       }
       if (k > 0) adjoint.reverse_projection(points[k], step);
-      adjoint.reverse_matrices(points[k], step);
+      adjoint.reverse_matrices(points[k]);
       visit(k);
     }
     return adjoint.adjoint();

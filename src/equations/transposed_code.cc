@@ -1,0 +1,136 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/transposed_code.h"
+
+#include <algorithm>
+
+#include "description/dependencies.h"
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+using Arrays = EquationArrays;
+
+bool is_tuned(const System& system, const std::vector<int>& parameters) {
+  const std::vector<int>& tuned = system.study().tuned;
+  return std::any_of(parameters.begin(), parameters.end(), [&](int k) { return std::find(tuned.begin(), tuned.end(), k) != tuned.end(); });
+}
+
+bool is_tuned(const System& system, const SourceId& source) {
+  if (const auto* expression = source.as<Expression>()) return is_tuned(system, expression->dependencies());
+  if (const auto* basis = source.as<BasisDescription>()) return is_tuned(system, dependencies(*basis));
+  return is_tuned(system, dependencies(*source.as<ReferenceDescription>()));
+}
+
+/// The column of a leaf of the state in (q, s), v and z side by side; -1 for other nodes.
+int state_column(const Layout& layout, const Recording::Node& node) {
+  if (node.operation != Operation::kLeaf) return -1;
+  if (node.a == Arrays::kQ) return node.b;
+  if (node.a == Arrays::kS) return layout.n + node.b;
+  if (node.a == Arrays::kV) return layout.positions() + node.b;
+  return node.a == Arrays::kZ ? layout.positions() + layout.n + node.b : -1;
+}
+
+bool is_zero(const Traced& x) { return x.is_literal() && x.value() == 0.0; }
+
+}  // namespace
+
+TransposedCode::TransposedCode(const System& system, const Recording& recorded, const std::vector<RecordedFunction>& functions,
+                               bool interpreted)
+    : interpreted_(interpreted) {
+  numbered_.recording = recorded;
+  find_dependent(system);
+  std::vector<int> sum_of(depends_.size(), -1);
+  for (std::size_t f = 0; f < kFunctions; ++f) transpose(system, functions[f], &sum_of, &functions_[f]);
+  transpose_design(sum_of);
+  numbered_.number_nodes();
+  for (Transposed& transposed : functions_) transposed.task.homes = numbered_.homes;
+}
+
+void TransposedCode::find_dependent(const System& system) {
+  const Recording& recording = numbered_.recording;
+  depends_.resize(to_index(recording.size()));
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (node.operation == Operation::kLeaf) {
+      if (node.a == Recording::kSupplied && node.b >= 0)
+        depends_[to_index(n)] = is_tuned(system, recording.supplied_sources()[to_index(node.b)]);
+      if (node.a == Recording::kTimed)
+        depends_[to_index(n)] = is_tuned(system, recording.timed_sources()[to_index(node.b / Recording::kFunctionOrders)]);
+    } else if (node.operation != Operation::kLiteral && node.operation != Operation::kRound) {
+      depends_[to_index(n)] = depends_[to_index(node.a)] || (node.b >= 0 && depends_[to_index(node.b)]);
+    }
+  }
+}
+
+// Entries of the state, functions of time, and all numbers of the design: of these only those get something that are results or are used
+// by nodes that vary.
+std::vector<bool> TransposedCode::targets() const {
+  const Recording& recording = numbered_.recording;
+  std::vector<bool> is_target(depends_.size());
+  for (std::size_t n = 0; n < is_target.size(); ++n) {
+    const Recording::Node& node = recording.node(static_cast<int>(n));
+    const bool is_state = node.operation == Operation::kLeaf && node.a <= Arrays::kZ;
+    is_target[n] = is_state || (depends_[n] && (!node.varies || node.operation == Operation::kLeaf));
+  }
+  return is_target;
+}
+
+void TransposedCode::transpose(const System& system, const RecordedFunction& recorded, std::vector<int>* sum_of, Transposed* transposed) {
+  Recording* const recording = &numbered_.recording;
+  std::vector<AdjointSeed> seeds;
+  for (const ValueTask::Output& output : recorded.outputs)
+    seeds.push_back({output.node, Traced(recording, recording->leaf(output.place.array, output.place.index, true))});
+  const std::vector<Traced> adjoints = derive_adjoints(recording, seeds, targets());
+  ValueTask& task = transposed->task;
+  Results& results = transposed->results;
+  task.guards = recorded.guards;
+  const auto take = [&](const auto& index_of, std::vector<int>* indices) {
+    for (std::size_t n = 0; n < adjoints.size(); ++n) {
+      const int index = is_zero(adjoints[n]) ? -1 : index_of(n, recording->node(static_cast<int>(n)));
+      if (index < 0) continue;
+      task.outputs.push_back({adjoints[n].node_in(recording), {Arrays::kAdjoints, static_cast<int>(results.size())}});
+      indices->push_back(index);
+    }
+  };
+  take([&](std::size_t, const Recording::Node& node) { return state_column(system.layout(), node); }, &results.columns);
+  take([](std::size_t, const Recording::Node& node) { return node.a == Recording::kTimed && node.varies ? node.b : -1; }, &results.timed);
+  take(
+      [&](std::size_t n, const Recording::Node& node) {
+        if (!node.varies && (*sum_of)[n] < 0) (*sum_of)[n] = static_cast<int>(sums_++);
+        return node.varies ? -1 : (*sum_of)[n];
+      },
+      &results.numbers);
+}
+
+void TransposedCode::transpose_design(const std::vector<int>& sum_of) {
+  Recording* const recording = &numbered_.recording;
+  std::vector<AdjointSeed> seeds;
+  std::vector<bool> is_target(sum_of.size());
+  for (std::size_t n = 0; n < sum_of.size(); ++n) {
+    const auto k = static_cast<int>(n);
+    if (sum_of[n] >= 0) seeds.push_back({k, Traced(recording, recording->leaf(Arrays::kResults, sum_of[n], true))});
+    is_target[n] = depends_[n] && recording->node(k).operation == Operation::kLeaf && recording->node(k).a == Recording::kSupplied;
+  }
+  const std::vector<Traced> adjoints = derive_adjoints(recording, seeds, is_target);
+  for (std::size_t n = 0; n < adjoints.size(); ++n) {
+    if (is_zero(adjoints[n])) continue;
+    functions_[kDesign].task.outputs.push_back(
+        {adjoints[n].node_in(recording), {Arrays::kAdjoints, static_cast<int>(expressions_.size())}});
+    expressions_.push_back(recording->node(static_cast<int>(n)).b);
+  }
+}
+
+const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Transposed& transposed = functions_[which];
+  std::unique_ptr<CompiledFunction>& code = transposed.code[interpreted ? 1 : 0];
+  if (!code) {
+    const ValueProgram program(numbered_.recording, transposed.task);
+    code = compile_values(numbered_.recording, transposed.task, program, interpreted || interpreted_);
+    code->rows = which == kDesign ? expressions_.size() : transposed.results.size();
+  }
+  return *code;
+}
+
+}  // namespace codesign

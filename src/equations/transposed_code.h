@@ -1,0 +1,76 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_EQUATIONS_TRANSPOSED_CODE_H_
+#define MECHANISM_CODESIGN_EQUATIONS_TRANSPOSED_CODE_H_
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "codegen/adjoints.h"
+#include "equations/equation_code.h"
+
+namespace codesign {
+
+/// The products of the transposed derivatives of the recorded functions of motion with given weights of their results, theory (18e), by
+/// reverse accumulation on their recording. A product by the state goes down to the state; a product by the parameters goes down to the
+/// numbers that depend on the tuned parameters alone, since those are computed once per design. From there design() goes on to the
+/// expressions of the parameters. Thread-safe.
+class TransposedCode {
+ public:
+  /// What the results of a function are, side by side in array EquationArrays::kAdjoints: the derivatives of the weighted sum of the
+  /// function's results by columns of the state, then by functions of time, then by numbers of the design.
+  struct Results {
+    std::vector<int> columns;  ///< (q, s), v and z side by side
+    std::vector<int> timed;    ///< entries of array Recording::kTimed
+    std::vector<int> numbers;  ///< indices among the sums(), each once
+    std::size_t size() const { return columns.size() + timed.size() + numbers.size(); }
+  };
+
+  /// @param recorded the recording of all functions. @param functions their results and decisions, one per EquationFunction.
+  /// @param interpreted whether machine code is never made.
+  TransposedCode(const System& system, const Recording& recorded, const std::vector<RecordedFunction>& functions, bool interpreted);
+
+  /// The recording that the code below is made of. It begins with the nodes of the recording of the values, and its array kNumbers with the
+  /// entries of theirs.
+  const NumberedRecording& numbered() const { return numbered_; }
+  /// The code of one function, made by the first call. The weights of the k-th array of results are array kResults + k.
+  const CompiledFunction& function(EquationFunction function, bool interpreted) const {
+    return code(static_cast<std::size_t>(function), interpreted);
+  }
+  const Results& results(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)].results; }
+
+  /// The number of different numbers of the design by which functions are differentiated.
+  std::size_t sums() const { return sums_; }
+  /// Code that multiplies the derivatives by all sums(), array kResults, with the derivatives of these numbers by expressions of the
+  /// parameters; its results are in the order of expressions().
+  const CompiledFunction& design() const { return code(kDesign, true); }
+  /// Entries of Recording::supplied_sources().
+  const std::vector<int>& expressions() const { return expressions_; }
+
+ private:
+  static constexpr std::size_t kFunctions = 3, kDesign = kFunctions;
+
+  struct Transposed {
+    ValueTask task;
+    Results results;
+    mutable std::array<std::unique_ptr<CompiledFunction>, 2> code;  ///< machine code, interpreted
+  };
+  void find_dependent(const System& system);
+  std::vector<bool> targets() const;
+  void transpose(const System& system, const RecordedFunction& recorded, std::vector<int>* sum_of, Transposed* transposed);
+  void transpose_design(const std::vector<int>& sum_of);
+  const CompiledFunction& code(std::size_t which, bool interpreted) const;
+
+  const bool interpreted_;
+  NumberedRecording numbered_;
+  std::vector<bool> depends_;  ///< per node: whether it varies with the tuned parameters, at a fixed state
+  std::array<Transposed, kFunctions + 1> functions_;
+  std::size_t sums_ = 0;
+  std::vector<int> expressions_;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_EQUATIONS_TRANSPOSED_CODE_H_
