@@ -149,9 +149,9 @@ void Interpreter::compute(const Batch& batch, const std::array<const T*, kCodeAr
     case Kind::kProductPlus:
       return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused(a, b, c); });
     case Kind::kProductMinus:
-      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused<T>(a, b, -c); });
+      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused(a, b, T(-c)); });
     case Kind::kMinusProduct:
-      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused<T>(-a, b, c); });
+      return compute(batch, arrays, [](const T& a, const T& b, const T& c) { return fused(T(-a), b, c); });
     default:
       break;
   }
