@@ -32,7 +32,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   set_given_start(system_, tree_, parameters, &w.theta, &w.rate);
   const auto place_extended = [&] {
     link_motions(system_.robot(), tree_, parameters, w.theta, w.rate, &w.links);
-    body_coordinates(system_, equations->constants(), w.links, &state->q, &state->v);
+    state_coordinates(system_, tree_, equations->constants(), w.links, w.theta, w.rate, &state->q, &state->v);
     equations->constraint_errors(*state, &w.Phi, &w.Phi_rate);
   };
   place_extended();

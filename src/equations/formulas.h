@@ -96,7 +96,6 @@ class Formulas {
 
  private:
   StateView<T> view_;
-  Workspace<T> workspace_;
 };
 
 }  // namespace codesign
