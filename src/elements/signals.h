@@ -36,7 +36,7 @@ T link_term(const StateView<T>& view, const SignalReference& term) {
     case SignalKind::kLinkAcceleration:
       return (k.rdd + k.Add * s)[term.axis];
     case SignalKind::kLinkAngularVelocity:
-      return ground_omega(k)[term.axis];
+      return k.in_forest ? T(ground_omega(k)[term.axis]) : T(T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis]);
     default:
       return (k.rd + k.Ad * s)[term.axis];
   }
