@@ -148,5 +148,116 @@ INSTANTIATE_TEST_SUITE_P(Types, JointCoordinates, ::testing::ValuesIn(joint_coor
 INSTANTIATE_TEST_SUITE_P(Frictions, JointCoordinates, ::testing::ValuesIn(joint_coordinates::frictions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Loads, JointCoordinates, ::testing::ValuesIn(joint_coordinates::loads()), name_of);
 
+/// A shipped case with tight tolerances in one kind of coordinates.
+Shipped tight(const std::string& name, CoordinatesKind coordinates) {
+  Shipped shipped(name);
+  SolverOptions& solver = shipped.study.solver;
+  solver.coordinates = coordinates;
+  solver.integrator = IntegratorKind::kRosenbrock;
+  solver.method = RosenbrockMethod::kRodas5P;
+  solver.relative_tolerance = solver.absolute_tolerance = 1e-11;
+  shipped.study.duration = std::min(shipped.study.duration, 0.5);
+  return shipped;
+}
+
+class ShippedInJointCoordinates : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedInJointCoordinates, ObjectiveAndGradientAreTheSame) {
+  const auto evaluate = [](CoordinatesKind coordinates) {
+    const Shipped shipped = tight(GetParam(), coordinates);
+    const auto system = make_system(shipped.robot, shipped.study);
+    EXPECT_EQ(system->layout().has_forest(), coordinates == CoordinatesKind::kJoint);
+    return Evaluator(system).evaluate(shipped.start(), true);
+  };
+  const Evaluation joint = evaluate(CoordinatesKind::kJoint), absolute = evaluate(CoordinatesKind::kAbsolute);
+  ASSERT_TRUE(joint.status.ok()) << joint.status.cause;
+  ASSERT_TRUE(absolute.status.ok()) << absolute.status.cause;
+  EXPECT_NEAR(joint.objective, absolute.objective, 1e-9 * std::abs(absolute.objective));
+  EXPECT_LT((joint.gradient - absolute.gradient).norm(), 1e-7 * absolute.gradient.norm());
+}
+
+TEST_P(ShippedInJointCoordinates, TheGradientIsThatOfTheComplexStep) {
+  Shipped shipped(GetParam());
+  shipped.study.solver.coordinates = CoordinatesKind::kJoint;
+  shipped.study.duration = std::min(shipped.study.duration, 0.3);
+  const GradientCheck check = check_gradient(make_system(shipped.robot, shipped.study), shipped.start(), CheckMethod::kComplexStep);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  EXPECT_LT(check.largest_relative_difference, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ShippedInJointCoordinates,
+                         ::testing::Values("slider_crank", "slider_crank_haug", "governor", "two_link_arm", "gantry", "feed_axis",
+                                           "arm_limits", "inverted_pendulum"),
+                         [](const auto& instance) { return instance.param; });
+
+TEST(JointCoordinates, TheAdjointGivesTheDirectGradient) {
+  for (const char* name : {"two_link_arm", "gantry", "slider_crank_haug"}) {
+    Shipped shipped(name);
+    shipped.study.solver.coordinates = CoordinatesKind::kJoint;
+    shipped.study.solver.sensitivity_tolerance = 0.0;
+    const auto gradient = [&](GradientMethod method) {
+      shipped.study.solver.gradient = method;
+      const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+      EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+      return evaluation.gradient;
+    };
+    const Eigen::VectorXd direct = gradient(GradientMethod::kDirect), adjoint = gradient(GradientMethod::kAdjoint);
+    EXPECT_LT((direct - adjoint).norm(), 1e-9 * direct.norm()) << name;
+  }
+}
+
+TEST(JointCoordinates, IdasAgrees) {
+  for (const char* name : {"two_link_arm", "slider_crank_haug"}) {
+    Shipped shipped = tight(name, CoordinatesKind::kJoint);
+    shipped.study.duration = 0.2;
+    shipped.study.solver.gradient = GradientMethod::kDirect;
+    const auto evaluate = [&](IntegratorKind integrator) {
+      shipped.study.solver.integrator = integrator;
+      shipped.study.solver.relative_tolerance = shipped.study.solver.absolute_tolerance = 1e-9;
+      const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+      EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+      return evaluation;
+    };
+    const Evaluation rosenbrock = evaluate(IntegratorKind::kRosenbrock), idas = evaluate(IntegratorKind::kIdas);
+    EXPECT_NEAR(idas.objective, rosenbrock.objective, 1e-6 * std::abs(rosenbrock.objective)) << name;
+    EXPECT_LT((idas.gradient - rosenbrock.gradient).norm(), 1e-5 * rosenbrock.gradient.norm()) << name;
+  }
+}
+
+std::shared_ptr<const CompiledSystem> system_of(const std::string& urdf, const std::string& study) {
+  const RobotDescription robot = read_urdf({"test.urdf", urdf});
+  return make_system(robot, read_study({"test.yaml", study}, robot));
+}
+
+void expect_refused(const std::string& urdf, const std::string& study, const std::string& message) {
+  try {
+    system_of(urdf, study + "solver: {coordinates: joint}\n");
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).rfind("test.yaml:", 0), 0U) << error.what();
+  }
+  EXPECT_FALSE(system_of(urdf, study + "solver: {coordinates: auto}\n")->layout().has_forest());
+}
+
+TEST(JointCoordinates, WhatTheyCannotDoIsRefusedWithAReasonAndAutoFallsBack) {
+  expect_refused(four_bar(), "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\n", "redundant constraints");
+  expect_refused(double_pendulum(), "duration: 1.0\nobjective: {integral: [{signal: lower/orientation/x}]}\n", "orientation");
+  expect_refused(double_pendulum(),
+                 "duration: 1.0\ncontrollers: {hold: {type: pid, input: shoulder/reaction_force/x, output: elbow, setpoint: 0.0, gains: {p: "
+                 "1.0}}}\nobjective: {integral: [{signal: lower/position/x}]}\n",
+                 "a controller that reads reactions");
+}
+
+TEST(JointCoordinates, HaveOneCoordinatePerJointAndNoMultipliers) {
+  const std::string study = "duration: 1.0\nobjective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: auto}\n";
+  const auto system = system_of(double_pendulum(), study);
+  const Layout& layout = system->layout();
+  EXPECT_EQ(layout.n, 2);
+  EXPECT_EQ(layout.m, 0);
+  EXPECT_EQ(layout.element_column(1, 0), 1);
+  EXPECT_FALSE(layout.is_cut(0));
+}
+
 }  // namespace
 }  // namespace codesign
