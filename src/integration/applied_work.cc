@@ -27,11 +27,15 @@ BodyMotion::BodyMotion(const CompiledSystem& system)
 
 void BodyMotion::set_design(const Constants<double>& constants) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b] = {constants.bodies[b].mass, constants.bodies[b].J};
-  if (system_.layout().has_forest()) constants_ = constants;
+  if (!system_.layout().has_forest()) return;
+  constants_ = constants;
+  is_known_ = false;
 }
 
 void BodyMotion::sweep(const VectorX<double>& q, const VectorX<double>& v, const double* a) const {
   const Layout& layout = system_.layout();
+  q_ = q, v_ = v;
+  is_known_ = true;
   for (int b = 0; b < layout.bodies; ++b) {
     if (!layout.is_free(b)) continue;
     const int c = layout.column(b);
@@ -46,7 +50,7 @@ void BodyMotion::sweep(const VectorX<double>& q, const VectorX<double>& v, const
 }
 
 void BodyMotion::move(const VectorX<double>& q, const VectorX<double>& v) const {
-  if (system_.layout().has_forest()) sweep(q, v, rest_.data());
+  if (system_.layout().has_forest() && !(is_known_ && q == q_ && v == v_)) sweep(q, v, rest_.data());
 }
 
 double BodyMotion::distance(int body, const VectorX<double>& q) const {
@@ -66,8 +70,9 @@ BodyEnergy BodyMotion::energy(const VectorX<double>& q, const VectorX<double>& v
     energy.potential -= body.mass * gravity_.dot(r);
   };
   if (system_.layout().has_forest()) {
-    sweep(q, v, rest_.data());
-    for (std::size_t b = 0; b < bodies_.size(); ++b) add(bodies_[b], forest_.bodies[b].r, forest_.bodies[b].velocity, forest_.bodies[b].omega);
+    move(q, v);
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      add(bodies_[b], forest_.bodies[b].r, forest_.bodies[b].velocity, forest_.bodies[b].omega);
     return energy;
   }
   const double *r = q.data(), *rate = v.data();

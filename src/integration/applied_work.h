@@ -18,7 +18,8 @@ struct BodySpeed {
   double linear = 0.0, angular = 0.0;
 };
 
-/// Energy of the bodies and applied power from the bodies' motion alone, doc/theory.md (17a): no force law is evaluated. Not thread-safe, although const.
+/// Energy of the bodies and applied power from the bodies' motion alone, doc/theory.md (17a): no force law is evaluated. Not thread-safe,
+/// although const.
 class BodyMotion {
  public:
   explicit BodyMotion(const CompiledSystem& system);
@@ -46,9 +47,11 @@ class BodyMotion {
   const CompiledSystem& system_;
   Eigen::Vector3d gravity_;
   std::vector<Body> bodies_;
-  Constants<double> constants_;           ///< with a forest only
-  mutable ForestMotion<double> forest_;   ///< workspace
-  Eigen::VectorXd rest_;                  ///< zeros
+  Constants<double> constants_;          ///< with a forest only
+  mutable ForestMotion<double> forest_;  ///< at the last q and v
+  mutable VectorX<double> q_, v_;
+  mutable bool is_known_ = false;  ///< whether forest_ belongs to q_, v_ and the design
+  Eigen::VectorXd rest_;                 ///< zeros
 };
 
 /// Work of all forces but gravity over one Rosenbrock step, by Simpson's rule with the method's dense output in the middle of the step.

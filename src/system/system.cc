@@ -18,7 +18,6 @@ bool depends_on_reactions(const SignalTerm& term) {
 
 }  // namespace
 
-
 System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
     : robot_(with_start_rotations(robot, study)), study_(study), topology_(derive_topology(robot_)), sharing_(std::move(sharing)) {
   for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
@@ -95,8 +94,9 @@ void System::lay_out_bodies() {
     const bool free = layout_.is_free(body);
     layout_.body_column.push_back(layout_.n);
     layout_.body_norm_row.push_back(free ? norms++ : -1);
-    layout_.n += free ? kBodySize
-                      : forest_coordinates(topology_.pairs[static_cast<std::size_t>(layout_.forest.pair_above[static_cast<std::size_t>(body)])]);
+    layout_.n +=
+        free ? kBodySize
+             : forest_coordinates(topology_.pairs[static_cast<std::size_t>(layout_.forest.pair_above[static_cast<std::size_t>(body)])]);
   }
 }
 
@@ -298,6 +298,11 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
       throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
                         "an i gain, or the signal in the objective or in a later controller"});
     if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
+    if (term.kind == SignalKind::kLinkOrientation && layout_.has_forest())
+      if (const int body = topology_.link_body[static_cast<std::size_t>(term.link)]; body >= 0 && !layout_.is_free(body))
+        throw InputError({description.where, "signal",
+                          "the sign of the Euler parameters of a body in joint coordinates is not defined, so that its orientation has none",
+                          description.text, "solver.coordinates: absolute"});
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;

@@ -54,8 +54,8 @@ inline std::vector<CoordinatesCase> frictions() {
   std::vector<CoordinatesCase> all;
   for (const std::string model : {"brown_mcphee", "gonthier", "lugre"}) {
     const std::string pin = annotation(model, "joint_length='0.1' pin_radius='0.03'"),
-                      slide = annotation(model, "joint_length='0.1' joint_width='0.06'"),
-                      ball = annotation(model, "pin_radius='0.04'"), flat = annotation(model, "");
+                      slide = annotation(model, "joint_length='0.1' joint_width='0.06'"), ball = annotation(model, "pin_radius='0.04'"),
+                      flat = annotation(model, "");
     const auto in_chain = [](std::string content, const std::string& friction) {
       return content.insert(content.find("</joint>"), friction);
     };

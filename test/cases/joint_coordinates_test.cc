@@ -139,7 +139,8 @@ TEST_P(JointCoordinates, ObjectiveAndGradientAreThoseOfAbsoluteCoordinates) {
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_NEAR(a.objective, b.objective, 1e-9 * (1.0 + std::abs(b.objective)));
   if (!GetParam().has_parameters) return;
-  EXPECT_LT((a.gradient - b.gradient).norm(), 1e-7 * (1.0 + b.gradient.norm())) << a.gradient.transpose() << " and " << b.gradient.transpose();
+  EXPECT_LT((a.gradient - b.gradient).norm(), 1e-7 * (1.0 + b.gradient.norm()))
+      << a.gradient.transpose() << " and " << b.gradient.transpose();
 }
 
 const auto name_of = [](const ::testing::TestParamInfo<CoordinatesCase>& instance) { return instance.param.name; };
@@ -189,6 +190,30 @@ INSTANTIATE_TEST_SUITE_P(Cases, ShippedInJointCoordinates,
                          ::testing::Values("slider_crank", "slider_crank_haug", "governor", "two_link_arm", "gantry", "feed_axis",
                                            "arm_limits", "inverted_pendulum"),
                          [](const auto& instance) { return instance.param; });
+
+TEST(JointCoordinates, ARunGoesOnWithOtherDimensions) {
+  for (const std::string name : {"revolute", "planar", "spherical_loop"}) {
+    const std::vector<CoordinatesCase> cases = joint_coordinates::types();
+    const auto c = std::find_if(cases.begin(), cases.end(), [&](const CoordinatesCase& each) { return each.name == name; });
+    const auto run = [&](const char* coordinates) {
+      const Formulation in(c->urdf, study_of(*c), coordinates);
+      std::vector<double> parameters = in.system->parameters();
+      Simulation simulation(in.system, parameters, signals_of(in.robot, in.system->topology()));
+      EXPECT_TRUE(simulation.start().ok());
+      EXPECT_TRUE(simulation.advance_to(0.1).ok());
+      parameters[0] *= 1.2;
+      parameters[1] *= 0.7;
+      EXPECT_TRUE(simulation.go_on(0.1, parameters).ok());
+      EXPECT_TRUE(simulation.advance_to(kDuration).ok());
+      Frame frame;
+      simulation.sample(kDuration, &frame);
+      return numbers_of(frame);
+    };
+    const Numbers joint = run("joint"), absolute = run("absolute");
+    expect_near(joint.motion, absolute.motion, 1e-9, size_of(absolute.motion), name.c_str());
+    expect_near(joint.signals, absolute.signals, 1e-8, size_of(absolute.signals), name.c_str());
+  }
+}
 
 TEST(JointCoordinates, TheAdjointGivesTheDirectGradient) {
   for (const char* name : {"two_link_arm", "gantry", "slider_crank_haug"}) {
@@ -243,10 +268,11 @@ void expect_refused(const std::string& urdf, const std::string& study, const std
 TEST(JointCoordinates, WhatTheyCannotDoIsRefusedWithAReasonAndAutoFallsBack) {
   expect_refused(four_bar(), "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\n", "redundant constraints");
   expect_refused(double_pendulum(), "duration: 1.0\nobjective: {integral: [{signal: lower/orientation/x}]}\n", "orientation");
-  expect_refused(double_pendulum(),
-                 "duration: 1.0\ncontrollers: {hold: {type: pid, input: shoulder/reaction_force/x, output: elbow, setpoint: 0.0, gains: {p: "
-                 "1.0}}}\nobjective: {integral: [{signal: lower/position/x}]}\n",
-                 "a controller that reads reactions");
+  expect_refused(
+      double_pendulum(),
+      "duration: 1.0\ncontrollers: {hold: {type: pid, input: shoulder/reaction_force/x, output: elbow, setpoint: 0.0, gains: {p: "
+      "1.0}}}\nobjective: {integral: [{signal: lower/position/x}]}\n",
+      "a controller that reads reactions");
 }
 
 TEST(JointCoordinates, HaveOneCoordinatePerJointAndNoMultipliers) {
