@@ -12,8 +12,8 @@
 namespace codesign {
 
 // The loop over the elements; elements/forest.h lists those that load bodies. Pairs, spring-dampers and constant loads on links come before
-// the bodies, because they add to the loads that the bodies turn into rows; loads along coordinates of the forest come after the back sweep,
-// because their friction depends on what it computes; shared reactions come after the pairs and couplings, whose rows they change.
+// the bodies, because they add to the loads that the bodies turn into rows; loads along coordinates of the forest come after the back
+// sweep, because their friction depends on what it computes; shared reactions come after the pairs and couplings, whose rows they change.
 
 template <class T>
 Formulas<T>::Formulas(const System& system) : view_(system) {}
@@ -82,13 +82,17 @@ void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKi
 
 template <class T>
 void Formulas<T>::track_turns(State<T>* state) {
-  load(*state);
   const Layout& layout = view_.layout;
-  for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p)
+  // The coordinates of the forest's pairs count whole turns themselves.
+  if (layout.forest.order.size() == view_.system.topology().pairs.size()) return;
+  load(*state);
+  for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p) {
+    if (!layout.is_cut(static_cast<int>(p))) continue;
     for (std::size_t e = 0; e < view_.design.constants.pairs[p].coordinates.size(); ++e) {
       const int pair = static_cast<int>(p), element = static_cast<int>(e);
       state->turns[static_cast<std::size_t>(layout.turn(pair, element))] = value_of(view_.coordinate_value(pair, element));
     }
+  }
 }
 
 }  // namespace codesign

@@ -11,9 +11,25 @@
 namespace codesign {
 namespace {
 
+/// Above this number `auto` keeps absolute coordinates, whose matrices are sparse: a chain of 24 hinges; decision 82.
+constexpr int kMostCoupled = 300;
+
 /// Whether a signal needs the wrenches that joints transmit.
 bool depends_on_reactions(const SignalTerm& term) {
   return is_reaction(term) || term.quantity == "normal_force" || term.quantity.find("friction") != std::string::npos;
+}
+
+/// The number of pairs of coordinates that move the same body: the nonzeros of half the mass matrix in joint coordinates.
+int coupled_coordinates(const Topology& topology, const Forest& forest) {
+  std::vector<int> above(topology.bodies.size(), 0);  // coordinates on the way to each body
+  int sum = 0;
+  for (int body : forest.order) {
+    const Pair& pair = topology.pairs[static_cast<std::size_t>(forest.pair_above[static_cast<std::size_t>(body)])];
+    const int own = forest_coordinates(pair), carried = pair.body_i < 0 ? 0 : above[static_cast<std::size_t>(pair.body_i)];
+    above[static_cast<std::size_t>(body)] = carried + own;
+    sum += own * above[static_cast<std::size_t>(body)];
+  }
+  return sum;
 }
 
 }  // namespace
@@ -47,6 +63,9 @@ void System::choose_forest() {
   const std::string obstacle = forest_obstacle(&fault);
   if (obstacle.empty()) {
     layout_.forest = tree_forest(topology_);
+    if (study_.solver.coordinates == CoordinatesKind::kJoint || coupled_coordinates(topology_, layout_.forest) <= kMostCoupled) return;
+    layout_.forest = {};
+    why_absolute_ = "the chains are long, so that the matrices would be dense";
     return;
   }
   why_absolute_ = obstacle;
@@ -300,9 +319,10 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
     if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
     if (term.kind == SignalKind::kLinkOrientation && layout_.has_forest())
       if (const int body = topology_.link_body[static_cast<std::size_t>(term.link)]; body >= 0 && !layout_.is_free(body))
-        throw InputError({description.where, "signal",
-                          "the sign of the Euler parameters of a body in joint coordinates is not defined, so that its orientation has none",
-                          description.text, "solver.coordinates: absolute"});
+        throw InputError(
+            {description.where, "signal",
+             "the sign of the Euler parameters of a body in joint coordinates is not defined, so that its orientation has none",
+             description.text, "solver.coordinates: absolute"});
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;

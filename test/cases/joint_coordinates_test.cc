@@ -275,6 +275,23 @@ TEST(JointCoordinates, WhatTheyCannotDoIsRefusedWithAReasonAndAutoFallsBack) {
       "a controller that reads reactions");
 }
 
+TEST(JointCoordinates, AutoKeepsLongChainsInAbsoluteCoordinates) {
+  const auto chain = [](int count) {
+    std::string content;
+    for (int k = 0; k < count; ++k)
+      content += bar("bar" + std::to_string(k)) +
+                 hinge("hinge" + std::to_string(k), k == 0 ? "ground" : "bar" + std::to_string(k - 1), "bar" + std::to_string(k), "0 0 -1");
+    const RobotDescription model = read_urdf({"test.urdf", robot(content)});
+    const Study study = read_study({"test.yaml",
+                                    "duration: 1.0\nobjective: {integral: [{signal: bar0/position/x}]}\n"
+                                    "solver: {coordinates: auto}\n"},
+                                   model);
+    return System(model, study).layout().has_forest();
+  };
+  EXPECT_TRUE(chain(24));
+  EXPECT_FALSE(chain(25));
+}
+
 TEST(JointCoordinates, HaveOneCoordinatePerJointAndNoMultipliers) {
   const std::string study = "duration: 1.0\nobjective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: auto}\n";
   const auto system = system_of(double_pendulum(), study);
