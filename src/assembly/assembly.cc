@@ -93,7 +93,7 @@ void Assembly::by_preference(const std::vector<bool>& given, ColumnPreferences* 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
   set_turns(system_, tree_, theta_, state);
   link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_, &work_.motion.links);
-  body_coordinates(system_, equations->constants(), work_.motion.links, &state->q, &state->v);
+  state_coordinates(system_, tree_, equations->constants(), work_.motion.links, theta_, theta_rate_, &state->q, &state->v);
 }
 
 void Assembly::take_loop_rows() {

@@ -76,12 +76,18 @@ class Motions {
     return link_motions(system_.robot(), tree_, parameters_, theta_, VectorX<double>(VectorX<double>::Unit(tree_.size, c)));
   }
 
+  /// Sets state_.q, and v to the velocities for the unit rate of one coordinate.
+  void place_unit_motion(int c, VectorX<double>* v) {
+    state_coordinates(system_, tree_, equations_->constants(), unit_motion(c), theta_, VectorX<double>(VectorX<double>::Unit(tree_.size, c)),
+                      &state_.q, v);
+  }
+
   // Leaves out coordinates that move no body, and coordinates of folded joints that move the bodies as other coordinates do.
   void find_independent() {
     Eigen::MatrixXd all(system_.layout().n, tree_.size);
     VectorX<double> v;
     for (int c = 0; c < tree_.size; ++c) {
-      body_coordinates(system_, equations_->constants(), unit_motion(c), &state_.q, &v);
+      place_unit_motion(c, &v);
       const double size = v.norm();
       all.col(c) = size > 1e-12 ? Eigen::VectorXd(v / size) : Eigen::VectorXd(Eigen::VectorXd::Zero(v.size()));
     }
@@ -90,7 +96,7 @@ class Motions {
     std::sort(coordinates_.begin(), coordinates_.end());
     V_.resize(all.rows(), pivots.rank);
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-      body_coordinates(system_, equations_->constants(), unit_motion(coordinates_[k]), &state_.q, &v);
+      place_unit_motion(coordinates_[k], &v);
       V_.col(static_cast<Eigen::Index>(k)) = v;
     }
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "elements/normal_force.h"
+#include "elements/signals.h"
 #include "math/dense.h"
 #include "math/to_index.h"
 

@@ -141,6 +141,18 @@ std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorksp
   return redundancy;
 }
 
+/// The same study in absolute coordinates, for loops with redundant constraints: their reactions are shared among the rows of all joints,
+/// (23). @throws InputError if the study asks for joint coordinates.
+Study in_absolute_coordinates(const Study& study, const Redundancy& redundancy) {
+  if (study.solver.coordinates == CoordinatesKind::kJoint)
+    throw InputError({study.solver.coordinates_where, "solver.coordinates",
+                      "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
+                      redundancy.rows.front().joint, "auto or absolute"});
+  Study absolute = study;
+  absolute.solver.coordinates = CoordinatesKind::kAbsolute;
+  return absolute;
+}
+
 }  // namespace
 
 // The study's own design must start; a later design that cannot is a trial point with a failed status.
@@ -151,6 +163,10 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   require_start(*system, start.assembly, start.solve_positions());
   append(start.assembly.warnings(), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
+  if (system->layout().has_forest()) {
+    const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly, start.parameters, start.state);
+    if (!in_loops.rows.empty()) return make_system(robot, in_absolute_coordinates(study, in_loops), warnings);
+  }
   const std::optional<Redundancy> redundancy = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;
   if (redundancy) result = std::make_shared<const CompiledSystem>(system->robot(), system->study(), redundancy->sharing);

@@ -99,9 +99,9 @@ class TestMotion {
 
   Eigen::VectorXd errors(const VectorX<double>& theta, const LoopScales& scales) {
     set_turns(system_, tree_, theta, &state_);
-    body_coordinates(system_, equations_->constants(),
-                     link_motions(system_.robot(), tree_, parameters_, theta, VectorX<double>(VectorX<double>::Zero(theta.size()))),
-                     &state_.q, &state_.v);
+    const VectorX<double> rest = VectorX<double>::Zero(theta.size());
+    state_coordinates(system_, tree_, equations_->constants(), link_motions(system_.robot(), tree_, parameters_, theta, rest), theta, rest,
+                      &state_.q, &state_.v);
     equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
     return scales.rows.cwiseProduct(loops_.part_of(Phi_));
   }
@@ -149,8 +149,11 @@ class Analysis {
       : system_(system), layout_(system.layout()), equations_(equations) {}
 
   ConstraintRow describe(int row) const {
-    if (row >= layout_.norm_row(0))
-      return {system_.topology().bodies[to_index(row - layout_.norm_row(0))].name, 1, "unit Euler parameters"};
+    if (const int first = layout_.constraints() - layout_.norms(); row >= first) {
+      int body = 0;
+      while (!layout_.is_free(body) || layout_.norm_row(body) != row) ++body;
+      return {system_.topology().bodies[to_index(body)].name, 1, "unit Euler parameters"};
+    }
     if (row >= layout_.coupling_row(0)) {
       const Coupling& coupling = system_.topology().couplings[to_index(row - layout_.coupling_row(0))];
       return {coupling.name, 1, coupling.is_mimic ? "mimic" : "coupling"};
@@ -281,6 +284,7 @@ Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* e
   std::sort(redundant.begin(), redundant.end());
   const Analysis analysis(system, *equations);
   for (int row : redundant) result.rows.push_back(analysis.describe(row));
+  if (system.layout().has_forest()) return result;  // self-stresses are those of the rows of all joints
   find_undetermined(system, equations, state, analysis, redundant, result.sharing, &result);
   TestMotion(system, equations, loops, assembly.tree(), parameters).sift(assembly.theta(), &rows);
   for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[to_index(row)]);

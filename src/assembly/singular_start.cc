@@ -24,7 +24,7 @@ SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tre
 
 void SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x, VectorX<double>* result) {
   link_motions(system_.robot(), tree_, parameters_, theta, x, &motion_.links);
-  body_coordinates(system_, equations_->constants(), motion_.links, &state_.q, &state_.v);
+  state_coordinates(system_, tree_, equations_->constants(), motion_.links, theta, x, &state_.q, &state_.v);
   equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
   loops_.take_part(Phi_rate_, result);
 }

@@ -21,7 +21,7 @@ LinkMotion<double> motion_of(const System& system, const Equations<double>& equa
   const Vector3<double> arm = b.A * at.s;
   motion.X = {b.A * at.R, b.r + arm};
   if (b.at_rest) return motion;
-  motion.omega = 2.0 * (ground_rate_matrix(b.p) * b.pd);
+  motion.omega = ground_omega(b);
   motion.velocity = b.rd + motion.omega.cross(arm);
   return motion;
 }

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "mechanism_codesign/error.h"
+
 namespace codesign {
 
 /// The integrator of the equations of motion: Rosenbrock-Wanner methods, theory (15), or IDAS, theory (25). Each has its own computation of
@@ -18,14 +20,24 @@ enum class GradientMethod {
   kAdjoint,  ///< the discrete adjoint of the stored steps, backward; theory (18a)
 };
 
+/// The coordinates of the equations of motion; doc/theory.md (56).
+enum class CoordinatesKind {
+  kAuto,     ///< kJoint where it is possible
+  kJoint,    ///< joint coordinates along the tree, constraint rows for the loops
+  kAbsolute  ///< centre of mass and Euler parameters of every body, constraint rows for every joint
+};
+
 /// The spelling of each enumerator in study files, in the order of the enumerators.
 constexpr std::array<const char*, 2> kIntegratorNames{"rosenbrock", "idas"};
 constexpr std::array<const char*, 3> kRosenbrockMethodNames{"rodas4", "rodas4p2", "rodas5p"};
 constexpr std::array<const char*, 3> kGradientMethodNames{"auto", "direct", "adjoint"};
+constexpr std::array<const char*, 3> kCoordinatesNames{"auto", "joint", "absolute"};
 
 /// The block `solver:` of a study; doc/study.md describes it.
 struct SolverOptions {
   IntegratorKind integrator = IntegratorKind::kRosenbrock;
+  CoordinatesKind coordinates = CoordinatesKind::kAbsolute;
+  SourceLocation coordinates_where;                     ///< of the key `coordinates`, for messages
   RosenbrockMethod method = RosenbrockMethod::kRodas4;  ///< kRosenbrock only
   double relative_tolerance = 1e-6;                     ///< rtol of the error test, theory (15)
   double absolute_tolerance = 1e-7;                     ///< atol of the error test, in the units of q, v and s

@@ -8,15 +8,16 @@
 
 namespace codesign {
 
-// The rows of one body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the constraint
+// The rows of one free body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the constraint
 // row (p^T p - 1)/2 = 0 with its multiplier.
 
 /// Adds m (r'' - g) + f to the rows of r [N] and 4 G^T J G p'' + 8 G'^T J G p' + K(W) p + lambda p to the rows of p [N m], theory (7), (9).
-/// Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace` before.
+/// Does nothing for a body of the forest. Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace` before.
 template <class T>
 void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, VectorX<T>* G) {
   const BodyKinematics<T>& k = view.kinematics[b];
-  const int c = kBodySize * static_cast<int>(b), norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
+  if (!view.layout.is_free(static_cast<int>(b))) return;
+  const int c = view.layout.column(static_cast<int>(b)), norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
   Vector3<T> on_r;
   Vector4<T> on_p;
   inertia_force(view.design.constants.bodies[b], k, &on_r, &on_p);
@@ -30,6 +31,7 @@ void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
 /// Sets the row |p| = 1 of Phi to (p^T p - 1)/2 and its rate to p^T p'.
 template <class T>
 void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+  if (!view.layout.is_free(b)) return;
   const BodyKinematics<T>& k = view.body(b);
   T square(0.0), rate(0.0);
   for (int e = 0; e < 4; ++e) {

@@ -40,7 +40,7 @@ template <class T>
 Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact) {
   const int carrier = bristle_carrier(view, contact);
   if (carrier < 0) return Vector3<T>::Zero();
-  const Vector3<T> omega = T(2.0) * (ground_rate_matrix(view.body(carrier).p) * view.body(carrier).pd);
+  const Vector3<T> omega = ground_omega(view.body(carrier));
   return cross<T>(omega, view.state->s.template segment<3>(contact.first));
 }
 

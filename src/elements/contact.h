@@ -4,6 +4,7 @@
 
 #include "elements/bristle.h"
 #include "elements/contact_friction.h"
+#include "elements/coordinate_load.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
@@ -23,11 +24,10 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
 
 /// Adds the sum of J_k^T L_k to the rows of motion of both bodies.
 template <class T>
-void contact_residual(const StateView<T>& view, int pair, VectorX<T>* G) {
+void contact_residual(const StateView<T>& view, Workspace<T>* workspace, int pair, VectorX<T>* G) {
   const ContactFriction<T> c = contact_at(view, pair);
   for (std::size_t k = 0; k < c.size; ++k)
-    for (int local = 0; local < kLocalSize; ++local)
-      if (const int row = view.column(pair, local); row >= 0) (*G)[row] += c.motion[k].J[local] * c.load[static_cast<Eigen::Index>(k)];
+    add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[static_cast<Eigen::Index>(k)]), G);
 }
 
 }  // namespace codesign

@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_
 #define MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_
 
+#include "elements/coordinate_load.h"
 #include "elements/state_view.h"
 
 namespace codesign {
@@ -32,7 +33,7 @@ double compliance_in(const StateView<T>& view, const Coupling& coupling) {
 
 /// Sets the coupling's row to Phi'' - epsilon lambda and adds J_k^T c_k lambda to the rows of motion.
 template <class T>
-void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
+void coupling_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
   const Coupling& coupling = view.system.topology().couplings[k];
   const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
   const T lambda = view.state->z[row];
@@ -42,8 +43,10 @@ void coupling_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
     const T coefficient = view.design.constants.couplings[k].coefficients[t];
     const CoordinateMotion<T>& motion = view.coordinate(term.pair, term.element, CoordinateDetail::kAcceleration);
     (*G)[row] += coefficient * motion.acceleration;
-    for (int local = 0; local < kLocalSize; ++local)
-      if (const int c = view.column(term.pair, local); c >= 0) (*G)[c] += motion.J[local] * coefficient * lambda;
+    if (const int c = view.layout.element_column(term.pair, term.element); c >= 0)
+      (*G)[c] += coefficient * lambda;
+    else
+      add_load_on_bodies(view, workspace, term.pair, LocalRow<T>(motion.J * coefficient), lambda, G);
   }
 }
 

@@ -37,7 +37,7 @@ T kinetic_energy(const StateView<T>& view) {
   for (int b = 0; b < view.layout.bodies; ++b) {
     const BodyKinematics<T>& k = view.body(b);
     const BodyConstants<T>& constants = view.design.constants.bodies[static_cast<std::size_t>(b)];
-    const Vector3<T> omega = T(2.0) * body_rate(k.p, k.pd);
+    const Vector3<T> omega = body_omega(k);
     energy += T(0.5) * (constants.mass * dot<T>(k.rd, k.rd) + dot<T>(omega, constants.J * omega));
   }
   for (const Rotor& rotor : view.system.rotors()) energy += rotor_energy(view, rotor);

@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_
 
 #include "elements/controllers.h"
+#include "elements/coordinate_load.h"
 #include "elements/joint_friction.h"
 #include "elements/joint_stop_load.h"
 #include "elements/state_view.h"
@@ -74,11 +75,10 @@ inline JointLoad friction_part(const JointLoad& load) {
 
 /// Adds J^T L to the rows of motion.
 template <class T>
-void load_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* G) {
+void load_residual(const StateView<T>& view, Workspace<T>* workspace, const JointLoad& load, VectorX<T>* G) {
   const CoordinateMotion<T>& motion = view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
   const T value = joint_load(view, load, motion.rate);
-  for (int local = 0; local < kLocalSize; ++local)
-    if (const int c = view.column(load.pair, local); c >= 0) (*G)[c] += motion.J[local] * value;
+  add_coordinate_load(view, workspace, load.pair, load.element, motion.J, value, G);
 }
 
 /// Friction of a joint coordinate for observers: its rate, normal force and load L, of `<codesign:friction>` and `<dynamics friction>`.

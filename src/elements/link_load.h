@@ -21,14 +21,20 @@ void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_
   on_body.W -= view.design.wrenches[k].force * view.design.wrenches[k].point.transpose();
 }
 
-/// Adds the terms that add_link_load() leaves out: -2 E^T tau, or, for a load that turns with its link, -A f' on r and -2 G^T (s x f' +
+/// Adds the terms that add_link_load() leaves out to the rows of motion of a free body, or to Workspace::own: -2 E^T tau, or, for a load that turns with its link, -A f' on r and -2 G^T (s x f' +
 /// tau') on p.
 template <class T>
-void link_load_residual(const StateView<T>& view, std::size_t k, VectorX<T>* G) {
+void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
   const LinkLoad& load = view.system.link_loads()[k];
   const ConstantWrench<T>& wrench = view.design.wrenches[k];
   const BodyKinematics<T>& on = view.body(load.body);
-  const int c = kBodySize * load.body;
+  if (on.in_forest) {
+    Wrench<T>& own = workspace->own[static_cast<std::size_t>(load.body)];
+    if (load.turns) own.force -= wrench.force;
+    own.moment -= load.turns ? wrench.torque : Vector3<T>(on.A.transpose() * wrench.torque);
+    return;
+  }
+  const int c = view.layout.column(load.body);
   if (load.turns) {
     G->template segment<3>(c) -= on.A * wrench.force;
     G->template segment<4>(c + 3) -= T(2.0) * body_rate_transposed(on.p, wrench.torque);
@@ -44,8 +50,8 @@ T link_load_power(const StateView<T>& view, std::size_t k) {
   const ConstantWrench<T>& wrench = view.design.wrenches[k];
   const BodyKinematics<T>& on = view.body(load.body);
   // The torque of a load that turns with its link includes the moment of its force about the centre of mass.
-  if (load.turns) return dot<T>(on.A * wrench.force, on.rd) + T(2.0) * dot<T>(wrench.torque, body_rate(on.p, on.pd));
-  const Vector3<T> point_rate = on.rd + on.Ad * wrench.point, omega = T(2.0) * (ground_rate_matrix(on.p) * on.pd);
+  if (load.turns) return dot<T>(on.A * wrench.force, on.rd) + dot<T>(wrench.torque, body_omega(on));
+  const Vector3<T> point_rate = on.rd + on.Ad * wrench.point, omega = ground_omega(on);
   return dot<T>(wrench.force, point_rate) + dot<T>(wrench.torque, omega);
 }
 

@@ -9,10 +9,42 @@ namespace codesign {
 
 // The normal force N in the bearing of a joint, computed from its reaction; theory (11), (12).
 
+// Defined in elements/forest.h. Declared here because loads on bodies, of which it consists, may read normal forces of cut pairs.
+/// The wrench that its joint transmits to a body of the forest, about the body's centre of mass, in its axes; theory (57).
+template <class T>
+const Wrench<T>& transmitted_wrench(const StateView<T>& view, int body);
+
+/// pair_reaction() of a pair of the forest: the part that the pair constrains of the wrench that it transmits, about the point of body j.
+template <class T>
+void forest_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T>* torque) {
+  const auto p = static_cast<std::size_t>(index);
+  const PairTraits& traits = traits_of(view.system.topology().pairs[p].kind);
+  const PairConstants<T>& pair = view.design.constants.pairs[p];
+  const int body = view.layout.forest.body_below[p];
+  const Wrench<T>& wrench = transmitted_wrench(view, body);
+  const Matrix3<T>& R = view.motion.poses[static_cast<std::size_t>(body)].R;
+  const auto in_joint_axes = [&](const Vector3<T>& x) { return Vector3<T>(-(pair.C_i.transpose() * Vector3<T>(R * x))); };
+  const Vector3<T> force = in_joint_axes(wrench.force);
+  F->setZero();
+  torque->setZero();
+  if (traits.force == ForceRows::kAll) *F = force;
+  if (traits.force == ForceRows::kAcross) *F = Vector3<T>(force[0], force[1], T(0.0));
+  if (traits.force == ForceRows::kAlong) (*F)[2] = force[2];
+  if (!traits.torque_rows) return;
+  const int torques = traits.rows - (traits.force == ForceRows::kAll ? 3 : traits.force == ForceRows::kAcross ? 2 : traits.force == ForceRows::kAlong ? 1 : 0);
+  const Vector3<T> moment = in_joint_axes(Vector3<T>(wrench.moment - cross<T>(pair.s_j, wrench.force)));
+  for (int k = 0; k < 2; ++k) (*torque)[k] = moment[k];
+  if (torques > 2) (*torque)[2] = moment[2];
+}
+
 /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, read from the multipliers, theory (11); the child feels -F''
 /// and -T''. Components that the pair does not constrain are zero.
 template <class T>
 void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T>* torque) {
+  if (!view.layout.is_cut(index)) {
+    forest_reaction(view, index, F, torque);
+    return;
+  }
   const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
   const PairTraits& traits = traits_of(pair.kind);
   const int row = view.layout.lambda_column(view.layout.pair_row[static_cast<std::size_t>(index)]);

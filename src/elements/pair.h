@@ -17,6 +17,7 @@ namespace codesign {
 /// Must be called before body_residual() and after Workspace::clear_loads().
 template <class T>
 void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
+  if (!view.layout.is_cut(static_cast<int>(k))) return;
   const Pair& pair = view.system.topology().pairs[k];
   const PairRows<T>& rows = view.design.rows[k];
   const BodyKinematics<T>&i = view.body(pair.body_i), &j = view.body(pair.body_j);

@@ -68,10 +68,18 @@ T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
   return value;
 }
 
+/// The component of a wrench on the child, about its centre of mass and in its axes.
+template <class T>
+T wrench_component(const ReactionAxis<T>& axis, const Wrench<T>& wrench) {
+  if (!axis.torque) return dot<T>(axis.e, wrench.force);
+  return dot<T>(axis.e, wrench.moment) - dot<T>(cross<T>(axis.e, axis.s), wrench.force);
+}
+
 /// The contribution of one load L along a coordinate of the joint: -L times (11a) of its J^T.
 template <class T>
 T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const LocalRow<T>& J, const T& load) {
   const BodyKinematics<T>& k = view.body(axis.body);
+  if (k.in_forest) return -wrench_component(axis, load_on_side(k, axis.side, J, load));
   const Vector3<T> lever = -axis.lever(Vector3<T>(Vector3<T>::Zero()), true), along_r = k.A * lever,
                    turn = axis.torque ? Vector3<T>(T(-0.5) * axis.e) : Vector3<T>(Vector3<T>::Zero());
   const Vector4<T> along_p = body_rate_transposed(k.p, turn);
@@ -135,6 +143,7 @@ T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
 /// The part of a reaction signal that comes from multipliers: constraint rows and couplings. Redundant rows leave this part undetermined.
 template <class T>
 T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
+  if (!view.layout.is_cut(term.pair)) return T(0.0);
   const ReactionAxis<T> axis = reaction_axis(view, term);
   return constraint_reaction(view, axis) + coupling_reaction(view, axis);
 }
@@ -143,6 +152,8 @@ T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
 template <class T>
 T reaction_term(const StateView<T>& view, const SignalReference& term) {
   const ReactionAxis<T> axis = reaction_axis(view, term);
+  // The wrench that a joint of the forest transmits is the whole one, (57).
+  if (!view.layout.is_cut(term.pair)) return wrench_component(axis, transmitted_wrench(view, axis.body));
   T value = constraint_reaction(view, axis) + coordinate_reaction(view, axis) + coupling_reaction(view, axis);
   for (int pair : view.system.contacts())
     if (pair == axis.pair) value += contact_reaction(view, axis);

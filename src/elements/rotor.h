@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
 #define MECHANISM_CODESIGN_ELEMENTS_ROTOR_H_
 
+#include "elements/coordinate_load.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 
@@ -30,6 +31,12 @@ RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
   m.ratio = d.gear_ratio;
   m.coupling = d.gear_ratio * d.rotor_inertia;
   if (carrier.at_rest) return m;
+  if (carrier.in_forest) {
+    m.carrier_rate = dot<T>(m.axis, carrier.omega);
+    m.carrier_acceleration = dot<T>(m.axis, carrier.alpha);
+    m.swing = cross<T>(carrier.omega, m.axis);
+    return m;
+  }
   m.carrier_rate = T(2.0) * dot<T>(m.axis, body_rate(carrier.p, carrier.pd));
   m.carrier_acceleration = T(2.0) * dot<T>(m.axis, body_rate(carrier.p, carrier.pdd));
   m.swing = T(2.0) * cross<T>(body_rate(carrier.p, carrier.pd), m.axis);
@@ -54,15 +61,18 @@ T rotor_load(const StateView<T>& view, const Rotor& rotor) {
 
 /// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to the rows of the carrier's p.
 template <class T>
-void rotor_residual(const StateView<T>& view, const Rotor& rotor, VectorX<T>* G) {
+void rotor_residual(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, VectorX<T>* G) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
   const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration);
   const T load = rotor_load(view, rotor);
-  for (int local = 0; local < kLocalSize; ++local)
-    if (const int c = view.column(rotor.pair, local); c >= 0) (*G)[c] += joint.J[local] * load;
+  add_coordinate_load(view, workspace, rotor.pair, rotor.element, joint.J, load, G);
   if (rotor.body < 0) return;
   const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
-  G->template segment<4>(kBodySize * rotor.body + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
+  if (!view.layout.is_free(rotor.body)) {
+    workspace->own[static_cast<std::size_t>(rotor.body)].moment += moment;
+    return;
+  }
+  G->template segment<4>(view.layout.column(rotor.body) + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
 }
 
 }  // namespace codesign

@@ -5,6 +5,7 @@
 #include "elements/controllers.h"
 #include "elements/effort_rate.h"
 #include "elements/energy.h"
+#include "elements/forest.h"
 #include "elements/power.h"
 #include "elements/reaction.h"
 #include "elements/state_view.h"
@@ -35,7 +36,7 @@ T link_term(const StateView<T>& view, const SignalReference& term) {
     case SignalKind::kLinkAcceleration:
       return (k.rdd + k.Add * s)[term.axis];
     case SignalKind::kLinkAngularVelocity:
-      return T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis];
+      return k.in_forest ? T(ground_omega(k)[term.axis]) : T(T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis]);
     default:
       return (k.rd + k.Ad * s)[term.axis];
   }
@@ -46,7 +47,7 @@ template <class T>
 T orientation_term(const StateView<T>& view, const SignalReference& term) {
   const BodyKinematics<T>& k = view.body(view.system.topology().link_body[static_cast<std::size_t>(term.link)]);
   const Vector4<T> in_body = euler_parameters<T>(view.design.constants.links[static_cast<std::size_t>(term.link)].R);
-  return quaternion_product<T>(k.p, in_body)[term.axis];
+  return quaternion_product<T>(k.in_forest ? euler_parameters<T>(k.A) : k.p, in_body)[term.axis];
 }
 
 /// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the child, -L of theory (13).

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "elements/design.h"
+#include "elements/workspace.h"
 #include "joints/coordinate.h"
 #include "math/elementary.h"
+#include "system/forest_motion.h"
 #include "system/inverse_dynamics.h"
 #include "system/state.h"
 
@@ -19,6 +21,16 @@ template <class T>
 struct ControlMemory {
   std::vector<InverseDynamics<T>> inverse_dynamics;  ///< per controller
   std::vector<T> accelerations, rates;               ///< alpha of (C6); joint rates, set only for nodes with a rotor
+};
+
+/// Memory for the wrenches that the joints of a forest transmit, which elements and signals request when they need them.
+template <class T>
+struct ForestMemory {
+  explicit ForestMemory(const System& system) : workspace(system) {}
+
+  std::uint64_t version = 0;  ///< StateView::version to which Workspace::transmitted belongs
+  Workspace<T> workspace;
+  VectorX<T> unused;  ///< rows of G that are computed on the way and not needed
 };
 
 /// The motion of one joint coordinate, kept while design and state stay the same, because several elements need it.
@@ -46,7 +58,7 @@ struct StateView {
   void load(const State<T>& at);
   /// The motion of a body; -1 is the ground, a body at rest.
   const BodyKinematics<T>& body(int index) const { return kinematics[static_cast<std::size_t>(index < 0 ? layout.bodies : index)]; }
-  /// The entry of q that belongs to one of the 14 local coordinates [r_i, p_i, r_j, p_j] of a pair; -1 if that body is the ground. The
+  /// The entry of q that belongs to one of the 14 local coordinates [r_i, p_i, r_j, p_j] of a pair; -1 if that body is not free. The
   /// same index is the row of motion in G and the column of the velocity and of the acceleration.
   int column(int pair, int local) const { return columns[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
   /// The constants of a joint coordinate. @param element index in the pair's chain; a cylindrical loop has 0 (turn) and 1 (slide).
@@ -65,18 +77,20 @@ struct StateView {
   std::vector<std::array<int, kLocalSize>> columns;  ///< per pair, see column()
   const State<T>* state = nullptr;                   ///< set by load(); time, extra states, multipliers and turns are read from it
   std::vector<BodyKinematics<T>> kinematics;         ///< one per body, the ground last
+  ForestMotion<T> motion;                            ///< of the bodies of a forest and of their parents
   mutable ControlMemory<T> control;
+  mutable ForestMemory<T> forest;
+  std::uint64_t version = 0;  ///< counts changes of design and state
 
  private:
   /// The multiple of 2 pi [rad] that brings a position nearest to its turn reference; zero for slides.
   T whole_turns(int pair, int element, const T& position) const;
 
   mutable std::vector<std::vector<KnownCoordinate<T>>> coordinates;  ///< per pair and chain element
-  std::uint64_t version = 0;                                         ///< counts changes of design and state
 };
 
 template <class T>
-StateView<T>::StateView(const System& of) : system(of), layout(of.layout()) {
+StateView<T>::StateView(const System& of) : system(of), layout(of.layout()), motion(of.layout()), forest(of) {
   kinematics.resize(static_cast<std::size_t>(layout.bodies) + 1);
   kinematics.back().at_rest = true;
   std::size_t nodes = 0;
@@ -89,7 +103,7 @@ StateView<T>::StateView(const System& of) : system(of), layout(of.layout()) {
     std::array<int, kLocalSize>& of_pair = columns.emplace_back();
     for (int local = 0; local < kLocalSize; ++local) {
       const int body = local < kBodySize ? pair.body_i : pair.body_j;
-      of_pair[static_cast<std::size_t>(local)] = body < 0 ? -1 : kBodySize * body + local % kBodySize;
+      of_pair[static_cast<std::size_t>(local)] = body < 0 || !layout.is_free(body) ? -1 : layout.column(body) + local % kBodySize;
     }
   }
 }
@@ -107,8 +121,9 @@ void StateView<T>::load(const State<T>& at) {
   ++version;
   state = &at;
   for (int b = 0; b < layout.bodies; ++b) {
+    if (!layout.is_free(b)) continue;
     BodyKinematics<T>& k = kinematics[static_cast<std::size_t>(b)];
-    const int c = kBodySize * b;
+    const int c = layout.column(b);
     k.r = at.q.template segment<3>(c);
     k.p = at.q.template segment<4>(c + 3);
     k.rd = at.v.template segment<3>(c);
@@ -116,7 +131,11 @@ void StateView<T>::load(const State<T>& at) {
     k.rdd = at.z.template segment<3>(c);
     k.pdd = at.z.template segment<4>(c + 3);
     k.update_rotation();
+    if (layout.has_forest()) set_free_motion(k, design.gravity, &motion.body(b));
   }
+  if (!layout.has_forest()) return;
+  sweep_out(system, design.constants, design.gravity, at.q.data(), at.v.data(), at.z.data(), &motion);
+  for (int b : layout.forest.order) set_forest_kinematics(motion.body(b), design.gravity, &kinematics[static_cast<std::size_t>(b)]);
 }
 
 template <class T>
@@ -128,12 +147,19 @@ const CoordinateMotion<T>& StateView<T>::coordinate(int pair, int element, Coord
   const Pair& p = system.topology().pairs[static_cast<std::size_t>(pair)];
   const PairConstants<T>& c = design.constants.pairs[static_cast<std::size_t>(pair)];
   known.motion = coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j), detail);
+  if (const int own = layout.element_column(pair, element); own >= 0) {
+    known.motion.position = state->q[own];
+    known.motion.rate = state->v[own];
+    known.motion.acceleration = state->z[own];
+    return known.motion;
+  }
   if (detail == CoordinateDetail::kAll) known.motion.position += whole_turns(pair, element, known.motion.position);
   return known.motion;
 }
 
 template <class T>
 T StateView<T>::coordinate_value(int pair, int element) const {
+  if (const int own = layout.element_column(pair, element); own >= 0) return state->q[own];
   const Pair& p = system.topology().pairs[static_cast<std::size_t>(pair)];
   const PairConstants<T>& c = design.constants.pairs[static_cast<std::size_t>(pair)];
   const T position = coordinate_position(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j));

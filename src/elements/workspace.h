@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "joints/joint_sweep.h"
 #include "joints/pair_rows.h"
 #include "system/system.h"
 
@@ -17,6 +18,10 @@ template <class T>
 struct Workspace {
   explicit Workspace(const System& system) {
     loads.resize(static_cast<std::size_t>(system.layout().bodies));
+    if (system.layout().has_forest()) {
+      own.resize(loads.size());
+      transmitted.resize(loads.size());
+    }
     if (!system.sharing().drops()) return;
     shared_loads = loads;
     displaced.resize(loads.size() + 1);
@@ -29,6 +34,7 @@ struct Workspace {
       load.force.setZero();
       load.W.setZero();
     }
+    for (Wrench<T>& wrench : own) wrench = {};
   }
   /// The sum of the loads on a body, to which elements add theirs; null for the ground, whose loads are not needed.
   BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads[static_cast<std::size_t>(body)]; }
@@ -41,6 +47,12 @@ struct Workspace {
 
   /// Per body: f and W of multipliers, spring-dampers and constant forces. They are terms of G, on the left, so the body feels -f.
   std::vector<BodyLoad<T>> loads;
+  /// Per body of a system with a forest: further loads about its centre of mass, in its axes, with the same sign. Used of bodies of the
+  /// forest only.
+  std::vector<Wrench<T>> own;
+  /// Per body of a system with a forest, after the back sweep: of a body of the forest the wrench that its joint transmits to it, of a free
+  /// body the sum of the wrenches that its children need; theory (57).
+  std::vector<Wrench<T>> transmitted;
   /// Per body: f and W of the unknowns eta of shared reactions, theory (23b). Empty if no row is dropped, as is `displaced`.
   std::vector<BodyLoad<T>> shared_loads;
   /// Per body, the ground last: its position without velocity, and the displacement w of (23b) in place of the acceleration.

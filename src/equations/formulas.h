@@ -92,7 +92,6 @@ class Formulas {
 
  private:
   StateView<T> view_;
-  Workspace<T> workspace_;
 };
 
 }  // namespace codesign

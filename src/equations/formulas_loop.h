@@ -2,23 +2,21 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
 #define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
 
-#include "elements/body.h"
 #include "elements/controller_states.h"
-#include "elements/coupling.h"
+#include "elements/forest.h"
 #include "elements/objective.h"
-#include "elements/pair.h"
 #include "elements/sampled_control.h"
 #include "elements/sharing.h"
 #include "equations/formulas.h"
 
 namespace codesign {
 
-// The loop over the elements: the one place that lists them all. Pairs, spring-dampers and constant loads on links come before the bodies,
-// because they add to the loads that the bodies turn into rows; shared reactions come after the pairs and couplings, whose rows they
-// change.
+// The loop over the elements; elements/forest.h lists those that load bodies. Pairs, spring-dampers and constant loads on links come before
+// the bodies, because they add to the loads that the bodies turn into rows; loads along coordinates of the forest come after the back
+// sweep, because their friction depends on what it computes; shared reactions come after the pairs and couplings, whose rows they change.
 
 template <class T>
-Formulas<T>::Formulas(const System& system) : view_(system), workspace_(system) {}
+Formulas<T>::Formulas(const System& system) : view_(system) {}
 
 template <class T>
 void Formulas<T>::set_design(const std::vector<T>& parameters) {
@@ -36,19 +34,15 @@ void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   const StateView<T>& view = view_;
   const System& system = view.system;
   G->setZero(view.layout.columns());
-  workspace_.clear_loads();
-  for (std::size_t k = 0; k < view.design.rows.size(); ++k) pair_residual(view, &workspace_, k, G);
-  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) add_spring_load(view, &workspace_, k, spring_at(view, k));
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, &workspace_, k);
-  for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, &workspace_, static_cast<std::size_t>(b), G);
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) link_load_residual(view, k, G);
-  for (const Rotor& rotor : system.rotors()) rotor_residual(view, rotor, G);
-  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) coupling_residual(view, k, G);
-  for (const JointLoad& load : system.loads()) load_residual(view, load, G);
-  for (int pair : system.contacts()) contact_residual(view, pair, G);
+  Workspace<T>& workspace = view.forest.workspace;
+  workspace.clear_loads();
+  load_bodies(view, &workspace, G);
+  sweep_back(view, &workspace, G);
+  view.forest.version = view.version;
+  load_coordinates(view, &workspace, G);
   for (const BristleContact& contact : system.bristles()) bristle_residual(view, contact, G);
   for (std::size_t c = 0; c < system.controllers().size(); ++c) controller_residual(view, c, G);
-  if (system.sharing().drops()) sharing_residual(view, &workspace_, G);
+  if (system.sharing().drops()) sharing_residual(view, &workspace, G);
   *g = objective_terms(view, system.integral(), view.design.integral);
 }
 
@@ -65,6 +59,7 @@ void Formulas<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, Vect
   Phi_rate->setZero(layout.m);
   for (std::size_t k = 0; k < view_.design.rows.size(); ++k) {
     const Pair& pair = view_.system.topology().pairs[k];
+    if (!layout.is_cut(static_cast<int>(k))) continue;
     const int row = layout.pair_row[k], size = view_.design.rows[k].size();
     pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j), Out<T>(*Phi).subspan(row, size),
                 Out<T>(*Phi_rate).subspan(row, size));
@@ -80,13 +75,17 @@ void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKi
 
 template <class T>
 void Formulas<T>::track_turns(State<T>* state) {
-  load(*state);
   const Layout& layout = view_.layout;
-  for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p)
+  // The coordinates of the forest's pairs count whole turns themselves.
+  if (layout.forest.order.size() == view_.system.topology().pairs.size()) return;
+  load(*state);
+  for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p) {
+    if (!layout.is_cut(static_cast<int>(p))) continue;
     for (std::size_t e = 0; e < view_.design.constants.pairs[p].coordinates.size(); ++e) {
       const int pair = static_cast<int>(p), element = static_cast<int>(e);
       state->turns[static_cast<std::size_t>(layout.turn(pair, element))] = view_.coordinate_value(pair, element);
     }
+  }
 }
 
 }  // namespace codesign

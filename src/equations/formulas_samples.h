@@ -2,6 +2,7 @@
 #ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_
 #define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_
 
+#include "elements/forest.h"
 #include "elements/objective.h"
 #include "equations/formulas.h"
 

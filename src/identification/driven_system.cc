@@ -66,6 +66,7 @@ Study study_near(const StartWorkspace& usual, const CompiledSystem& of, const st
                  const std::vector<int>& held) {
   Study study = without_control(of.study());
   study.initial_state.clear();
+  study.solver.coordinates = CoordinatesKind::kAbsolute;  // as the driven system, which takes over the start
   for (std::size_t joint = 0; joint < of.robot().joints.size(); ++joint) {
     const JointDescription& description = of.robot().joints[joint];
     if (description.is_loop || !has_one_coordinate(description.type)) continue;

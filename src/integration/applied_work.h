@@ -3,6 +3,7 @@
 #define MECHANISM_CODESIGN_INTEGRATION_APPLIED_WORK_H_
 
 #include "integration/rosenbrock_step.h"
+#include "system/forest_motion.h"
 
 namespace codesign {
 
@@ -12,7 +13,13 @@ struct BodyEnergy {
   double total() const { return kinetic + potential; }
 };
 
-/// Energy of the bodies and applied power from the bodies' motion alone, doc/theory.md (17a): no force law is evaluated.
+/// Speed of a centre of mass [m/s] and angular speed [rad/s].
+struct BodySpeed {
+  double linear = 0.0, angular = 0.0;
+};
+
+/// Energy of the bodies and applied power from the bodies' motion alone, doc/theory.md (17a): no force law is evaluated. Not thread-safe,
+/// although const.
 class BodyMotion {
  public:
   explicit BodyMotion(const CompiledSystem& system);
@@ -23,13 +30,28 @@ class BodyMotion {
   /// @param z of the state, or its first n entries, the accelerations.
   double power(const VectorX<double>& q, const VectorX<double>& v, In<double> z) const;
 
+  /// Distance of a centre of mass from the ground's origin [m]; with a forest after move() only.
+  double distance(int body, const VectorX<double>& q) const;
+  /// Speed of a body's centre of mass [m/s] and its angular speed [rad/s]; with a forest after move() only.
+  BodySpeed speed(int body, const VectorX<double>& v) const;
+  /// Computes the motion of the bodies of a forest, which distance() and speed() read.
+  void move(const VectorX<double>& q, const VectorX<double>& v) const;
+
  private:
   struct Body {
     double mass = 0.0;
     Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   };
+  void sweep(const VectorX<double>& q, const VectorX<double>& v, const double* a) const;
+
+  const CompiledSystem& system_;
   Eigen::Vector3d gravity_;
   std::vector<Body> bodies_;
+  Constants<double> constants_;          ///< with a forest only
+  mutable ForestMotion<double> forest_;  ///< at the last q and v
+  mutable VectorX<double> q_, v_;
+  mutable bool is_known_ = false;  ///< whether forest_ belongs to q_, v_ and the design
+  Eigen::VectorXd rest_;                 ///< zeros
 };
 
 /// Work of all forces but gravity over one Rosenbrock step, by Simpson's rule with the method's dense output in the middle of the step.

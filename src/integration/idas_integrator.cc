@@ -317,7 +317,7 @@ void IdasIntegrator::Implementation::take_over(double time) {
   equations().track_turns(&state_);
   equations_.count_turns_from(state_);
   equations().constraint_errors(state_, &drift_, &drift_rate_);
-  largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
+  if (drift_.size() > 0) largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
 }
 
 // The corrections use the last Newton matrix, which differs from G_z of the projection (17) by terms of the order of the step.

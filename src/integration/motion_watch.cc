@@ -53,10 +53,9 @@ double commanded_speed(const CompiledSystem& system, double t) {
 
 MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
   Speeds fastest;
+  motion_.move(state.q, state.v);
   for (int b = 0; b < system_.layout().bodies; ++b) {
-    const double linear = state.v.segment<3>(kBodySize * b).norm();
-    // |omega| = 2 |p'|, since p' is orthogonal to the unit vector p.
-    const double angular = 2.0 * state.v.segment<4>(kBodySize * b + 3).norm();
+    const auto [linear, angular] = motion_.speed(b, state.v);
     if (linear > fastest.linear) {
       fastest.linear = linear;
       fastest.linear_body = b;
@@ -92,11 +91,13 @@ double MotionWatch::target(const Equations<double>& equations) const {
 void MotionWatch::start(const Equations<double>& equations, const State<double>& initial) {
   mark_time_ = initial.t;
   mark_work_ = 0;
+  motion_.set_design(equations.constants());
   linear_bound_ = angular_bound_ = system_.study().solver.maximum_speed;
   // A mechanism without controllers cannot gain energy, so it needs no automatic limit.
   if (linear_bound_ > 0.0 || system_.study().controllers.empty()) return;
   double size = 0.0;
-  for (int b = 0; b < system_.layout().bodies; ++b) size = std::max(size, initial.q.segment<3>(kBodySize * b).norm());
+  motion_.move(initial.q, initial.v);
+  for (int b = 0; b < system_.layout().bodies; ++b) size = std::max(size, motion_.distance(b, initial.q));
   const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), aim = target(equations);
   const Speeds begun = speeds(initial);
   linear_bound_ = kBeyondReason * std::max({begun.linear, aim, std::sqrt(2.0 * g * size)});

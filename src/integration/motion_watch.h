@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "equations/equations.h"
+#include "integration/applied_work.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {
@@ -18,7 +19,7 @@ namespace codesign {
 /// |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
-  explicit MotionWatch(const CompiledSystem& system) : system_(system) {}
+  explicit MotionWatch(const CompiledSystem& system) : system_(system), motion_(system) {}
 
   /// @param equations must hold the design. @param initial its initial state.
   void start(const Equations<double>& equations, const State<double>& initial);
@@ -36,6 +37,7 @@ class MotionWatch {
   Status exceeded(const State<double>& state, const std::string& advice) const;
 
   const CompiledSystem& system_;
+  BodyMotion motion_;
   double linear_bound_ = 0.0, angular_bound_ = 0.0;
   double mark_time_ = 0.0;
   std::int64_t mark_work_ = 0;

@@ -20,6 +20,7 @@ void Projection::correct(const VectorX<double>& error, VectorX<double>* target) 
 }
 
 bool Projection::apply(Equations<double>* equations, State<double>* state) {
+  if (layout_.m == 0) return std::isfinite(state->q.sum() + state->v.sum());
   matrix_.forget();
   for (int round = 0; round < kRounds; ++round) {
     equations->linearize(*state, &derivatives_);

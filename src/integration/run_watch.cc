@@ -58,8 +58,9 @@ RunWatch::RunWatch(const CompiledSystem& system)
 double RunWatch::smallest_scale(const Constants<double>& constants, const State<double>& initial) const {
   const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), atol = options_.absolute_tolerance;
   double unresolved = 0.0;
+  motion_.move(initial.q, initial.v);
   for (std::size_t b = 0; b < constants.bodies.size(); ++b) {
-    const double distance = initial.q.segment<3>(kBodySize * static_cast<Eigen::Index>(b)).norm();
+    const double distance = motion_.distance(static_cast<int>(b), initial.q);
     unresolved += constants.bodies[b].mass * (g * (atol + kRounding * distance) + atol * atol);
   }
   return unresolved / energy_limit_.warning;

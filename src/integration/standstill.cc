@@ -107,6 +107,7 @@ std::string cause(const CompiledSystem& system, const Eigen::MatrixXd& rows, boo
 
 Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
                         double step_size, const Statistics& statistics, Equations<double>* equations) {
+  // Only without a forest, since rows are shared and dropped there alone.
   if (!system.sharing().drops() || system.layout().n > kLargestAnalysed) return status;
   const bool slow = statistics.steps % kPaceWindow == 0 && system.study().duration - state.t > kNever * step_size;
   if (!(status.ok() ? slow : may_be_singular(status.code)) || !state.q.allFinite()) return status;

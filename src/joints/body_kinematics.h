@@ -14,6 +14,9 @@ struct BodyKinematics {
   Vector4<T> p = Vector4<T>(T(1.0), T(0.0), T(0.0), T(0.0)), pd = Vector4<T>::Zero(), pdd = Vector4<T>::Zero();
   Matrix3<T> A = Matrix3<T>::Identity(), Ad = Matrix3<T>::Zero(), Add = Matrix3<T>::Zero();
   bool at_rest = false;  ///< the body is the ground: vectors fixed in it are constants
+  /// The body hangs on a pair of the forest, theory (56): p and its derivatives are not known, but omega and alpha are.
+  bool in_forest = false;
+  Vector3<T> omega = Vector3<T>::Zero(), alpha = Vector3<T>::Zero();  ///< angular velocity and acceleration, in the body's axes
 
   /// Fills A, Ad = DA(p)[p'], Add = DA(p)[p''] + 2 A(p') from p, pd, pdd.
   void update_rotation() {
@@ -22,6 +25,24 @@ struct BodyKinematics {
     Add = rotation_derivative(p, pdd) + 2.0 * rotation(pd);
   }
 };
+
+/// Angular velocity in the body's axes [rad/s]; theory (4).
+template <class T>
+Vector3<T> body_omega(const BodyKinematics<T>& body) {
+  return body.in_forest ? body.omega : Vector3<T>(T(2.0) * body_rate(body.p, body.pd));
+}
+
+/// Angular acceleration in the body's axes [rad/s^2].
+template <class T>
+Vector3<T> body_alpha(const BodyKinematics<T>& body) {
+  return body.in_forest ? body.alpha : Vector3<T>(T(2.0) * body_rate(body.p, body.pdd));
+}
+
+/// Angular velocity in ground axes [rad/s]; theory (4).
+template <class T>
+Vector3<T> ground_omega(const BodyKinematics<T>& body) {
+  return body.in_forest ? Vector3<T>(body.A * body.omega) : Vector3<T>(T(2.0) * (ground_rate_matrix(body.p) * body.pd));
+}
 
 /// A vector that moves with the bodies, in ground axes, with its first and second time derivative.
 template <class T>

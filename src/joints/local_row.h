@@ -10,7 +10,8 @@ namespace codesign {
 constexpr int kLocalSize = 14;
 constexpr int kBodySize = 7;
 
-/// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column.
+/// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column. Of a body of the forest, theory (56), the three
+/// entries from p_offset() on are the gradient by its angular velocity in its own axes, the fourth is zero.
 template <class T>
 using LocalRow = Eigen::Matrix<T, kLocalSize, 1>;
 

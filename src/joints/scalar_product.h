@@ -43,6 +43,12 @@ LocalRow<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, con
       const double sign = term.sign;
       if (term.point)
         for (int c = 0; c < 3; ++c) phi_q[r_offset(term.side) + c] += sign * partner[c];
+      if (body.in_forest) {
+        // omega' . (s x A^T y) is the rate of A s along y.
+        const Vector3<T> turn = cross<T>(term.s, Vector3<T>(body.A.transpose() * partner));
+        for (int c = 0; c < 3; ++c) phi_q[p_offset(term.side) + c] += sign * turn[c];
+        continue;
+      }
       const Matrix34<T> B = rotated_vector_jacobian(body.p, term.s);
       for (int c = 0; c < 4; ++c) phi_q[p_offset(term.side) + c] += sign * dot<T>(B.col(c), partner);
     }

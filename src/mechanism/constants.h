@@ -62,6 +62,13 @@ struct JointDynamicsConstants {
   Vector3<T> rotor_axis = Vector3<T>::Zero();                 ///< unit vector in the axes of the body that carries the rotor
 };
 
+/// One coordinate of a pair as a turn about, or a slide along, an axis; the coordinates of a pair act one after the other.
+template <class T>
+struct JointStep {
+  bool turns = false;
+  Vector3<T> axis = Vector3<T>::Zero();  ///< unit vector in the axes of body i, at zero position
+};
+
 /// Geometry of a kinematic pair in body coordinates.
 template <class T>
 struct PairConstants {
@@ -74,6 +81,8 @@ struct PairConstants {
   SlipConstants<T> slip;                            ///< isotropic friction; see slips_isotropically()
   std::vector<CoordinateConstants<T>> coordinates;  ///< one per chain element; a single cylindrical loop has two: turn, slide
   std::vector<JointDynamicsConstants<T>> dynamics;  ///< one per coordinate
+  std::vector<JointStep<T>> steps;                  ///< the motion of body j relative to body i; empty if it has no such coordinates
+  Matrix3<T> R_ij = Matrix3<T>::Identity();         ///< axes of body j in those of body i, at zero position
 
   /// Sets everything to what a new object holds, but keeps the memory of the vectors.
   void clear() {
@@ -81,10 +90,12 @@ struct PairConstants {
     empty.slip.coordinates.swap(slip.coordinates);
     empty.coordinates.swap(coordinates);
     empty.dynamics.swap(dynamics);
+    empty.steps.swap(steps);
     *this = std::move(empty);
     slip.coordinates.clear();
     coordinates.clear();
     dynamics.clear();
+    steps.clear();
   }
 };
 

@@ -43,6 +43,8 @@ class PairBuilder {
       if (joint(k).actuator) place_rotor(k, X_ji.R);
     }
     if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
+    result_.R_ij = geometry_.X_ij.R;
+    if (!pair_.is_loop) place_steps();
     if (pair_.friction_joint >= 0) result_.friction = friction();
     if (pair_.friction_joint >= 0) place_slip();
   }
@@ -126,6 +128,18 @@ class PairBuilder {
     if (is_turn(type)) c = turn(k, R_ji);
     if (pair_.chain[k].reversed) c.sign = -c.sign;
     return c;
+  }
+
+  void place_steps() {
+    for (std::size_t k = 0; k < pair_.chain.size(); ++k) {
+      const JointType type = joint(k).type;
+      if (is_turn(type) || type == JointType::kPrismatic) result_.steps.push_back({is_turn(type), axis(k)});
+      if (type != JointType::kPlanar) continue;
+      const Vector3<T> z = axis_at(joint(k).axis, parameters_), x = transverse_axis<T>(z, std::nullopt), y = cross(z, x);
+      result_.steps.push_back({false, geometry_.frames[k].R * x});
+      result_.steps.push_back({false, geometry_.frames[k].R * y});
+      result_.steps.push_back({true, axis(k)});
+    }
   }
 
   // A single cylindrical loop has two coordinates, a turn and a slide.

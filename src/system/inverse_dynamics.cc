@@ -76,7 +76,7 @@ void InverseDynamics<T>::move(std::size_t k, const T& acceleration) {
   m.axis = i.A * local_axis(k);
   m.lever_parent = i.A * pair.s_i;
   if (!moving_) return;
-  m.omega = T(2.0) * (ground_rate_matrix(j.p) * j.pd);
+  m.omega = ground_omega(j);
   if (node(k).slides) {
     const Vector3<T> arm = j.r - i.r, rate = j.rd - i.rd;
     m.omega_rate = parent.omega_rate;

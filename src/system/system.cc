@@ -5,15 +5,41 @@
 
 #include "description/tuned_parameters.h"
 #include "mechanism/constants.h"
+#include "mechanism/signal_catalog.h"
 #include "system/start_rotations.h"
 
 namespace codesign {
+namespace {
+
+/// Above this number `auto` keeps absolute coordinates, whose matrices are sparse: a chain of 24 hinges; decision 82.
+constexpr int kMostCoupled = 300;
+
+/// Whether a signal needs the wrenches that joints transmit.
+bool depends_on_reactions(const SignalTerm& term) {
+  return is_reaction(term) || term.quantity == "normal_force" || term.quantity.find("friction") != std::string::npos;
+}
+
+/// The number of pairs of coordinates that move the same body: the nonzeros of half the mass matrix in joint coordinates.
+int coupled_coordinates(const Topology& topology, const Forest& forest) {
+  std::vector<int> above(topology.bodies.size(), 0);  // coordinates on the way to each body
+  int sum = 0;
+  for (int body : forest.order) {
+    const Pair& pair = topology.pairs[static_cast<std::size_t>(forest.pair_above[static_cast<std::size_t>(body)])];
+    const int own = forest_coordinates(pair), carried = pair.body_i < 0 ? 0 : above[static_cast<std::size_t>(pair.body_i)];
+    above[static_cast<std::size_t>(body)] = carried + own;
+    sum += own * above[static_cast<std::size_t>(body)];
+  }
+  return sum;
+}
+
+}  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
     : robot_(with_start_rotations(robot, study)), study_(study), topology_(derive_topology(robot_)), sharing_(std::move(sharing)) {
   for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
   drives_ = static_cast<int>(drives.size());
   refuse_unsupported();
+  choose_forest();
   lay_out();
   find_coordinates();
   check_couplings();
@@ -30,15 +56,77 @@ std::vector<double> System::parameters() const { return start_parameters(study_)
 
 std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study_, rho); }
 
-void System::lay_out() {
+// Drives prescribe motions of absolute coordinates, theory (28), and shared reactions are those of all rows, (23).
+void System::choose_forest() {
+  if (study_.solver.coordinates == CoordinatesKind::kAbsolute || drives_ > 0) return;
+  InputFault fault;
+  const std::string obstacle = forest_obstacle(&fault);
+  if (obstacle.empty()) {
+    layout_.forest = tree_forest(topology_);
+    if (study_.solver.coordinates == CoordinatesKind::kJoint || coupled_coordinates(topology_, layout_.forest) <= kMostCoupled) return;
+    layout_.forest = {};
+    why_absolute_ = "the chains are long, so that the matrices would be dense";
+    return;
+  }
+  why_absolute_ = obstacle;
+  if (study_.solver.coordinates != CoordinatesKind::kJoint) return;
+  fault.message = obstacle;
+  fault.allowed = "solver.coordinates: auto or absolute";
+  throw InputError(fault);
+}
+
+/// What keeps the equations from joint coordinates; empty: nothing. @param fault receives its place and value.
+std::string System::forest_obstacle(InputFault* fault) const {
+  *fault = {study_.solver.coordinates_where, "solver.coordinates", "", "", ""};
+  if (sharing_.compliance != 0.0 || sharing_.drops())
+    return "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates";
+  const auto refused = [&](const SignalDescription& signal, bool reactions) {
+    for (const SignalTerm& term : signal.terms) {
+      if (term.quantity == "orientation" || (reactions && depends_on_reactions(term))) {
+        *fault = {signal.where, "signal", "", signal.text, ""};
+        return true;
+      }
+    }
+    return false;
+  };
+  for (const ControllerDescription& controller : study_.controllers) {
+    bool found = refused(controller.input, true);
+    for (const FeedbackTerm& term : controller.feedback) found = found || refused(term.signal, true);
+    if (found) return "a controller that reads reactions or friction, or an orientation: not available in joint coordinates";
+  }
+  const std::string orientation = "a link's orientation as four Euler parameters: not available in joint coordinates";
+  for (const std::vector<ObjectiveTerm>* terms : {&study_.integral, &study_.terminal})
+    for (const ObjectiveTerm& term : *terms)
+      if (refused(term.signal, false)) return orientation;
+  for (const WatchedSignal& watched : study_.watched)
+    if (refused(watched.signal, false)) return orientation;
+  return {};
+}
+
+void System::lay_out_bodies() {
   layout_.bodies = static_cast<int>(topology_.bodies.size());
   layout_.n = kBodySize * layout_.bodies;
-  for (const Pair& pair : topology_.pairs) {
+  if (!layout_.has_forest()) return;
+  layout_.n = 0;
+  int norms = 0;
+  for (int body = 0; body < layout_.bodies; ++body) {
+    const bool free = layout_.is_free(body);
+    layout_.body_column.push_back(layout_.n);
+    layout_.body_norm_row.push_back(free ? norms++ : -1);
+    layout_.n +=
+        free ? kBodySize
+             : forest_coordinates(topology_.pairs[static_cast<std::size_t>(layout_.forest.pair_above[static_cast<std::size_t>(body)])]);
+  }
+}
+
+void System::lay_out() {
+  lay_out_bodies();
+  for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
     layout_.pair_row.push_back(layout_.m);
-    layout_.m += traits_of(pair.kind).rows;
+    if (layout_.is_cut(static_cast<int>(p))) layout_.m += traits_of(topology_.pairs[p].kind).rows;
   }
   layout_.couplings = static_cast<int>(topology_.couplings.size());
-  layout_.m += layout_.couplings + layout_.bodies;
+  layout_.m += layout_.couplings + layout_.norms();
   sharing_layout_ = SharingLayout(sharing_, topology_, layout_);
   layout_.sharing = sharing_layout_.size();
   layout_.m += layout_.sharing;
@@ -229,6 +317,12 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
       throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
                         "an i gain, or the signal in the objective or in a later controller"});
     if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
+    if (term.kind == SignalKind::kLinkOrientation && layout_.has_forest())
+      if (const int body = topology_.link_body[static_cast<std::size_t>(term.link)]; body >= 0 && !layout_.is_free(body))
+        throw InputError(
+            {description.where, "signal",
+             "the sign of the Euler parameters of a body in joint coordinates is not defined, so that its orientation has none",
+             description.text, "solver.coordinates: absolute"});
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;

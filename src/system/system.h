@@ -71,6 +71,9 @@ class System {
   const std::vector<Controller>& controllers() const { return controllers_; }
   /// Row of Phi of the k-th drive.
   int drive_row(int k) const { return layout_.coupling_row(layout_.couplings - drives_ + k); }
+  /// Why the equations are not in joint coordinates although that was asked for, with the place in the input; empty if they are, or if it was
+  /// not asked for. Of `joint` the constructor throws it.
+  const std::string& why_absolute() const { return why_absolute_; }
   /// Whether a controller has states that do not begin at zero, theory (50), (51).
   bool begins_controllers() const;
   /// One entry per joint coordinate on which anything acts.
@@ -104,7 +107,10 @@ class System {
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
 
  private:
+  void choose_forest();
+  std::string forest_obstacle(InputFault* fault) const;
   void lay_out();
+  void lay_out_bodies();
   void resolve_controllers();
   void check_signals() const;
   void check_effort_rate(const SignalReference& term, const SignalDescription& description) const;
@@ -133,6 +139,7 @@ class System {
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
+  std::string why_absolute_;
   std::vector<ResolvedTerm> integral_, terminal_;
   std::vector<Signal> watched_;
 };

@@ -159,28 +159,59 @@ void set_turns(const System& system, const TreeLayout& layout, const VectorX<dou
   }
 }
 
+namespace {
+
+/// r and p of one body and their rates, from c on.
+template <class T>
+void place_body(const LinkMotion<T>& link, const Vector3<T>& centre, Eigen::Index c, VectorX<T>* q, VectorX<T>* v) {
+  const Vector3<T> arm = link.X.R * centre;
+  const Vector4<T> p = euler_parameters(link.X.R);
+  q->template segment<3>(c) = link.X.t + arm;
+  q->template segment<4>(c + 3) = p;
+  v->template segment<3>(c) = link.velocity + cross(link.omega, arm);
+  v->template segment<4>(c + 3) = T(0.5) * (ground_rate_matrix(p).transpose() * link.omega);
+}
+
+}  // namespace
+
 template <class T>
 void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
                       VectorX<T>* v) {
+  const std::vector<Body>& bodies = system.topology().bodies;
+  for (VectorX<T>* x : {q, v}) x->resize(kBodySize * static_cast<Eigen::Index>(bodies.size()));
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    place_body(links[static_cast<std::size_t>(bodies[b].base_link)], constants.bodies[b].centre, static_cast<Eigen::Index>(kBodySize * b), q,
+               v);
+}
+
+template <class T>
+void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links,
+                       const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q, VectorX<T>* v) {
   const Topology& topology = system.topology();
-  q->resize(system.layout().n);
-  v->resize(system.layout().n);
+  const Layout& at = system.layout();
+  for (VectorX<T>* x : {q, v}) x->resize(at.n);
   for (std::size_t b = 0; b < topology.bodies.size(); ++b) {
-    const LinkMotion<T>& link = links[static_cast<std::size_t>(topology.bodies[b].base_link)];
-    const auto c = static_cast<Eigen::Index>(kBodySize * b);
-    const Vector3<T> arm = link.X.R * constants.bodies[b].centre;
-    const Vector4<T> p = euler_parameters(link.X.R);
-    q->template segment<3>(c) = link.X.t + arm;
-    q->template segment<4>(c + 3) = p;
-    v->template segment<3>(c) = link.velocity + cross(link.omega, arm);
-    v->template segment<4>(c + 3) = T(0.5) * (ground_rate_matrix(p).transpose() * link.omega);
+    Eigen::Index c = at.column(static_cast<int>(b));
+    if (at.is_free(static_cast<int>(b))) {
+      place_body(links[static_cast<std::size_t>(topology.bodies[b].base_link)], constants.bodies[b].centre, c, q, v);
+      continue;
+    }
+    for (const ChainElement& element : topology.pairs[static_cast<std::size_t>(at.forest.pair_above[b])].chain) {
+      const auto joint = static_cast<std::size_t>(element.joint);
+      for (int k = 0; k < coordinates_of(system.robot().joints[joint].type); ++k, ++c) {
+        (*q)[c] = theta[layout.offset[joint] + k];
+        (*v)[c] = theta_rate[layout.offset[joint] + k];
+      }
+    }
   }
 }
 
 #define CODESIGN_INSTANTIATE(T)                                                                                                       \
   template void link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, const VectorX<T>&, \
                              std::vector<LinkMotion<T>>*);                                                                            \
-  template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);
+  template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);    \
+  template void state_coordinates(const System&, const TreeLayout&, const Constants<T>&, const std::vector<LinkMotion<T>>&,           \
+                                  const VectorX<T>&, const VectorX<T>&, VectorX<T>*, VectorX<T>*);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 

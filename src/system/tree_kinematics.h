@@ -71,10 +71,16 @@ void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout, 
 /// Sets the turns of a state to the tree's coordinates, so that a position beyond one turn is kept; the turns of loops count from zero.
 void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state);
 
-/// Centroidal coordinates q and velocities v of the bodies (n entries each) for given motions of their links.
+/// Centroidal coordinates q and velocities v of all bodies (7 entries each, r and p) for given motions of their links.
 template <class T>
 void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
                       VectorX<T>* v);
+
+/// Coordinates q and velocities v of a state (Layout::n entries each) at theta and theta_rate: those of body_coordinates() for free bodies,
+/// and those of the tree's joints themselves for bodies of the forest, theory (56). @param links the result of link_motions().
+template <class T>
+void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links,
+                       const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q, VectorX<T>* v);
 
 }  // namespace codesign
 

@@ -71,7 +71,7 @@ LimitOptions read_limit_options(const YamlValue& limits) {
 
 SolverOptions read_solver_options(const YamlValue& solver) {
   solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
-                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed", "closure_tolerance"});
+                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed", "closure_tolerance", "coordinates"});
   SolverOptions options;
   read_choice(solver, "integrator", kIntegratorNames, &options.integrator);
   read_choice(solver, "method", kRosenbrockMethodNames, &options.method);
@@ -83,6 +83,8 @@ SolverOptions read_solver_options(const YamlValue& solver) {
   read_count(solver, "maximum_steps", &options.maximum_steps);
   read_positive_or_zero(solver, "maximum_speed", "a positive speed in m/s and rad/s, or 0: chosen", &options.maximum_speed);
   read_positive(solver, "closure_tolerance", true, &options.closure_tolerance);
+  read_choice(solver, "coordinates", kCoordinatesNames, &options.coordinates);
+  if (const auto coordinates = solver.find("coordinates")) options.coordinates_where = coordinates->where();
   read_gradient(solver, &options);
   return options;
 }

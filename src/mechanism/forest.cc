@@ -1,0 +1,60 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/forest.h"
+
+#include <algorithm>
+
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+/// Ball and floating joints have no scalar coordinates that hold in all positions; they keep the Euler parameters of their body.
+bool has_scalar_coordinates(const Pair& pair) {
+  switch (pair.kind) {
+    case PairKind::kRevolute:
+    case PairKind::kPrismatic:
+    case PairKind::kCylindrical:
+    case PairKind::kUniversal:
+    case PairKind::kTable:
+    case PairKind::kPlanar:
+    case PairKind::kTranslational:
+      break;
+    default:
+      return false;
+  }
+  const auto reversed = [](const ChainElement& element) { return element.reversed; };
+  return !pair.is_loop && pair.body_j >= 0 && std::none_of(pair.chain.begin(), pair.chain.end(), reversed);
+}
+
+}  // namespace
+
+int forest_coordinates(const Pair& pair) {
+  return pair.kind == PairKind::kPlanar && pair.chain.size() == 1 ? 3 : static_cast<int>(pair.chain.size());
+}
+
+Forest tree_forest(const Topology& topology) {
+  Forest forest;
+  forest.pair_above.assign(topology.bodies.size(), -1);
+  forest.body_below.assign(topology.pairs.size(), -1);
+  forest.is_plane.assign(topology.pairs.size(), false);
+  for (std::size_t p = 0; p < topology.pairs.size(); ++p) {
+    const Pair& pair = topology.pairs[p];
+    if (!has_scalar_coordinates(pair) || forest.pair_above[to_index(pair.body_j)] >= 0) continue;
+    forest.pair_above[to_index(pair.body_j)] = static_cast<int>(p);
+    forest.body_below[p] = pair.body_j;
+    forest.is_plane[p] = forest_coordinates(pair) != static_cast<int>(pair.chain.size());
+  }
+  // A body follows its parent; the tree has no cycles.
+  std::vector<bool> placed(topology.bodies.size(), false);
+  const auto place = [&](auto&& self, int body) -> void {
+    if (body < 0 || placed[to_index(body)]) return;
+    placed[to_index(body)] = true;
+    if (forest.pair_above[to_index(body)] < 0) return;
+    self(self, topology.pairs[to_index(forest.pair_above[to_index(body)])].body_i);
+    forest.order.push_back(body);
+  };
+  for (std::size_t body = 0; body < topology.bodies.size(); ++body) place(place, static_cast<int>(body));
+  return forest.empty() ? Forest() : forest;
+}
+
+}  // namespace codesign

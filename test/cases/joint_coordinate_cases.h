@@ -1,0 +1,120 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_TEST_CASES_JOINT_COORDINATE_CASES_H_
+#define MECHANISM_CODESIGN_TEST_CASES_JOINT_COORDINATE_CASES_H_
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "equations/arm.h"
+#include "equations/joint_cases.h"
+#include "equations/loaded_arm.h"
+
+namespace codesign {
+
+/// A mechanism that is run in joint and in absolute coordinates.
+struct CoordinatesCase {
+  std::string name, urdf;
+  std::string study;           ///< initial state, controllers, loads and limits
+  bool has_parameters = true;  ///< `size` and `mass` of joint_cases, or none
+  double friction = 1e-8;      ///< tolerance of reactions and friction, relative to their size
+};
+
+inline void PrintTo(const CoordinatesCase& c, std::ostream* out) { *out << c.name; }
+
+namespace joint_coordinates {
+
+/// `base` on a skew hinge to the ground, a joint of `content` from it to `tip`.
+inline std::string on_hinge(const std::string& content) {
+  return robot(
+      "<codesign:parameter name='size' value='0.1'/><codesign:parameter name='mass' value='0.8'/>"
+      "<codesign:parameter name='ratio' value='1.5'/>" +
+      joint_cases::body("base") + joint_cases::body("tip") +
+      joint_cases::tree("root", "continuous", "ground", "base", "0.2 1 0.1",
+                        "<origin xyz='0.1 0 0.3' codesign:xyz='0.1 0 ${3*size}' rpy='0.3 -0.2 0.1'/>") +
+      content);
+}
+
+inline std::vector<CoordinatesCase> types() {
+  std::vector<CoordinatesCase> all;
+  for (const std::vector<JointCase>& cases : {joint_cases::trees(), joint_cases::loops(), joint_cases::couplings()})
+    for (const JointCase& c : cases)
+      all.push_back({c.name, on_hinge(c.content), "initial_state: {root: {position: 0.3, velocity: 1.5}}\n"});
+  return all;
+}
+
+inline std::string annotation(const std::string& model, const std::string& geometry) {
+  return "<codesign:friction model='" + model +
+         "' mu_static='0.12' mu_dynamic='0.1' transition_velocity='0.05' viscous='0.01' preload='2' " + geometry + "/>";
+}
+
+/// All joints with friction under each law; in a chain the first joint has the annotation.
+inline std::vector<CoordinatesCase> frictions() {
+  using joint_cases::chain;
+  std::vector<CoordinatesCase> all;
+  for (const std::string model : {"brown_mcphee", "gonthier", "lugre"}) {
+    const std::string pin = annotation(model, "joint_length='0.1' pin_radius='0.03'"),
+                      slide = annotation(model, "joint_length='0.1' joint_width='0.06'"), ball = annotation(model, "pin_radius='0.04'"),
+                      flat = annotation(model, "");
+    const auto in_chain = [](std::string content, const std::string& friction) {
+      return content.insert(content.find("</joint>"), friction);
+    };
+    const auto one = [](const std::string& type, const std::string& friction) {
+      return joint_cases::tree("joint", type, "base", "tip", "1 0 0.5", joint_cases::kOrigin + friction);
+    };
+    const auto add = [&](const std::string& name, const std::string& content) {
+      all.push_back({name + "_" + model, on_hinge(content), "initial_state: {root: {velocity: 1.0}}\n"});
+    };
+    add("revolute", one("revolute", pin));
+    add("prismatic", one("prismatic", slide));
+    add("cylindrical", in_chain(chain({{'R', "1 0 0.5"}, {'P', "1 0 0.5"}}), pin));
+    add("spherical", in_chain(chain({{'R', "1 0 0"}, {'R', "0 1 0"}, {'R', "0 0 1"}}), ball));
+    add("planar", one("planar", ball));
+    add("table", in_chain(chain({{'P', "1 0 0.5"}, {'P', "0.4 1 0"}}), flat));
+    add("revolute_loop", joint_cases::free("tip") + joint_cases::loop("revolute", "base", pin));
+    add("planar_loop", joint_cases::free("tip") + joint_cases::loop("planar", "base", ball));
+    all.back().study.clear();  // in motion, LuGre's bristles would start with a friction coefficient that no reaction bears
+  }
+  const std::string by_direction = annotation(
+      "brown_mcphee", "joint_length='0.1' pin_radius='0.03' mu_static_backward='0.06' mu_dynamic_backward='0.05' viscous_backward='0.03'");
+  all.push_back({"revolute_by_direction",
+                 on_hinge(joint_cases::tree("joint", "revolute", "base", "tip", "1 0 0.5", joint_cases::kOrigin + by_direction)),
+                 "initial_state: {root: {velocity: 1.0}}\n"});
+  return all;
+}
+
+/// Everything else that acts on a mechanism.
+inline std::vector<CoordinatesCase> loads() {
+  const std::string servo =
+      "controllers:\n"
+      "  a: {type: pid, input: shoulder/position, output: shoulder, setpoint: 0.2, gains: {p: 3.0, i: 2.0, d: 0.5}}\n"
+      "  b: {type: pid, input: elbow/position + lower/velocity/x, output: elbow, setpoint: 0.1, gains: {p: 6.0, d: 0.1}}\n";
+  const std::string forces =
+      "loads: [{joint: shoulder, effort: 0.5}, {link: lower, force: [1.0, -2.0, 0.5], torque: [0.1, 0.2, 0.3], point: [0.1, 0, -0.4]},\n"
+      "        {link: upper, force: [0.3, 0.2, -0.5], torque: [0.2, 0, 0.1], point: [0, 0.1, -0.4], frame: link}]\n";
+  const std::string gravity =
+      "controllers:\n"
+      "  hold_reach: {type: pd_gravity, output: reach, setpoint: 0.1, gains: {p: 40.0, d: 3.0}}\n"
+      "  hold_turn: {type: pd_gravity, output: turn, setpoint: 0.4, gains: {p: 10.0, d: 1.0}}\n";
+  const std::string torque =
+      "controllers:\n"
+      "  a: {type: computed_torque, output: shoulder, setpoint: 0.2, gains: {p: 30.0, d: 5.0}}\n"
+      "  b: {type: computed_torque, output: elbow, setpoint: 0.1, gains: {p: 30.0, d: 5.0}}\n";
+  const std::string sampled =
+      "controllers:\n"
+      "  a: {type: pid, input: shoulder/position, output: shoulder, setpoint: 0.2, gains: {p: 3.0, i: 1.0, d: 0.5}, sample_time: 0.01}\n";
+  const std::string limits = "limits: {effort: true, position: true, stiffness: 1.0e3, width: 1.0e-2}\n";
+  return {{"loaded_arm", loaded_arm(), servo + forces, false},
+          {"loaded_arm_within_limits", loaded_arm(), servo + forces + limits, false},
+          {"loaded_arm_sampled", loaded_arm(), sampled, false},
+          {"computed_torque", loaded_arm(), torque, false},
+          {"crane", crane(), "initial_state: {turn: {velocity: 1.0}, ball_x: {position: 0.3}}\n" + gravity, false},
+          {"puck", puck(), "initial_state: {hinge: {position: 0.4}}\n", false},
+          {"spring_pendulum", spring_pendulum(), "initial_state: {hinge: {position: 0.4}}\n", false},
+          {"double_pendulum", double_pendulum(pin_friction()), "initial_state: {shoulder: {position: 1.2}}\n", false}};
+}
+
+}  // namespace joint_coordinates
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_TEST_CASES_JOINT_COORDINATE_CASES_H_
