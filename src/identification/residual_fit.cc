@@ -17,8 +17,10 @@ namespace codesign {
 namespace {
 
 constexpr int kMostPasses = 10;
-constexpr double kWorthOfPrior = 0.1;      // of one residual: the least gain of a step of a fit with a prior
-constexpr double kSpreadTolerance = 1e-3;  // relative change of all spreads at which they count as settled
+constexpr double kLeastWorth = 0.1;        // of one residual: the least gain of a step of a fit with a prior,
+constexpr double kWorthPerNumber = 0.01;   // or this for each number that it finds
+constexpr double kSpreadTolerance = 1e-3;  // relative change of all spreads at which they count as settled,
+constexpr double kSpreadShare = 0.1;       // or this share of the standard deviation of a spread, in a fit with a prior
 constexpr double kLeastSpread = 1e-9;      // of the root mean square at the start: the lower limit of a spread, for exact data
 
 Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
@@ -38,6 +40,12 @@ Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOption
   Eigen::VectorXd spreads = spreads_of(residuals, loss);
   for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
   return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
+}
+
+/// A spread is known from `rows` residuals to 1 / sqrt(2 rows).
+double spread_tolerance(const FitProblem& problem, Eigen::Index rows) {
+  if (problem.prior.size() == 0) return kSpreadTolerance;
+  return std::max(kSpreadTolerance, kSpreadShare / std::sqrt(2.0 * static_cast<double>(rows)));
 }
 
 /// Deviations from what is known before, each over its standard deviation; zero where nothing is known.
@@ -63,6 +71,12 @@ class WeightedCost final : public LeastSquaresModel {
       : problem_(problem), spreads_(spreads), source_(*source), observer_(observer), fit_(*fit) {}
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
+    if (begins_at_best()) {
+      residuals_ = fit_.residuals;
+      jacobian_ = fit_.jacobian;
+      take(x, point);
+      return Outcome::kUsable;
+    }
     const Status status = source_.evaluate(x, &residuals_, &jacobian_);
     if (status.code == StatusCode::kCancelled) return stop(status);
     ++fit_.evaluations;
@@ -74,6 +88,18 @@ class WeightedCost final : public LeastSquaresModel {
       return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
     }
     clear_rounding(x, &jacobian_);
+    take(x, point);
+    trial.cost = point->value;
+    trial.iteration = fit_.iterations;
+    trial.rms = rms_of(residuals_);
+    return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
+  }
+
+  /// Whether the fit begins anew with other spreads at its best point, whose residuals are known. Unknowns of the source's own are not.
+  bool begins_at_best() const { return !is_begun_ && fit_.jacobian.size() > 0 && source_.own_unknowns() == 0; }
+
+ private:
+  void take(const Eigen::VectorXd& x, LeastSquaresPoint* point) {
     const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, problem_.loss);
     const Eigen::VectorXd surprise = surprises(problem_, x);
     point->value = weighted.value + surprise.squaredNorm();
@@ -82,13 +108,8 @@ class WeightedCost final : public LeastSquaresModel {
     point->root = root_with_prior(problem_, weighted.jacobian);
     point->owed = source_.own_promise();
     keep(x, point->value);
-    trial.cost = point->value;
-    trial.iteration = fit_.iterations;
-    trial.rms = rms_of(residuals_);
-    return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
   }
 
- private:
   Outcome stop(const Status& status) {
     fit_.status = status;
     return Outcome::kStop;
@@ -120,11 +141,14 @@ void search(const FitProblem& problem, ResidualSource* source, const FitObserver
   fit->own_unknowns = source->own_unknowns();
   WeightedCost cost(problem, fit->spreads, source, observer, fit);
   LevenbergMarquardtOptions options;
-  options.max_evaluations = std::max(1, problem.max_evaluations - fit->evaluations);
+  options.max_evaluations = std::max(1, problem.max_evaluations - fit->evaluations + (cost.begins_at_best() ? 1 : 0));
   options.relative_tolerance = problem.relative_tolerance;
-  // Along directions that only a prior determines steps gain little; less than a tenth of one residual of the size of the noise is nothing.
-  if (problem.prior.size() > 0)
-    options.relative_tolerance = std::max(options.relative_tolerance, kWorthOfPrior / static_cast<double>(std::max<Eigen::Index>(1, rows)));
+  // Along directions that only a prior determines steps gain little. The cost of the true numbers is above the least one by about their
+  // count, so that a hundredth of that is nothing.
+  if (problem.prior.size() > 0) {
+    const double worth = std::max(kLeastWorth, kWorthPerNumber * static_cast<double>(fit->x.size()));
+    options.relative_tolerance = std::max(options.relative_tolerance, worth / static_cast<double>(std::max<Eigen::Index>(1, rows)));
+  }
   options.largest_first_step = std::numeric_limits<double>::infinity();
   Eigen::VectorXd x = fit->x;
   LeastSquaresPoint best;
@@ -182,7 +206,8 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, con
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
     const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
-    const bool is_settled = ((spreads - fit.spreads).array().abs() <= kSpreadTolerance * spreads.array()).all();
+    const bool is_settled =
+        ((spreads - fit.spreads).array().abs() <= spread_tolerance(problem, fit.residuals.rows()) * spreads.array()).all();
     const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
     fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value + surprises(problem, fit.x).squaredNorm();
     fit.spreads = spreads;

@@ -160,11 +160,12 @@ bool RosenbrockStep<T>::resume(const State<T>& unprojected) {
 template <class T>
 bool RosenbrockStep<T>::project() {
   state_ = end_;
-  if (!projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
+  // Without constraints the corrections are zero and the matrix is not needed.
   if (layout_.m == 0) {
     for (VectorX<T>* correction : {&position_correction_, &velocity_correction_}) correction->setZero(layout_.columns());
     return std::isfinite(value_of(state_.q.sum() + state_.v.sum()));
   }
+  if (!projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
   const auto correct = [this](const VectorX<T>& error, VectorX<T>* correction, VectorX<T>* target) {
     correction->setZero(layout_.columns());
     correction->segment(layout_.n, layout_.m) = -error;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Eigen::Index kMostRootColumns = 40;  // computed for flat directions alone, where gradients go backward
 constexpr double kStartCounts = 1e-3;          // the share of the slope at the start in the scale of (24j)
-constexpr double kMostSlope = 1e-2;            // beyond which a loose tolerance does not let a search end
+constexpr double kMostSlope = 1e-3;            // beyond which a loose tolerance does not let a search end
 constexpr double kLeastMultiplier = 1e-4;      // of that scale, so that to widen a bound by 1 % is worth a millionth
 
 }  // namespace
@@ -104,7 +104,7 @@ void SearchTrials::judge_end(const std::string& failure) {
 }
 
 Optimality SearchTrials::optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
-  Optimality result = optimality(all, rho, scaling_, parameter_rows_, &program_);
+  Optimality result = optimality(all, rho, scaling_, parameter_rows_, &program_, cancel_);
   // The algorithms read the program at the last point.
   if (last_.total.status.ok()) program_.take(last_, last_rho_);
   return result;
@@ -133,6 +133,12 @@ double SearchTrials::most_slope() const { return std::min(kMostSlope, std::sqrt(
 /// Describes the best point as an optimum, or takes the word of success from a search that ended elsewhere.
 void SearchTrials::judge_stop() {
   const Optimality& at_best = best_optimality();
+  if (cancel_ && *cancel_) {
+    // The multipliers may have been cut short.
+    if (!interrupted()) interruption_ = {StatusCode::kCancelled, 0.0, "cancelled"};
+    result_.bound_multipliers.setZero(result_.rho.size());
+    return;
+  }
   result_.slope = at_best.slope;
   result_.stationarity = stationarity();
   // A multiplier far below the objective is what rounding leaves.

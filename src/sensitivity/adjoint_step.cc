@@ -118,6 +118,7 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
 }
 
 void AdjointStep::reverse_projection(const State<double>& start, const RosenbrockStep<double>& step) {
+  if (layout_.m == 0) return;
   const In<double> errors = In<double>(mu_).subspan(layout_.n, layout_.m);
   projected_ = start;
   projected_.q = step.state().q;

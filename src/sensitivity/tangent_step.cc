@@ -196,15 +196,20 @@ template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
   if (keeps_previous_) previous_y_ = y_;
   combine(y_, In<double>(tableau_.weights).first(tableau_.stages), 0, y_);
-  const SparseLu& lu = step.projection_matrix().lu();
   equations_.linearize(step.unprojected(), y_);
+  if (layout_.m > 0) project(step);
+  measure();
+}
+
+template <int N>
+void TangentStep<N>::project(const RosenbrockStep<double>& step) {
+  const SparseLu& lu = step.projection_matrix().lu();
   equations_.constraint_errors(step.unprojected(), y_, &errors_, &rates_);
   project(step.position_correction(), errors_, lu, y_.part(at_.x(), at_.n));
   projected_ = step.unprojected();
   projected_.q = step.state().q;
   equations_.constraint_errors(projected_, y_, &errors_, &rates_);
   project(step.velocity_correction(), rates_, lu, y_.part(at_.v(), at_.n));
-  measure();
 }
 
 template <int N>

@@ -80,6 +80,8 @@ class TangentStep {
   /// Sets point_ to the state of the dense output with its derivatives.
   void go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly);
   void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals);
+  /// Projects the derivatives at the end of a step, (17), as the step does its state.
+  void project(const RosenbrockStep<double>& step);
   void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
 
   const CompiledSystem& system_;

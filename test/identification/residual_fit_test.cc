@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace codesign {
 namespace {
@@ -69,6 +70,21 @@ FitProblem from(double amplitude, double rate) {
 }
 
 Eigen::VectorXd one(double number) { return Eigen::VectorXd::Constant(1, number); }
+
+// With other spreads a fit begins anew where its residuals are known.
+TEST(ResidualFit, NoPointIsEvaluatedTwiceWhenSpreadsChange) {
+  const Eigen::Vector2d factors(1.0, 20.0), noise(0.01, 0.5);
+  Decays source(decay(300, factors, noise), factors);
+  std::vector<Eigen::VectorXd> points;
+  const ResidualFit fit = fit_residuals(from(1.0, 0.2), &source, [&points](const FitTrial& trial) {
+    points.push_back(trial.x);
+    return true;
+  });
+  ASSERT_TRUE(fit.status.ok());
+  EXPECT_EQ(fit.evaluations, static_cast<int>(points.size()));
+  for (std::size_t k = 1; k < points.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) EXPECT_NE(points[k], points[j]) << k << ", " << j;
+}
 
 TEST(ResidualFit, ExactDataAreFoundExactly) {
   Decays source(decay(60, one(1.0), one(0.0)), one(1.0));

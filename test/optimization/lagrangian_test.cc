@@ -77,6 +77,22 @@ TEST(Lagrangian, AutoKeepsAnActiveConstraintAmongParameters) {
   EXPECT_NEAR(automatic.objective, constrained.objective, 1e-6 * constrained.objective);
 }
 
+// Thousands of rows of signals in 24 samples: the work is that of few matrices of the variables.
+TEST(Lagrangian, ManySamplesWithBoundedSignalsTakeFewMatrices) {
+  Conditions conditions(
+      block("path: [{signal: slide/effort, between: [-30, 30]}]\nuncertain: {mu: {uniform: [0.1, 0.5]}, mass: {normal: [2, 0.2]}}\n"
+            "robust: {measure: cvar, level: 0.9, samples: 24}\n"));
+  const Optimality start = conditions.at(conditions.problem.start());
+  EXPECT_GT(conditions.program.inequalities(), 1500);
+  EXPECT_GT(start.slope, 0.0);
+  EXPECT_LT(start.factorizations, 100);
+  const std::atomic<bool> cancel{true};
+  const Eigen::VectorXd rho = conditions.problem.start();
+  const Optimality cancelled =
+      optimality(conditions.ensemble.evaluate(rho, true), rho, conditions.scaling, conditions.parameters, &conditions.program, &cancel);
+  EXPECT_LE(cancelled.factorizations, 3);
+}
+
 // Widening by 1 % of the range is worth what the multiplier says, also where a constraint holds the optimum.
 TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
   const auto tune = [](const std::string& constraint, double upper) {

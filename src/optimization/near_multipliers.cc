@@ -1,0 +1,136 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "optimization/near_multipliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/dense.h"
+
+namespace codesign {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kNoGain = 1e-12;  // a multiplier that would reduce the residual by less is left out
+
+}  // namespace
+
+NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const std::vector<std::size_t>& near,
+                                 const std::atomic<bool>* cancel)
+    : gradient_(gradient), holders_(holders), near_(near), cancel_(cancel), rest_(gradient) {
+  const auto count = static_cast<Index>(near_.size());
+  directions_.setZero(gradient_.size(), count);
+  distances_.resize(count);
+  c_.setZero(count);
+  used_.resize(near_.size());
+  for (Index k = 0; k < count; ++k) {
+    const Holder& one = holder(k);
+    directions_.col(k).head(one.leading.size()) = one.leading;
+    for (const auto& [variable, entry] : one.others) directions_(variable, k) = entry;
+    distances_[k] = one.distance;
+    used_[static_cast<std::size_t>(k)] = one.any_sign || (one.is_on_bound() && directions_.col(k).dot(gradient_) > 0.0);
+  }
+}
+
+void NearMultipliers::minimize(const Eigen::MatrixXd& metric) {
+  free_.clear();
+  factor_.resize(0, 0);
+  settle(metric);
+  for (std::size_t round = 0; round < 3 * near_.size() && add_best(); ++round) settle(metric);
+}
+
+Eigen::VectorXd NearMultipliers::solve(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(x.size()), part = x(free_);
+  factor_.triangularView<Eigen::Upper>().transpose().solveInPlace(part);
+  factor_.triangularView<Eigen::Upper>().solveInPlace(part);
+  result(free_) = part;
+  return result;
+}
+
+void NearMultipliers::balance_bounds(const Eigen::VectorXd& x) {
+  const Eigen::VectorXd rest = x - held();
+  for (Index k = 0; k < c_.size(); ++k)
+    if (used_[static_cast<std::size_t>(k)] && holder(k).is_on_bound()) c_[k] = std::max(0.0, c_[k] + directions_.col(k).dot(rest));
+}
+
+/// Adds the unused multiplier that reduces the residual fastest. False if there is none.
+bool NearMultipliers::add_best() {
+  if (cancel_ && *cancel_) return false;
+  double most = kNoGain * gradient_.norm();
+  Index best = -1;
+  const Eigen::VectorXd gains = directions_.transpose() * rest_;
+  for (Index k = 0; k < gains.size(); ++k) {
+    if (used_[static_cast<std::size_t>(k)]) continue;
+    const double gain = gains[k] / directions_.col(k).norm();
+    if (!(gain > most)) continue;
+    most = gain;
+    best = k;
+  }
+  if (best < 0) return false;
+  used_[static_cast<std::size_t>(best)] = true;
+  return true;
+}
+
+/// Moves the used multipliers towards their least-squares values, dropping those that reach zero on the way.
+void NearMultipliers::settle(const Eigen::MatrixXd& metric) {
+  for (std::size_t round = 0; round <= near_.size(); ++round) {
+    const Eigen::VectorXd target = this->target(metric);
+    double fraction = 1.0;
+    for (Index k = 0; k < c_.size(); ++k)
+      if (may_block(k) && target[k] < 0.0) fraction = std::min(fraction, c_[k] / (c_[k] - target[k]));
+    c_ += fraction * (target - c_);
+    bool dropped = false;
+    for (Index k = 0; k < c_.size(); ++k) {
+      if (!may_block(k) || !(target[k] < 0.0) || c_[k] > kNoGain * (1.0 + std::abs(target[k]))) continue;
+      c_[k] = 0.0;
+      used_[static_cast<std::size_t>(k)] = false;
+      dropped = true;
+    }
+    if (!dropped) return;
+  }
+}
+
+bool NearMultipliers::may_block(Index k) const { return used_[static_cast<std::size_t>(k)] && !holder(k).any_sign; }
+
+/// Decomposes the columns of the free variables, if they have changed.
+void NearMultipliers::factor(const Eigen::MatrixXd& metric) {
+  std::vector<bool> held(static_cast<std::size_t>(gradient_.size()), false);
+  for (Index k = 0; k < c_.size(); ++k)
+    if (used_[static_cast<std::size_t>(k)] && holder(k).is_on_bound()) held[static_cast<std::size_t>(holder(k).others[0].first)] = true;
+  std::vector<int> free;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (!held[i]) free.push_back(static_cast<int>(i));
+  if (free == free_ && factor_.size() > 0) return;
+  free_ = std::move(free);
+  factor_ = upper_factor(metric(Eigen::all, free_));
+  ++factorizations_;
+}
+
+/// The least-squares values of the used multipliers, and 0 for the others. Sets rest_ to theirs.
+Eigen::VectorXd NearMultipliers::target(const Eigen::MatrixXd& metric) {
+  factor(metric);
+  std::vector<Index> columns;
+  for (Index k = 0; k < c_.size(); ++k)
+    if (used_[static_cast<std::size_t>(k)] && !holder(k).is_on_bound()) columns.push_back(k);
+  const auto size = static_cast<Index>(free_.size()), count = static_cast<Index>(columns.size());
+  Eigen::VectorXd target = Eigen::VectorXd::Zero(c_.size());
+  if (count > 0) {
+    Eigen::MatrixXd top(size, count + 1);
+    top << directions_(free_, columns), gradient_(free_);
+    factor_.triangularView<Eigen::Upper>().transpose().solveInPlace(top);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size + count, count), right = Eigen::MatrixXd::Zero(size + count, 1);
+    A.topRows(size) = top.leftCols(count);
+    A.bottomRows(count) = Eigen::VectorXd(distances_(columns)).asDiagonal();
+    right.topRows(size) = top.rightCols(1);
+    target(columns) = least_norm(A).solve(right).col(0);
+  }
+  const Eigen::VectorXd left = gradient_ - directions_ * target;
+  rest_ = solve(left);
+  const Eigen::VectorXd missing = left - metric.transpose() * (metric * rest_);
+  for (Index k = 0; k < c_.size(); ++k)
+    if (used_[static_cast<std::size_t>(k)] && holder(k).is_on_bound()) target[k] = directions_.col(k).dot(missing);
+  return target;
+}
+
+}  // namespace codesign
