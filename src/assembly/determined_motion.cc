@@ -78,8 +78,8 @@ class Motions {
 
   /// Sets state_.q, and v to the velocities for the unit rate of one coordinate.
   void place_unit_motion(int c, VectorX<double>* v) {
-    state_coordinates(system_, tree_, equations_->constants(), unit_motion(c), theta_, VectorX<double>(VectorX<double>::Unit(tree_.size, c)),
-                      &state_.q, v);
+    state_coordinates(system_, tree_, equations_->constants(), unit_motion(c), theta_,
+                      VectorX<double>(VectorX<double>::Unit(tree_.size, c)), &state_.q, v);
   }
 
   // Leaves out coordinates that move no body, and coordinates of folded joints that move the bodies as other coordinates do.

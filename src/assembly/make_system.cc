@@ -145,9 +145,10 @@ std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorksp
 /// (23). @throws InputError if the study asks for joint coordinates.
 Study in_absolute_coordinates(const Study& study, const Redundancy& redundancy) {
   if (study.solver.coordinates == CoordinatesKind::kJoint)
-    throw InputError({study.solver.coordinates_where, "solver.coordinates",
-                      "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
-                      redundancy.rows.front().joint, "auto or absolute"});
+    throw InputError(
+        {study.solver.coordinates_where, "solver.coordinates",
+         "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
+         redundancy.rows.front().joint, "auto or absolute"});
   Study absolute = study;
   absolute.solver.coordinates = CoordinatesKind::kAbsolute;
   return absolute;

@@ -8,11 +8,12 @@
 
 namespace codesign {
 
-// The rows of one free body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the constraint
-// row (p^T p - 1)/2 = 0 with its multiplier.
+// The rows of one free body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the
+// constraint row (p^T p - 1)/2 = 0 with its multiplier.
 
 /// Adds m (r'' - g) + f to the rows of r [N] and 4 G^T J G p'' + 8 G'^T J G p' + K(W) p + lambda p to the rows of p [N m], theory (7), (9).
-/// Does nothing for a body of the forest. Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace` before.
+/// Does nothing for a body of the forest. Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace`
+/// before.
 template <class T>
 void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, VectorX<T>* G) {
   const BodyKinematics<T>& k = view.kinematics[b];

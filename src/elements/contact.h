@@ -26,8 +26,7 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
 template <class T>
 void contact_residual(const StateView<T>& view, Workspace<T>* workspace, int pair, VectorX<T>* G) {
   const ContactFriction<T> c = contact_at(view, pair);
-  for (std::size_t k = 0; k < c.size; ++k)
-    add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[static_cast<Eigen::Index>(k)]), G);
+  for (std::size_t k = 0; k < c.size; ++k) add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[static_cast<Eigen::Index>(k)]), G);
 }
 
 }  // namespace codesign

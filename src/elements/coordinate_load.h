@@ -7,8 +7,8 @@
 
 namespace codesign {
 
-// Loads along the coordinates of joints, theory (8). A load L that opposes a coordinate with the gradient J adds J^T L to the rows of motion:
-// on both bodies if the pair is cut, in the rows of the pair's own coordinates if a body hangs on it, (57).
+// Loads along the coordinates of joints, theory (8). A load L that opposes a coordinate with the gradient J adds J^T L to the rows of
+// motion: on both bodies if the pair is cut, in the rows of the pair's own coordinates if a body hangs on it, (57).
 
 /// The load J^T L on one body of a pair, if that body belongs to the forest: about its centre of mass, in its axes.
 template <class T>

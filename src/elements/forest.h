@@ -17,8 +17,8 @@
 namespace codesign {
 
 // The wrenches that the joints of a forest transmit, and the rows of motion of their coordinates; theory (57). First everything that loads
-// bodies is evaluated, load_bodies(), then the back sweep, children before parents. Without a forest load_bodies() is everything that acts on
-// the bodies, and the back sweep does nothing.
+// bodies is evaluated, load_bodies(), then the back sweep, children before parents. Without a forest load_bodies() is everything that acts
+// on the bodies, and the back sweep does nothing.
 
 /// Adds to G and to the workspace what acts on bodies: rows and multipliers of cut pairs and couplings, spring-dampers, loads on links,
 /// inertia of free bodies, rotors, loads and contacts of cut pairs. @param G zero. @param workspace cleared.
@@ -38,8 +38,8 @@ void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* 
     if (view.layout.is_cut(pair)) contact_residual(view, workspace, pair, G);
 }
 
-/// The wrench that a body of the forest needs for its own motion and loads, without its children: J omega' + omega x J omega, m (r'' - g) and
-/// the loads in the workspace, which are on the left of G.
+/// The wrench that a body of the forest needs for its own motion and loads, without its children: J omega' + omega x J omega, m (r'' - g)
+/// and the loads in the workspace, which are on the left of G.
 template <class T>
 Wrench<T> own_wrench(const StateView<T>& view, const Workspace<T>& workspace, int body) {
   const auto b = static_cast<std::size_t>(body);
@@ -49,8 +49,8 @@ Wrench<T> own_wrench(const StateView<T>& view, const Workspace<T>& workspace, in
   const Matrix3<T> U = m.A.transpose() * load.W;  // its axial vector is the sum of the s x A^T b of (7)
   Wrench<T> wrench = workspace.own[b];
   wrench.force += c.mass * m.acceleration + m.A.transpose() * load.force;
-  wrench.moment += c.J * m.alpha + cross<T>(m.omega, Vector3<T>(c.J * m.omega)) +
-                   Vector3<T>(U(2, 1) - U(1, 2), U(0, 2) - U(2, 0), U(1, 0) - U(0, 1));
+  wrench.moment +=
+      c.J * m.alpha + cross<T>(m.omega, Vector3<T>(c.J * m.omega)) + Vector3<T>(U(2, 1) - U(1, 2), U(0, 2) - U(2, 0), U(1, 0) - U(0, 1));
   return wrench;
 }
 

@@ -21,8 +21,8 @@ void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_
   on_body.W -= view.design.wrenches[k].force * view.design.wrenches[k].point.transpose();
 }
 
-/// Adds the terms that add_link_load() leaves out to the rows of motion of a free body, or to Workspace::own: -2 E^T tau, or, for a load that turns with its link, -A f' on r and -2 G^T (s x f' +
-/// tau') on p.
+/// Adds the terms that add_link_load() leaves out to the rows of motion of a free body, or to Workspace::own: -2 E^T tau, or, for a load
+/// that turns with its link, -A f' on r and -2 G^T (s x f' + tau') on p.
 template <class T>
 void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
   const LinkLoad& load = view.system.link_loads()[k];

@@ -31,10 +31,13 @@ void forest_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3
   if (traits.force == ForceRows::kAcross) *F = Vector3<T>(force[0], force[1], T(0.0));
   if (traits.force == ForceRows::kAlong) (*F)[2] = force[2];
   if (!traits.torque_rows) return;
-  const int torques = traits.rows - (traits.force == ForceRows::kAll ? 3 : traits.force == ForceRows::kAcross ? 2 : traits.force == ForceRows::kAlong ? 1 : 0);
+  const int forces = traits.force == ForceRows::kAll      ? 3
+                     : traits.force == ForceRows::kAcross ? 2
+                     : traits.force == ForceRows::kAlong  ? 1
+                                                          : 0;
   const Vector3<T> moment = in_joint_axes(Vector3<T>(wrench.moment - cross<T>(pair.s_j, wrench.force)));
   for (int k = 0; k < 2; ++k) (*torque)[k] = moment[k];
-  if (torques > 2) (*torque)[2] = moment[2];
+  if (traits.rows - forces > 2) (*torque)[2] = moment[2];
 }
 
 /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, read from the multipliers, theory (11); the child feels -F''

@@ -51,7 +51,7 @@ class BodyMotion {
   mutable ForestMotion<double> forest_;  ///< at the last q and v
   mutable VectorX<double> q_, v_;
   mutable bool is_known_ = false;  ///< whether forest_ belongs to q_, v_ and the design
-  Eigen::VectorXd rest_;                 ///< zeros
+  Eigen::VectorXd rest_;           ///< zeros
 };
 
 /// Work of all forces but gravity over one Rosenbrock step, by Simpson's rule with the method's dense output in the middle of the step.

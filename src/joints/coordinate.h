@@ -64,8 +64,8 @@ Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, cons
 /// @param rate_matrix p -> R(p). @param to_body (A, u) -> u in body axes. @param u_i, u_j fixed in the bodies (G) or in the ground (E),
 /// factor and sign included.
 template <class T, class RateMatrix, class ToBody>
-void angular_rate(const RateMatrix& rate_matrix, const ToBody& to_body, const Vector3<T>& u_i, const Vector3<T>& u_j, const BodyKinematics<T>& i,
-                  const BodyKinematics<T>& j, CoordinateDetail detail, CoordinateMotion<T>* m) {
+void angular_rate(const RateMatrix& rate_matrix, const ToBody& to_body, const Vector3<T>& u_i, const Vector3<T>& u_j,
+                  const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail, CoordinateMotion<T>* m) {
   m->J.setZero();
   m->rate = m->acceleration = T(0.0);
   const auto add = [&](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
@@ -91,9 +91,8 @@ void angular_rate(const RateMatrix& rate_matrix, const ToBody& to_body, const Ve
 template <class T>
 void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
                CoordinateMotion<T>* m) {
-  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); },
-                  [](const Matrix3<T>&, const Vector3<T>& u) { return u; }, Vector3<T>(T(-2.0) * pair.C_i.col(2)),
-                  Vector3<T>(2.0 * pair.C_j.col(2)), i, j, detail, m);
+  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, [](const Matrix3<T>&, const Vector3<T>& u) { return u; },
+                  Vector3<T>(T(-2.0) * pair.C_i.col(2)), Vector3<T>(2.0 * pair.C_j.col(2)), i, j, detail, m);
 }
 
 /// The rate of a turn about a ground axis a, 2 a . (E(p_j) p_j' - E(p_i) p_i').
@@ -101,7 +100,8 @@ template <class T>
 void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
                CoordinateMotion<T>* m) {
   angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); },
-                  [](const Matrix3<T>& A, const Vector3<T>& u) { return Vector3<T>(A.transpose() * u); }, Vector3<T>(T(-2.0) * a), Vector3<T>(2.0 * a), i, j, detail, m);
+                  [](const Matrix3<T>& A, const Vector3<T>& u) { return Vector3<T>(A.transpose() * u); }, Vector3<T>(T(-2.0) * a),
+                  Vector3<T>(2.0 * a), i, j, detail, m);
 }
 
 /// All members except the position for theta = asin(s), with the scalar product s.

@@ -16,8 +16,8 @@ namespace codesign {
 /// The pose and the motion of a body, in its own axes.
 template <class T>
 struct AxesMotion {
-  Matrix3<T> A = Matrix3<T>::Identity();  ///< body axes to ground axes
-  Vector3<T> r = Vector3<T>::Zero();      ///< centre of mass, in ground axes [m]
+  Matrix3<T> A = Matrix3<T>::Identity();                                                             ///< body axes to ground axes
+  Vector3<T> r = Vector3<T>::Zero();                                                                 ///< centre of mass, in ground axes [m]
   Vector3<T> velocity = Vector3<T>::Zero(), omega = Vector3<T>::Zero(), alpha = Vector3<T>::Zero();  ///< of the centre [m/s]; [rad/s]
   Vector3<T> acceleration = Vector3<T>::Zero();  ///< of the centre, less gravity [m/s^2]
   Matrix3<T> N = Matrix3<T>::Zero();             ///< alpha~ + omega~ omega~: N s is the acceleration of a point s relative to the centre
@@ -62,8 +62,8 @@ Matrix3<T> turned(const Vector3<T>& u, const Matrix3<T>& R, const T& angle) {
   return result;
 }
 
-/// The number of turns of a pair, and the axis of one of its coordinates in the axes that move with it: those of body i before the last turn,
-/// and those of body j from the last turn on (of a pair without turns: always). At zero position both differ by R_ij only.
+/// The number of turns of a pair, and the axis of one of its coordinates in the axes that move with it: those of body i before the last
+/// turn, and those of body j from the last turn on (of a pair without turns: always). At zero position both differ by R_ij only.
 template <class T>
 std::size_t turns_of(const PairConstants<T>& pair) {
   std::size_t turns = 0;
@@ -95,7 +95,8 @@ void go_to(const Vector3<T>& s, AxesMotion<T>* m) {
 
 /// The motion of body j from that of body i and the pair's coordinates. @param q, v, a one entry per step of the pair, here and below.
 template <class T>
-AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pair, const T* q, const T* v, const T* a, JointPose<T>* pose) {
+AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pair, const T* q, const T* v, const T* a,
+                         JointPose<T>* pose) {
   AxesMotion<T> m = parent;
   internal::go_to(pair.s_i, &m);
   std::size_t left = internal::turns_of(pair), turn = 0;

@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "joints/local_row.h"
-#include "mechanism/forest.h"
 #include "math/scalar.h"
+#include "mechanism/forest.h"
 
 namespace codesign {
 
@@ -21,8 +21,8 @@ using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, doub
 
 /// The places of all unknowns and equations of a system in its vectors.
 ///
-/// Every body is free, with its centre of mass r and Euler parameters p as coordinates, or hangs on its parent by a pair of the forest, with
-/// that pair's joint coordinates; theory (56). All other pairs are cut: they have constraint rows and multipliers.
+/// Every body is free, with its centre of mass r and Euler parameters p as coordinates, or hangs on its parent by a pair of the forest,
+/// with that pair's joint coordinates; theory (56). All other pairs are cut: they have constraint rows and multipliers.
 ///
 /// Positions are (q, s), rates are z = (a, lambda, sigma), with q' = v, v' = a, s' = sigma. The rows of G have the places of the rates: n
 /// rows of motion, m rows of constraint accelerations, one row per extra state.

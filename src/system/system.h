@@ -71,8 +71,8 @@ class System {
   const std::vector<Controller>& controllers() const { return controllers_; }
   /// Row of Phi of the k-th drive.
   int drive_row(int k) const { return layout_.coupling_row(layout_.couplings - drives_ + k); }
-  /// Why the equations are not in joint coordinates although that was asked for, with the place in the input; empty if they are, or if it was
-  /// not asked for. Of `joint` the constructor throws it.
+  /// Why the equations are not in joint coordinates although that was asked for, with the place in the input; empty if they are, or if it
+  /// was not asked for. Of `joint` the constructor throws it.
   const std::string& why_absolute() const { return why_absolute_; }
   /// Whether a controller has states that do not begin at zero, theory (50), (51).
   bool begins_controllers() const;

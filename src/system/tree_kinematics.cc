@@ -180,13 +180,14 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   const std::vector<Body>& bodies = system.topology().bodies;
   for (VectorX<T>* x : {q, v}) x->resize(kBodySize * static_cast<Eigen::Index>(bodies.size()));
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    place_body(links[static_cast<std::size_t>(bodies[b].base_link)], constants.bodies[b].centre, static_cast<Eigen::Index>(kBodySize * b), q,
-               v);
+    place_body(links[static_cast<std::size_t>(bodies[b].base_link)], constants.bodies[b].centre, static_cast<Eigen::Index>(kBodySize * b),
+               q, v);
 }
 
 template <class T>
-void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links,
-                       const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q, VectorX<T>* v) {
+void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants,
+                       const std::vector<LinkMotion<T>>& links, const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q,
+                       VectorX<T>* v) {
   const Topology& topology = system.topology();
   const Layout& at = system.layout();
   for (VectorX<T>* x : {q, v}) x->resize(at.n);

@@ -79,8 +79,9 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
 /// Coordinates q and velocities v of a state (Layout::n entries each) at theta and theta_rate: those of body_coordinates() for free bodies,
 /// and those of the tree's joints themselves for bodies of the forest, theory (56). @param links the result of link_motions().
 template <class T>
-void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links,
-                       const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q, VectorX<T>* v);
+void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants,
+                       const std::vector<LinkMotion<T>>& links, const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q,
+                       VectorX<T>* v);
 
 }  // namespace codesign
 

@@ -292,6 +292,13 @@ TEST(JointCoordinates, AutoKeepsLongChainsInAbsoluteCoordinates) {
   EXPECT_FALSE(chain(25));
 }
 
+TEST(JointCoordinates, AnUnknownKindIsRefused) {
+  EXPECT_THROW(system_of(double_pendulum(),
+                         "duration: 1.0\nobjective: {integral: [{signal: lower/position/x}]}\n"
+                         "solver: {coordinates: polar}\n"),
+               InputError);
+}
+
 TEST(JointCoordinates, HaveOneCoordinatePerJointAndNoMultipliers) {
   const std::string study = "duration: 1.0\nobjective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: auto}\n";
   const auto system = system_of(double_pendulum(), study);
