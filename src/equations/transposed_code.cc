@@ -122,15 +122,14 @@ void TransposedCode::transpose_design(const std::vector<int>& sum_of) {
 }
 
 const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
   const Transposed& transposed = functions_[which];
-  std::unique_ptr<CompiledFunction>& code = transposed.code[interpreted ? 1 : 0];
-  if (!code) {
+  const std::size_t kind = interpreted ? 1 : 0;
+  std::call_once(transposed.made[kind], [&] {
     const ValueProgram program(numbered_.recording, transposed.task);
-    code = compile_values(numbered_.recording, transposed.task, program, interpreted || interpreted_);
-    code->rows = which == kDesign ? expressions_.size() : transposed.results.size();
-  }
-  return *code;
+    transposed.code[kind] = compile_values(numbered_.recording, transposed.task, program, interpreted || interpreted_);
+    transposed.code[kind]->rows = which == kDesign ? expressions_.size() : transposed.results.size();
+  });
+  return *transposed.code[kind];
 }
 
 }  // namespace codesign

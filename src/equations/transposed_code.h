@@ -55,6 +55,7 @@ class TransposedCode {
     ValueTask task;
     Results results;
     mutable std::array<std::unique_ptr<CompiledFunction>, 2> code;  ///< machine code, interpreted
+    mutable std::array<std::once_flag, 2> made;                     ///< the same
   };
   void find_dependent(const System& system);
   std::vector<bool> targets() const;
@@ -68,7 +69,6 @@ class TransposedCode {
   std::array<Transposed, kFunctions + 1> functions_;
   std::size_t sums_ = 0;
   std::vector<int> expressions_;
-  mutable std::mutex mutex_;
 };
 
 }  // namespace codesign
