@@ -17,7 +17,7 @@ using Arrays = EquationArrays;
 
 // Larger systems are not compiled: their code exceeds the processor's caches and takes seconds to make.
 constexpr int kMostColumns = 4000;
-constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
+constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
 
 constexpr int kTurns = RecordedEquations::kTurns;
 

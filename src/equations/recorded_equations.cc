@@ -75,8 +75,8 @@ void RecordedEquations::record_placement(VectorX<Traced>* q, VectorX<Traced>* v)
   const TreeLayout tree(view.system.robot());
   VectorX<Traced> theta(tree.size), rate(tree.size);
   make_leaves(Arrays::kQ, recording, &theta), make_leaves(Arrays::kV, recording, &rate);
-  state_coordinates(view.system, tree, view.design.constants,
-                    link_motions(view.system.robot(), tree, view.design.parameters, theta, rate), theta, rate, q, v);
+  state_coordinates(view.system, tree, view.design.constants, link_motions(view.system.robot(), tree, view.design.parameters, theta, rate),
+                    theta, rate, q, v);
 }
 
 std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,
