@@ -27,10 +27,9 @@ std::vector<Traced> derive_adjoints(Recording* recording, const std::vector<Adjo
   const auto add = [&](int n, const Traced& x) {
     if (matters[to_index(n)]) adjoints[to_index(n)] = folded(recording, adjoints[to_index(n)] + x);
   };
-  const auto is_zero = [](const Traced& x) { return x.is_literal() && x.value() == 0.0; };
   for (const AdjointSeed& seed : seeds) add(seed.node, seed.weight);
   for (std::size_t n = matters.size(); n-- > 0;) {
-    if ((n < is_target.size() && is_target[n]) || is_zero(adjoints[n])) continue;
+    if ((n < is_target.size() && is_target[n]) || adjoints[n].is(0.0)) continue;
     for (const Partial& partial : partials_of(recording, static_cast<int>(n)))
       add(partial.node, product(recording, adjoints[n], folded(recording, partial.factor)));
     adjoints[n] = Traced(0.0);

@@ -98,12 +98,12 @@ class Accumulation {
   void append(int node, const ValueTask::Output& output, const Parts& parts) {
     TangentProgram::Sum sum{node, output, {}};
     for (const Partial& part : parts) {
-      if (part.factor.is_literal() && part.factor.value() == 0.0) continue;
+      if (part.factor.is(0.0)) continue;
       Traced factor = part.factor;
       const bool negative =
           factor.is_literal() ? factor.value() < 0.0 : recording_->node(factor.node_in(recording_)).operation == Operation::kNegate;
       if (negative) factor = -factor;
-      const bool one = factor.is_literal() && factor.value() == 1.0;
+      const bool one = factor.is(1.0);
       const int factor_node = one ? -1 : factor.node_in(recording_);
       if (!one) program_->factors.push_back(factor_node);
       sum.terms.push_back({part.node, factor_node, !negative});

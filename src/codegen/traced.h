@@ -20,6 +20,8 @@ class Traced {
   Traced(Recording* recording, int node, double value = 0.0) : recording_(recording), node_(node), value_(value) {}
 
   bool is_literal() const { return recording_ == nullptr; }
+  /// Whether it is the literal x.
+  bool is(double x) const { return is_literal() && value_ == x; }
   /// Meaningful for literals and for nodes that do not vary only.
   double value() const { return value_; }
   Recording* recording() const { return recording_; }
@@ -41,8 +43,6 @@ class Traced {
   friend Traced operator/(const Traced& x, const Traced& y);
 
  private:
-  bool is(double x) const { return is_literal() && value_ == x; }
-
   Recording* recording_ = nullptr;
   int node_ = -1;
   double value_ = 0.0;

@@ -31,8 +31,6 @@ int state_column(const Layout& layout, const Recording::Node& node) {
   return node.a == Arrays::kZ ? layout.positions() + layout.n + node.b : -1;
 }
 
-bool is_zero(const Traced& x) { return x.is_literal() && x.value() == 0.0; }
-
 }  // namespace
 
 TransposedCode::TransposedCode(const System& system, const Recording& recorded, const std::vector<RecordedFunction>& functions,
@@ -87,7 +85,7 @@ void TransposedCode::transpose(const System& system, const RecordedFunction& rec
   task.guards = recorded.guards;
   const auto take = [&](const auto& index_of, std::vector<int>* indices) {
     for (std::size_t n = 0; n < adjoints.size(); ++n) {
-      const int index = is_zero(adjoints[n]) ? -1 : index_of(n, recording->node(static_cast<int>(n)));
+      const int index = adjoints[n].is(0.0) ? -1 : index_of(n, recording->node(static_cast<int>(n)));
       if (index < 0) continue;
       task.outputs.push_back({adjoints[n].node_in(recording), {Arrays::kAdjoints, static_cast<int>(results.size())}});
       indices->push_back(index);
@@ -114,7 +112,7 @@ void TransposedCode::transpose_design(const std::vector<int>& sum_of) {
   }
   const std::vector<Traced> adjoints = derive_adjoints(recording, seeds, is_target);
   for (std::size_t n = 0; n < adjoints.size(); ++n) {
-    if (is_zero(adjoints[n])) continue;
+    if (adjoints[n].is(0.0)) continue;
     functions_[kDesign].task.outputs.push_back(
         {adjoints[n].node_in(recording), {Arrays::kAdjoints, static_cast<int>(expressions_.size())}});
     expressions_.push_back(recording->node(static_cast<int>(n)).b);

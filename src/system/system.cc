@@ -2,6 +2,7 @@
 #include "system/system.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "description/tuned_parameters.h"
 #include "mechanism/constants.h"
@@ -59,20 +60,16 @@ std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { retur
 // Drives prescribe motions of absolute coordinates, theory (28), and shared reactions are those of all rows, (23).
 void System::choose_forest() {
   if (study_.solver.coordinates == CoordinatesKind::kAbsolute || drives_ > 0) return;
+  const bool is_asked_for = study_.solver.coordinates == CoordinatesKind::kJoint;
   InputFault fault;
-  const std::string obstacle = forest_obstacle(&fault);
-  if (obstacle.empty()) {
-    layout_.forest = tree_forest(topology_);
-    if (study_.solver.coordinates == CoordinatesKind::kJoint || coupled_coordinates(topology_, layout_.forest) <= kMostCoupled) return;
-    layout_.forest = {};
-    why_absolute_ = "the chains are long, so that the matrices would be dense";
-    return;
+  fault.message = forest_obstacle(&fault);
+  if (fault.message.empty()) {
+    Forest forest = tree_forest(topology_);
+    if (is_asked_for || coupled_coordinates(topology_, forest) <= kMostCoupled) layout_.forest = std::move(forest);
+  } else if (is_asked_for) {
+    fault.allowed = "solver.coordinates: auto or absolute";
+    throw InputError(fault);
   }
-  why_absolute_ = obstacle;
-  if (study_.solver.coordinates != CoordinatesKind::kJoint) return;
-  fault.message = obstacle;
-  fault.allowed = "solver.coordinates: auto or absolute";
-  throw InputError(fault);
 }
 
 /// What keeps the equations from joint coordinates; empty: nothing. @param fault receives its place and value.

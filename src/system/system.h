@@ -71,9 +71,6 @@ class System {
   const std::vector<Controller>& controllers() const { return controllers_; }
   /// Row of Phi of the k-th drive.
   int drive_row(int k) const { return layout_.coupling_row(layout_.couplings - drives_ + k); }
-  /// Why the equations are not in joint coordinates although that was asked for, with the place in the input; empty if they are, or if it
-  /// was not asked for. Of `joint` the constructor throws it.
-  const std::string& why_absolute() const { return why_absolute_; }
   /// Whether a controller has states that do not begin at zero, theory (50), (51).
   bool begins_controllers() const;
   /// One entry per joint coordinate on which anything acts.
@@ -139,7 +136,6 @@ class System {
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
-  std::string why_absolute_;
   std::vector<ResolvedTerm> integral_, terminal_;
   std::vector<Signal> watched_;
 };
