@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "description/tuned_parameters.h"
+#include "math/to_index.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
 #include "system/start_rotations.h"
@@ -91,7 +92,7 @@ std::string System::forest_obstacle(InputFault* fault) const {
     for (const FeedbackTerm& term : controller.feedback) found = found || refused(term.signal, true);
     if (found) return "a controller that reads reactions or friction, or an orientation: not available in joint coordinates";
   }
-  const std::string orientation = "a link's orientation as four Euler parameters: not available in joint coordinates";
+  constexpr const char* orientation = "a link's orientation as four Euler parameters: not available in joint coordinates";
   for (const std::vector<ObjectiveTerm>* terms : {&study_.integral, &study_.terminal})
     for (const ObjectiveTerm& term : *terms)
       if (refused(term.signal, false)) return orientation;
@@ -272,8 +273,7 @@ void System::find_coordinates() {
   }
   layout_.drop_slot = static_cast<int>(layout_.initial_turns.size());
   layout_.initial_turns.resize(layout_.initial_turns.size() + static_cast<std::size_t>(sharing_layout_.misses), 0.0);
-  for (int row : sharing_.dropped)
-    layout_.initial_turns[static_cast<std::size_t>(layout_.drop_slot + sharing_layout_.miss_slot[static_cast<std::size_t>(row)])] = 1.0;
+  for (int row : sharing_.dropped) layout_.initial_turns[to_index(layout_.drop_slot + sharing_layout_.miss_slot[to_index(row)])] = 1.0;
 }
 
 void System::refuse_load(int pair, int element) const {
