@@ -116,8 +116,11 @@ std_srvs::TriggerResponse RunControl::resume() {
 std_srvs::TriggerResponse RunControl::step() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (stopped_ || !running_) return refusal();
-  if (!paused_) return trigger_reply(false, "the run is not paused; call ~pause first");
   if (steps_left_ > 0) return trigger_reply(false, "another ~step has not ended");
+  // A frame that is on its way, such as the first of a run, is none of those that this request asks for.
+  changed_.wait(lock, [this] { return stands_ || !paused_ || !running_ || stopped_; });
+  if (stopped_ || !running_) return refusal();
+  if (!paused_) return trigger_reply(false, "the run is not paused; call ~pause first");
   steps_left_ = step_frames_;
   stands_ = false;
   const std::uint64_t run = runs_;

@@ -56,6 +56,25 @@ TEST(RunControl, StepsOnlyWhilePausedAndAsManyFramesAsAskedFor) {
   EXPECT_FALSE(control.is_paused());
 }
 
+// The node offers its services before the first frame.
+TEST(RunControl, AStepAsksForAFrameAfterTheFirst) {
+  Bell bell;
+  RunControl control(&bell);
+  control.configure(true, 1);
+  control.begin_run();
+  std::thread run([&] {
+    bell.wait(0.05);
+    control.note_frame(0.0);
+    while (control.stand_if_paused()) bell.wait(0.01);
+    control.note_frame(0.1);
+    EXPECT_TRUE(control.stand_if_paused());
+  });
+  const std_srvs::TriggerResponse response = control.step();
+  run.join();
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ(response.message, "t = 0.1 s");
+}
+
 // A frame is being computed when the request comes.
 TEST(RunControl, APauseIsAnsweredWithTheLastFrameThatIsPublished) {
   Bell bell;
