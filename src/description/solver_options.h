@@ -12,7 +12,7 @@ namespace codesign {
 /// sensitivities, (18) and (27).
 enum class IntegratorKind { kRosenbrock, kIdas };
 /// The Rosenbrock-Wanner method; the table in theory (15) lists stages, order and source.
-enum class RosenbrockMethod { kRodas4, kRodas4P2, kRodas5P };
+enum class RosenbrockMethod { kRodas4, kRodas4P2, kRodas5P, kDopri5, kAuto };
 /// The method for the gradient of the objective; with the Rosenbrock integrator only, IDAS always integrates sensitivities.
 enum class GradientMethod {
   kAuto,     ///< the method below with the smaller estimated cost
@@ -29,7 +29,7 @@ enum class CoordinatesKind {
 
 /// The spelling of each enumerator in study files, in the order of the enumerators.
 constexpr std::array<const char*, 2> kIntegratorNames{"rosenbrock", "idas"};
-constexpr std::array<const char*, 3> kRosenbrockMethodNames{"rodas4", "rodas4p2", "rodas5p"};
+constexpr std::array<const char*, 5> kRosenbrockMethodNames{"rodas4", "rodas4p2", "rodas5p", "dopri5", "auto"};
 constexpr std::array<const char*, 3> kGradientMethodNames{"auto", "direct", "adjoint"};
 constexpr std::array<const char*, 3> kCoordinatesNames{"auto", "joint", "absolute"};
 

@@ -160,7 +160,7 @@ std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
   const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings] = evaluation;
   const auto& [code, time, cause] = status;
   const auto& [values, times, gradients] = extremes;
-  const auto& [steps, rejected_steps, cpu_seconds, constraint_drift, energy_error] = statistics;
+  const auto& [steps, rejected_steps, cpu_seconds, constraint_drift, energy_error, explicit_steps] = statistics;
   ByteWriter writer = begin(MessageKind::kResult, number);
   writer.add(code);
   writer.add(time);
@@ -171,7 +171,7 @@ std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
   writer.add_numbers(values);
   writer.add_numbers(times);
   add(gradients, &writer);
-  for (const std::int64_t count : {steps, rejected_steps}) writer.add(count);
+  for (const std::int64_t count : {steps, rejected_steps, explicit_steps}) writer.add(count);
   for (const double value : {cpu_seconds, constraint_drift, energy_error}) writer.add(value);
   writer.add(size_of(warnings.size()));
   for (const Warning& warning : warnings) {
@@ -194,7 +194,8 @@ Evaluation read_result(ByteReader* reader) {
   evaluation.extremes.times = reader->get_numbers<Eigen::VectorXd>();
   evaluation.extremes.gradients = get_matrix(reader);
   Statistics& statistics = evaluation.statistics;
-  for (std::int64_t* count : {&statistics.steps, &statistics.rejected_steps}) *count = reader->get<std::int64_t>();
+  for (std::int64_t* count : {&statistics.steps, &statistics.rejected_steps, &statistics.explicit_steps})
+    *count = reader->get<std::int64_t>();
   for (double* value : {&statistics.cpu_seconds, &statistics.constraint_drift, &statistics.energy_error}) *value = reader->get<double>();
   evaluation.warnings = get_list(reader, get_warning);
   return evaluation;

@@ -276,6 +276,12 @@ void CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* de
 }
 
 template <class T>
+void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) {
+  G->resize(system_.layout().columns());
+  run(EquationFunction::kRates, state, {*G, {g, 1}, derivatives->rate, {}});
+}
+
+template <class T>
 void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);

@@ -48,6 +48,7 @@ class CompiledEquations {
   /// The functions of Equations of the same name.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
   void linearize(const State<T>& state, Linearization<T>* derivatives);
+  void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
 
   /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.

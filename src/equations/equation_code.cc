@@ -86,12 +86,13 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedE
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
     return errors;
   });
-  record(EquationFunction::kLinearization, [&] {
-    const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, equations);
-    return std::vector<VectorX<Traced>>{vector(d.position), vector(d.velocity), vector(d.rate), d.time};
-  });
+  const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, equations);
+  take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
+  take_outputs(EquationFunction::kRates, {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
+  at(EquationFunction::kRates).has_derivatives = false;
   // The derivatives decide nothing: they hold where the residual holds.
-  at(EquationFunction::kLinearization).guards = at(EquationFunction::kResidual).guards;
+  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates})
+    at(function).guards = at(EquationFunction::kResidual).guards;
 }
 
 void EquationCode::record_signals(const System& system, RecordedEquations* equations) {
@@ -177,6 +178,7 @@ void EquationCode::differentiate() const {
   recording = values_.recording;
   derivatives_.tangents.resize(functions_.size());
   for (std::size_t f = 0; f < functions_.size(); ++f) {
+    if (!functions_[f].has_derivatives) continue;
     std::vector<bool> is_leaf(to_index(recording.size()));
     for (int n = 0; n < recording.size(); ++n) is_leaf[to_index(n)] = is_tangent_leaf(recording.node(n));
     derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);

@@ -46,7 +46,8 @@ std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, con
 struct RecordedFunction {
   std::vector<ValueTask::Output> outputs;
   std::vector<Recording::Guard> guards;
-  std::vector<int> columns;  ///< of the gradient of a signal
+  std::vector<int> columns;     ///< of the gradient of a signal
+  bool has_derivatives = true;  ///< whether tangents may be asked for
 };
 
 /// A recording, and the array and index of each of its nodes that the code reads as an input: entries of the state, and numbers that depend

@@ -8,7 +8,7 @@ namespace codesign {
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,   ///< kResidual, kLinearization, kConstraintErrors
+  kMotion,   ///< kResidual, kLinearization, kConstraintErrors, kRates
   kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
   kStart     ///< kPlacement, kTurns and the controllers' functions
 };
@@ -19,6 +19,7 @@ enum class EquationFunction : std::size_t {
   kResidual = 0,      ///< G, g
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
+  kRates,             ///< G, g, G_z; values only
   kMotionEnd,         ///< number of functions of the part
 
   kTerminal = 0,       ///< w

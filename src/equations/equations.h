@@ -40,6 +40,8 @@ class Equations {
   void residual(const State<T>& state, VectorX<T>* G, T* g) { compiled_.residual(state, G, g); }
   /// The derivatives of G and g at a state. @param derivatives of the size of CompiledSystem::patterns(); overwritten.
   void linearize(const State<T>& state, Linearization<T>* derivatives) { compiled_.linearize(state, derivatives); }
+  /// The residual with the part G_z of its derivatives alone, as a solve for z = (a, lambda, sigma) needs them.
+  void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) { compiled_.rates(state, G, g, derivatives); }
   /// Constraint values Phi(q) and rates Phi_q v, both resized to Layout::m. The state's z is not used.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
     compiled_.constraint_errors(state, Phi, Phi_rate);

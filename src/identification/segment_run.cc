@@ -10,7 +10,7 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
   state_.resize(system_.layout());
   groups_.for_each([](auto* group) { group->step.keep_previous(true); });
   const double tolerance = system_.study().solver.sensitivity_tolerance;
-  stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
+  stages_ = [this, tolerance](RosenbrockStep<double>* step) {
     double error = 0.0;
     for_each_group([&](auto* group) {
       group->step.attempt(step);

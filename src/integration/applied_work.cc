@@ -106,31 +106,15 @@ double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, In<
   return power;
 }
 
-// y(1/2) = (y_0 + y_1)/2 + (d_0 + d_1/2 + d_2/4)/4, where y_1 - y_0 and the d_k are linear combinations of the increments u_j.
-StepWork::StepWork(const CompiledSystem& system, const RosenbrockTableau& tableau) {
-  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
-    double dense = 0.0;
-    for (int k = tableau.dense_terms - 1; k >= 0; --k) dense = 0.5 * dense + tableau.dense[static_cast<std::size_t>(k)][j];
-    middle_[j] = 0.5 * tableau.weights[j] + 0.25 * dense;
-  }
-  for (VectorX<double>* part : {&q_, &v_, &a_}) part->setZero(system.layout().n);
-}
-
 void StepWork::start(const State<double>& state, const BodyMotion& motion) { power_ = motion.power(state.q, state.v, state.z); }
 
 double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& motion) {
-  const IncrementLayout& at = step.increment_layout();
-  const State<double>&from = step.previous(), &to = step.state();
-  const auto stages = static_cast<std::ptrdiff_t>(step.stages().size());
-  const auto middle = [&](const VectorX<double>& y, int first, VectorX<double>* part) {
-    combine(In<double>(y).first(at.n), In<double>(middle_).first(stages), step.increments(), first, *part);
-  };
-  middle(from.q, at.x(), &q_);
-  middle(from.v, at.v(), &v_);
-  middle(from.z, at.z(), &a_);
+  const State<double>& to = step.state();
+  double psi = 0.0;
+  step.interpolate(0.5, &middle_, &psi);
   const double begun = power_;
   power_ = motion.power(to.q, to.v, to.z);
-  return step.step_size() / 6.0 * (begun + 4.0 * motion.power(q_, v_, a_) + power_);
+  return step.step_size() / 6.0 * (begun + 4.0 * motion.power(middle_.q, middle_.v, middle_.z) + power_);
 }
 
 }  // namespace codesign

@@ -54,19 +54,18 @@ class BodyMotion {
   Eigen::VectorXd rest_;           ///< zeros
 };
 
-/// Work of all forces but gravity over one Rosenbrock step, by Simpson's rule with the method's dense output in the middle of the step.
+/// Work of all forces but gravity over one step, by Simpson's rule with the method's dense output in the middle of the step.
 class StepWork {
  public:
-  StepWork(const CompiledSystem& system, const RosenbrockTableau& tableau);
+  explicit StepWork(const CompiledSystem& system) { middle_.resize(system.layout()); }
 
   void start(const State<double>& state, const BodyMotion& motion);
   /// Work [J] over the last accepted step. Must be called once for each accepted step: the power at its end is kept for the next one.
   double over(const RosenbrockStep<double>& step, const BodyMotion& motion);
 
  private:
-  RosenbrockTableau::Row middle_{};  ///< y(1/2) = y_0 + sum of middle_j u_j
-  double power_ = 0.0;               ///< at the end of the last step [W]
-  VectorX<double> q_, v_, a_;        ///< in the middle of the step
+  State<double> middle_;  ///< in the middle of the step
+  double power_ = 0.0;    ///< at the end of the last step [W]
 };
 
 }  // namespace codesign

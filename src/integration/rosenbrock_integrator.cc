@@ -17,9 +17,10 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       step_(system, rosenbrock_tableau(options_.method)),
       assembly_(system),
       controller_(step_.tableau().order),
+      choice_(system),
       watch_(system),
       run_watch_(system),
-      work_(system, step_.tableau()),
+      work_(system),
       singularity_(system),
       continuation_(system) {}
 
@@ -36,6 +37,9 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   statistics_ = {};
   clock_.start();
   jump_events_.clear();
+  step_.use(rosenbrock_tableau(options_.method));
+  choice_.start();
+  chooses_ = false;
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
   step_.start(initial_);
@@ -111,6 +115,8 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
 
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
   if (Status status = jump(); !status.ok()) return status;
+  if (chooses_) step_.use(choice_.next(&step_));
+  chooses_ = false;
   const double t = step_.state().t;
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);
   bool singular = false;
@@ -141,22 +147,28 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     }
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
-    if (error <= 1.0 && before_accept) error = std::max(error, before_accept(step_));
+    if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;
       continue;
     }
     // After a step that the limit cut short, the earlier proposal is the better one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
-    ++statistics_.steps;
     if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
-    step_.track_turns();
-    const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
-    singularity_.look(step_.state(), drift, &step_.equations());
-    if (Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_); !status.ok())
-      return judged(status);
-    return judged(watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps));
+    return judged(look());
   }
+}
+
+Status RosenbrockIntegrator::look() {
+  ++statistics_.steps;
+  if (step_.tableau().is_explicit()) ++statistics_.explicit_steps;
+  chooses_ = true;
+  step_.track_turns();
+  const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
+  singularity_.look(step_.state(), drift, &step_.equations());
+  Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_);
+  if (status.ok()) status = watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
+  return status;
 }
 
 }  // namespace codesign

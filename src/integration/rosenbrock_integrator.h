@@ -9,6 +9,7 @@
 #include "integration/break_times.h"
 #include "integration/continuation.h"
 #include "integration/integrator.h"
+#include "integration/method_choice.h"
 #include "integration/motion_watch.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/run_watch.h"
@@ -38,7 +39,7 @@ class RosenbrockIntegrator final : public Integrator {
 
   /// Called for a step whose error is below 1, before RosenbrockStep::accept(); computes the tangent of its stages there. Returns a scaled
   /// error, and the step is rejected if that exceeds 1.
-  using BeforeAccept = std::function<double(const RosenbrockStep<double>&)>;
+  using BeforeAccept = std::function<double(RosenbrockStep<double>*)>;
 
   Status advance(double limit, const BeforeAccept& before_accept);
 
@@ -56,6 +57,8 @@ class RosenbrockIntegrator final : public Integrator {
  private:
   Status begin(const std::vector<double>& parameters);
   double first_step() const;
+  /// Counts and checks a step that was accepted.
+  Status look();
 
   const CompiledSystem& system_;
   const SolverOptions& options_;
@@ -67,6 +70,8 @@ class RosenbrockIntegrator final : public Integrator {
   Assembly assembly_;
   State<double> initial_;
   StepController controller_;
+  MethodChoice choice_;
+  bool chooses_ = false;  ///< whether a step was accepted since the method was chosen
   MotionWatch watch_;
   RunWatch run_watch_;
   StepWork work_;

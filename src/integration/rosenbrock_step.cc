@@ -3,26 +3,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "sparse/row_product.h"
 
 namespace codesign {
+namespace {
+
+template <class T>
+double largest(const VectorX<T>& x) {
+  double size = 0.0;
+  for (const T& entry : x) size = std::max(size, std::abs(entry));
+  return x.allFinite() ? size : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
 template <class T>
 RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const RosenbrockTableau& tableau)
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
-      tableau_(tableau),
+      tableau_(&tableau),
       equations_(system),
       stage_matrix_(system),
       projection_matrix_(system),
       product_(system),
-      increments_(static_cast<std::size_t>(tableau.stages), VectorX<T>::Zero(at_.size())),
-      stages_(static_cast<std::size_t>(tableau.stages)) {
+      increments_(static_cast<std::size_t>(std::max(tableau.stages, most_stages(system.study().solver.method))),
+                  VectorX<T>::Zero(at_.size())),
+      stages_(increments_.size()) {
   derivatives_.resize(system.patterns());
-  for (State<T>* state : {&state_, &previous_, &end_}) state->resize(layout_);
+  for (State<T>* state : {&state_, &previous_, &end_, &first_}) state->resize(layout_);
   for (State<T>& stage : stages_) stage.resize(layout_);
   for (VectorX<T>* z : {&z_, &position_correction_, &velocity_correction_}) z->setZero(layout_.columns());
+  estimate_.setZero(at_.size());
 }
 
 template <class T>
@@ -31,19 +46,41 @@ void RosenbrockStep<T>::start(const State<T>& state, const T& psi) {
   previous_ = state;
   psi_ = previous_psi_ = psi;
   h_ = 0.0;
-  equations_.linearize(state_, &derivatives_);
+  linearize_start();
 }
 
 template <class T>
 void RosenbrockStep<T>::restart(const State<T>& state) {
   state_ = state;
-  equations_.linearize(state_, &derivatives_);
+  linearize_start();
+}
+
+template <class T>
+void RosenbrockStep<T>::linearize_start() {
+  end_ = state_;
+  has_first_ = has_derivatives_ = false;
+  if (tableau_->is_explicit())
+    equations_.rates(state_, &residual_, &first_g_, &derivatives_);
+  else
+    linearize_end();
+}
+
+template <class T>
+void RosenbrockStep<T>::linearize_end() {
+  equations_.linearize(end_, &derivatives_);
+  has_derivatives_ = true;
+}
+
+template <class T>
+void RosenbrockStep<T>::use(const RosenbrockTableau& tableau) {
+  if (tableau_ != &tableau) has_first_ = false;
+  tableau_ = &tableau;
 }
 
 // If the matrix is singular here, the step that needs it reports the failure.
 template <class T>
 void RosenbrockStep<T>::choose_pivots(double h) {
-  const double hg = h * tableau_.gamma;
+  const double hg = h * tableau_->gamma;
   stage_matrix_.forget();
   stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
   projection_matrix_.forget();
@@ -66,11 +103,11 @@ void RosenbrockStep<T>::settle_pivots_as(const RosenbrockStep& other) {
 // of c_ij u_j / h.
 template <class T>
 void RosenbrockStep<T>::stage_start(std::size_t i) {
-  const T hg(h_ * tableau_.gamma);
+  const T hg(h_ * tableau_->gamma);
   const State<T>& stage = stages_[i];
   VectorX<T>& u = increments_[i];
   RosenbrockTableau::Row factors;
-  for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h_;
+  for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_->c[i][j] / h_;
   const auto add = [&](In<T> rate, int first) {
     combine(rate, In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), increments_, first, Out<T>(u).subspan(first, rate.size()));
   };
@@ -88,10 +125,10 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
 template <class T>
 bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   VectorX<T>& u = increments_[i];
-  const T hg(h_ * tableau_.gamma), time_shift(h_ * tableau_.gamma_i[i]);
+  const T hg(h_ * tableau_->gamma), time_shift(h_ * tableau_->gamma_i[i]);
   T g(0.0);
-  combine(at_, state_, In<double>(tableau_.a[i]).first(static_cast<std::ptrdiff_t>(i)), increments_, &stages_[i]);
-  stages_[i].t = state_.t + tableau_.alpha[i] * h_;
+  combine(at_, state_, In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), increments_, &stages_[i]);
+  stages_[i].t = state_.t + tableau_->alpha[i] * h_;
   equations_.residual(stages_[i], &residual_, &g);
   stage_start(i);
   const ByVariable<Sparsity>& patterns = system_.patterns();
@@ -110,23 +147,136 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   return std::isfinite(value_of(u[at_.psi()])) && std::isfinite(value_of(z_.sum()));
 }
 
+// Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z unless friction depends on reactions.
+// Complex numbers converge one part after the other and need G_z anew.
+template <class T>
+bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
+  constexpr bool kIsReal = std::is_same_v<T, double>;
+  constexpr int kMost = 30, kLeast = kIsReal ? 1 : 3;
+  constexpr double kConverged = 1e-14;
+  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
+  const double rounding = system_.compliance() == 0.0 ? 1e-9 : 1e-7;
+  double previous = std::numeric_limits<double>::infinity();
+  bool refresh = true;
+  for (int k = 0; k < kMost; ++k) {
+    if (refresh) equations_.rates(*at, &residual_, g, &derivatives_);
+    if (refresh && !stage_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
+    if (!refresh) equations_.residual(*at, &residual_, g);
+    z_ = -residual_;
+    stage_matrix_.solve(&z_);
+    at->z += z_;
+    const double size = largest(z_) / (1.0 + largest(at->z));
+    if (!std::isfinite(size)) return false;
+    if (k >= kLeast && (size <= kConverged || (size <= rounding && size > 0.25 * previous))) return std::isfinite(value_of(*g));
+    refresh = !kIsReal || size > 0.25 * previous;
+    previous = size;
+  }
+  return false;
+}
+
+template <class T>
+void RosenbrockStep<T>::take_rates(std::size_t i, const T& g) {
+  const State<T>& stage = stages_[i];
+  VectorX<T>& u = increments_[i];
+  const T h(h_);
+  u.segment(at_.x(), at_.n) = h * stage.v;
+  u.segment(at_.s(), at_.states) = h * stage.z.tail(at_.states);
+  u.segment(at_.v(), at_.n) = h * stage.z.head(at_.n);
+  u.segment(at_.z(), at_.z_size) = stage.z - state_.z;
+  u[at_.psi()] = h * g;
+}
+
+template <class T>
+double RosenbrockStep<T>::stiffness() const {
+  const VectorX<T>&last = increments_[count() - 1], &before = increments_[count() - 2];
+  const State<T>&at = stages_[count() - 1], &from = stages_[count() - 2];
+  const int states = at_.z();
+  double rates = 0.0;
+  for (int k = 0; k < states; ++k) rates += std::norm(last[k] - before[k]);
+  const auto distance = [](const VectorX<T>& x, const VectorX<T>& y) {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < x.size(); ++k) sum += std::norm(x[k] - y[k]);
+    return sum;
+  };
+  const double change = distance(at.q, from.q) + distance(at.v, from.v) + distance(at.s, from.s);
+  return change > 0.0 ? std::sqrt(rates / change) : 0.0;
+}
+
+// One product with f_y: q' = v, (v', s') = the parts (a, sigma) of -G_z^-1 (G_q q + G_v v + G_s s).
+template <>
+double RosenbrockStep<double>::spectral_radius(VectorX<double>* direction) {
+  constexpr int kProducts = 2;
+  if (!projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return 0.0;
+  VectorX<double>& w = *direction;
+  const int size = at_.z();
+  double growth = 1.0;
+  for (int k = 0; k < kProducts; ++k) {
+    w.head(size) /= w.head(size).norm();
+    z_.setZero();
+    product_.subtract(derivatives_, In<double>(w).first(size), z_);
+    projection_matrix_.solve(&z_);
+    w.segment(at_.x(), at_.n) = w.segment(at_.v(), at_.n);
+    w.segment(at_.v(), at_.n) = z_.head(at_.n);
+    w.segment(at_.s(), at_.states) = z_.tail(at_.states);
+    growth *= w.head(size).norm();
+  }
+  return std::sqrt(growth);
+}
+
+// The last stage is at the end of the step, and without constraints the first stage of the next one.
+template <class T>
+bool RosenbrockStep<T>::attempt_explicitly() {
+  if (!has_first_) first_ = state_;
+  if (!has_first_ && !solve_rates(&first_, &first_g_)) return false;
+  has_first_ = true;
+  has_derivatives_ = false;
+  first_.turns = state_.turns;
+  stages_[0] = first_;
+  take_rates(0, first_g_);
+  for (std::size_t i = 1; i < count(); ++i) {
+    const In<double> factors = In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i));
+    State<T>& stage = stages_[i];
+    combine(state_.q, factors, increments_, at_.x(), stage.q);
+    combine(state_.s, factors, increments_, at_.s(), stage.s);
+    combine(state_.v, factors, increments_, at_.v(), stage.v);
+    stage.z = stages_[i - 1].z;
+    stage.t = state_.t + tableau_->alpha[i] * h_;
+    stage.turns = state_.turns;
+    if (!solve_rates(&stage, &last_g_)) return false;
+    take_rates(i, last_g_);
+  }
+  end_ = stages_[count() - 1];
+  estimate_.setZero();
+  combine(estimate_, In<double>(tableau_->estimate).first(tableau_->stages), increments_, 0, estimate_);
+  return std::isfinite(value_of(estimate_.sum()));
+}
+
+template <class T>
+bool RosenbrockStep<T>::factor_stage(std::size_t i) {
+  T g(0.0);
+  equations_.rates(stages_[i], &residual_, &g, &derivatives_);
+  return stage_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+}
+
 template <class T>
 bool RosenbrockStep<T>::attempt(double h) {
-  const double hg = h * tableau_.gamma;
+  const double hg = h * tableau_->gamma;
   h_ = h;
+  if (tableau_->is_explicit()) return attempt_explicitly();
+  if (!has_derivatives_) linearize_end();
   if (!stage_matrix_.factor(derivatives_, hg, hg * hg, hg)) return false;
   for (State<T>& stage : stages_) stage.turns = state_.turns;
   end_.turns = state_.turns;
-  for (std::size_t i = 0; i < stages_.size(); ++i)
+  for (std::size_t i = 0; i < count(); ++i)
     if (!solve_stage(i)) return false;
-  combine(at_, state_, In<double>(tableau_.weights).first(tableau_.stages), increments_, &end_);
+  combine(at_, state_, In<double>(tableau_->weights).first(tableau_->stages), increments_, &end_);
   end_.t = state_.t + h;
   return true;
 }
 
 template <class T>
 double RosenbrockStep<T>::error(double relative_tolerance, double absolute_tolerance) const {
-  const VectorX<T>& estimate = increments_.back();
+  const VectorX<T>& estimate = tableau_->is_explicit() ? estimate_ : increments_[count() - 1];
   double largest = 0.0;
   const auto add = [&](int first, const VectorX<T>& from, const VectorX<T>& to) {
     for (Eigen::Index k = 0; k < from.size(); ++k) {
@@ -144,15 +294,29 @@ template <class T>
 bool RosenbrockStep<T>::accept() {
   previous_ = state_;
   previous_psi_ = psi_;
-  for (std::size_t j = 0; j < increments_.size(); ++j) psi_ += T(tableau_.weights[j]) * increments_[j][at_.psi()];
-  equations_.linearize(end_, &derivatives_);
-  return project();
+  for (std::size_t j = 0; j < count(); ++j) psi_ += T(tableau_->weights[j]) * increments_[j][at_.psi()];
+  if (tableau_->is_explicit() && layout_.m == 0) {
+    first_ = end_;
+    first_g_ = last_g_;
+    return project();
+  }
+  return finish();
 }
 
 template <class T>
 bool RosenbrockStep<T>::resume(const State<T>& unprojected) {
   end_ = unprojected;
-  equations_.linearize(end_, &derivatives_);
+  return finish();
+}
+
+template <class T>
+bool RosenbrockStep<T>::finish() {
+  has_first_ = has_derivatives_ = false;
+  T g(0.0);
+  if (!tableau_->is_explicit())
+    linearize_end();
+  else if (layout_.m > 0)
+    equations_.rates(end_, &residual_, &g, &derivatives_);
   return project();
 }
 
@@ -189,23 +353,30 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
   blend(previous_.s, state_.s, &state->s);
   blend(previous_.z, state_.z, &state->z);
   *psi = left * previous_psi_ + right * psi_;
-  const RosenbrockTableau::Row weights = dense_weights(tableau_, theta);
-  for (std::size_t j = 0; j < increments_.size(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
-  combine(at_, *state, In<double>(weights).first(tableau_.stages), increments_, state);
+  const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
+  for (std::size_t j = 0; j < count(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
+  combine(at_, *state, In<double>(weights).first(tableau_->stages), increments_, state);
+  if (tableau_->is_explicit())
+    combine(previous_.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), increments_, at_.z(), state->z);
   state->t = previous_.t + theta * h_;
 }
 
 template <class T>
 void RosenbrockStep<T>::interpolate_rates(double theta, State<T>* rates) const {
   const T per_time(1.0 / h_);
-  RosenbrockTableau::Row weights = dense_weight_slopes(tableau_, theta);
+  RosenbrockTableau::Row weights = dense_weight_slopes(*tableau_, theta);
   for (double& weight : weights) weight /= h_;
   rates->t = previous_.t + theta * h_;
   rates->q = per_time * (state_.q - previous_.q);
   rates->v = per_time * (state_.v - previous_.v);
   rates->s = per_time * (state_.s - previous_.s);
   rates->z = per_time * (state_.z - previous_.z);
-  combine(at_, *rates, In<double>(weights).first(tableau_.stages), increments_, rates);
+  combine(at_, *rates, In<double>(weights).first(tableau_->stages), increments_, rates);
+  if (!tableau_->is_explicit()) return;
+  weights = dense_weight_curvatures(*tableau_, theta);
+  for (double& weight : weights) weight /= h_;
+  rates->z.setZero();
+  combine(rates->z, In<double>(weights).first(tableau_->stages), increments_, at_.z(), rates->z);
 }
 
 template class RosenbrockStep<double>;

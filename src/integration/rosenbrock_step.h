@@ -18,6 +18,9 @@ namespace codesign {
 /// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all stages, (16).
 /// After an accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0. Projection and next step use the derivatives at the unprojected
 /// point, so that a step needs one linearization.
+///
+/// An explicit pair, (15b), needs none: each of its stages solves G = 0 for z at the stage's q, v and s. The increments are u_x = h (v,
+/// sigma), u_v = h a, u_psi = h g and u_z = z_i - z, where z belongs to the beginning of the step.
 /// @tparam T double for the solution, std::complex<double> to check its derivatives.
 template <class T>
 class RosenbrockStep {
@@ -26,7 +29,9 @@ class RosenbrockStep {
 
   Equations<T>& equations() { return equations_; }
   const Equations<T>& equations() const { return equations_; }
-  const RosenbrockTableau& tableau() const { return tableau_; }
+  const RosenbrockTableau& tableau() const { return *tableau_; }
+  /// Takes another method from the next attempt on. @param tableau must outlive this.
+  void use(const RosenbrockTableau& tableau);
 
   /// Starts a solution at a consistent state. equations() must hold the design. @param psi integral of g before it
   void start(const State<T>& state, const T& psi = T(0.0));
@@ -58,6 +63,16 @@ class RosenbrockStep {
   const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
   const T& psi() const { return psi_; }             ///< integral of g so far
   double step_size() const { return h_; }           ///< of the last attempt [s]
+  /// An estimate of the largest |eigenvalue| of the equations at the end of the last step of a Rosenbrock method [1/s], by two steps of the
+  /// power method, which damped and undamped oscillations need. @param direction begins with any vector but zero, in the order of
+  /// IncrementLayout; holds the eigenvector's estimate. 0 if the matrix is singular.
+  double spectral_radius(VectorX<double>* direction);
+  /// Of an explicit pair: h times an estimate of the largest |eigenvalue| of the equations from the last two stages, which both are at the
+  /// end of the last attempt (Hairer and Wanner, Solving ODE II, IV.2). The pair is stable up to 3.3.
+  double stiffness() const;
+
+  /// Explicit pairs: factors G_z at stage i of the last attempt, for derivatives().rate and stage_matrix(). False if it is singular.
+  bool factor_stage(std::size_t i);
 
   // The parts of a step that its tangent and adjoint use.
   const IncrementLayout& increment_layout() const { return at_; }
@@ -78,14 +93,25 @@ class RosenbrockStep {
   void interpolate_rates(double theta, State<T>* rates) const;
 
  private:
+  /// The derivatives with which a step begins at state().
+  void linearize_start();
+  /// The derivatives with which a step of a Rosenbrock method begins, at end_.
+  void linearize_end();
+  bool attempt_explicitly();
+  std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
+  /// Solves G = 0 for the z of a state, beginning with the z that it has. @param g integrand there.
+  bool solve_rates(State<T>* at, T* g);
+  void take_rates(std::size_t i, const T& g);
   void stage_start(std::size_t i);
   bool solve_stage(std::size_t i);
+  /// Computes what the end of a step needs of the derivatives at end_, and projects.
+  bool finish();
   bool project();
 
   const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
-  const RosenbrockTableau& tableau_;
+  const RosenbrockTableau* tableau_;
   Equations<T> equations_;
   StageMatrix<T> stage_matrix_, projection_matrix_;
   StageProduct product_;
@@ -94,7 +120,11 @@ class RosenbrockStep {
   T psi_{0.0}, previous_psi_{0.0};
   std::vector<VectorX<T>> increments_;
   std::vector<State<T>> stages_;
-  VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_, velocity_correction_;
+  State<T> first_;  ///< of an explicit pair: the first stage of the next attempt, if has_first_
+  T first_g_{0.0}, last_g_{0.0};
+  bool has_first_ = false;
+  bool has_derivatives_ = false;  ///< whether derivatives_ are those at end_, where the next step begins
+  VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_, velocity_correction_, estimate_;
   double h_ = 0.0;
 };
 

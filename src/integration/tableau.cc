@@ -103,6 +103,38 @@ const RosenbrockTableau& rodas5p() {
   return tableau;
 }
 
+const RosenbrockTableau& dopri5() {
+  constexpr RosenbrockTableau::Row kWeights{35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0};
+  // d_j of the code DOPRI5.
+  constexpr RosenbrockTableau::Row kDense{-12715105075.0 / 11282082432.0,  0.0,
+                                          87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
+                                          701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
+                                          69997945.0 / 29380423.0};
+  static const RosenbrockTableau tableau = [&] {
+    RosenbrockTableau t{};
+    t.name = "dopri5", t.stages = 7, t.order = 5;
+    t.a = {{{},
+            {1.0 / 5.0},
+            {3.0 / 40.0, 9.0 / 40.0},
+            {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+            {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+            {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
+            kWeights}};
+    t.weights = kWeights;
+    t.alpha = {0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0};
+    t.estimate = {71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
+    t.dense_terms = 3;
+    for (std::size_t j = 0; j < 7; ++j) {
+      const double first = j == 0 ? 1.0 : 0.0, last = j == 6 ? 1.0 : 0.0;
+      t.dense[0][j] = first - kWeights[j];
+      t.dense[1][j] = 2.0 * kWeights[j] - first - last + kDense[j];
+      t.dense[2][j] = -kDense[j];
+    }
+    return t;
+  }();
+  return tableau;
+}
+
 RosenbrockTableau::Row dense_weights(const RosenbrockTableau& tableau, double theta) {
   RosenbrockTableau::Row weights{};
   for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
@@ -126,16 +158,37 @@ RosenbrockTableau::Row dense_weight_slopes(const RosenbrockTableau& tableau, dou
   return slopes;
 }
 
+RosenbrockTableau::Row dense_weight_curvatures(const RosenbrockTableau& tableau, double theta) {
+  RosenbrockTableau::Row curvatures{};
+  const auto& d = tableau.dense;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j)
+    curvatures[j] = 2.0 * (d[1][j] - d[0][j]) + theta * (6.0 * (d[2][j] - d[1][j]) - theta * 12.0 * d[2][j]);
+  return curvatures;
+}
+
+RosenbrockTableau::Row rate_weights(const RosenbrockTableau& tableau, double theta) {
+  RosenbrockTableau::Row weights = dense_weight_slopes(tableau, theta);
+  for (std::size_t j = 0; j < weights.size(); ++j) weights[j] += tableau.weights[j];
+  return weights;
+}
+
 const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method) {
   switch (method) {
     case RosenbrockMethod::kRodas4P2:
       return rodas4p2();
     case RosenbrockMethod::kRodas5P:
       return rodas5p();
+    case RosenbrockMethod::kDopri5:
+    case RosenbrockMethod::kAuto:
+      return dopri5();
     case RosenbrockMethod::kRodas4:
       break;
   }
   return rodas4();
+}
+
+int most_stages(RosenbrockMethod method) {
+  return method == RosenbrockMethod::kAuto ? rodas5p().stages : rosenbrock_tableau(method).stages;
 }
 
 }  // namespace codesign

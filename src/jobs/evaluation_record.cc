@@ -82,13 +82,16 @@ StatusCode code_of(const std::string& name) {
 }
 
 Json statistics_json(const Statistics& statistics) {
-  const auto& [steps, rejected, seconds, drift, energy] = statistics;
-  return Json::array({steps, rejected, exact(seconds), exact(drift), exact(energy)});
+  const auto& [steps, rejected, seconds, drift, energy, explicit_steps] = statistics;
+  return Json::array({steps, rejected, exact(seconds), exact(drift), exact(energy), explicit_steps});
 }
 
+// Journals of version 0.1.0 have no explicit steps.
 Statistics statistics_of(const Json& array) {
-  return {array.at(0).get<std::int64_t>(), array.at(1).get<std::int64_t>(), number_of(array.at(2)), number_of(array.at(3)),
-          number_of(array.at(4))};
+  constexpr std::size_t kOldSize = 5;
+  return {array.at(0).get<std::int64_t>(), array.at(1).get<std::int64_t>(),
+          number_of(array.at(2)),          number_of(array.at(3)),
+          number_of(array.at(4)),          array.size() > kOldSize ? array.at(kOldSize).get<std::int64_t>() : 0};
 }
 
 Warnings warnings_of(const Json& array) {

@@ -56,6 +56,7 @@ Json to_json(const Warnings& warnings) {
 void add_statistics(const Statistics& statistics, Json* object) {
   (*object)["steps"] = statistics.steps;
   (*object)["rejected_steps"] = statistics.rejected_steps;
+  (*object)["explicit_steps"] = statistics.explicit_steps;
   (*object)["cpu_seconds"] = statistics.cpu_seconds;
   (*object)["constraint_drift"] = statistics.constraint_drift;
   (*object)["energy_error"] = statistics.energy_error;

@@ -25,7 +25,7 @@ Json to_json(const std::vector<LimitCrossing>& crossings);
 Json to_json(const Status& status);
 /// `[{code, message, file, line}]`
 Json to_json(const Warnings& warnings);
-/// Sets `steps`, `rejected_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
+/// Sets `steps`, `rejected_steps`, `explicit_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
 void add_statistics(const Statistics& statistics, Json* object);
 /// Sets `counts` for the design at `parameters`, if it can be assembled.
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);

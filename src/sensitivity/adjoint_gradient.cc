@@ -28,13 +28,14 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
     back_->replay.settle_pivots_as(integrator_.step());
   }
   back_->path.clear();
-  back_->path.append(0.0, integrator_.initial_state());
+  back_->path.append(0.0, integrator_.step().tableau(), integrator_.initial_state());
   return status;
 }
 
 Status AdjointGradient::advance(double limit) {
   Status status = integrator_.advance(limit);
-  if (status.ok() && with_gradient_) back_->path.append(integrator_.step().step_size(), integrator_.step().unprojected());
+  const RosenbrockStep<double>& step = integrator_.step();
+  if (status.ok() && with_gradient_) back_->path.append(step.step_size(), step.tableau(), step.unprojected());
   return status;
 }
 
@@ -53,6 +54,7 @@ void AdjointGradient::prepare() {
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
   back_->adjoint.start(parameters, adjoint);
   back_->replay.equations().set_design(parameters);
+  back_->replay.use(back_->path.tableau(0));
   back_->replay.start(integrator_.initial_state());
   back_->replay.choose_pivots(back_->path.size() > 1 ? back_->path.step_size(1) : integrator_.step().step_size());
 }
@@ -60,6 +62,7 @@ void AdjointGradient::prepare() {
 /// Continues the solution at point k, which `point` holds.
 bool AdjointGradient::take_up(int k) {
   RosenbrockStep<double>& step = back_->replay;
+  if (k + 1 < back_->path.size()) step.use(back_->path.tableau(k + 1));
   if (k == 0) {
     step.start(back_->point);
   } else if (!step.resume(back_->point)) {
@@ -97,10 +100,10 @@ bool AdjointGradient::replay(int k) {
 bool AdjointGradient::step_back(int k) {
   AdjointStep& adjoint = back_->adjoint;
   if (!reach(k) || !replay(k)) return false;
-  const RosenbrockStep<double>& step = back_->replay;
+  RosenbrockStep<double>& step = back_->replay;
   const bool has_stages = k + 1 < back_->path.size(), is_projected = k > 0;
   adjoint.clear();
-  if (has_stages) adjoint.reverse_stages(step);
+  if (has_stages) adjoint.reverse_stages(&step);
   if (is_projected) adjoint.reverse_projection(back_->point, step);
   adjoint.reverse_matrices(back_->point);
   return true;

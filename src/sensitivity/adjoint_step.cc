@@ -7,9 +7,9 @@ AdjointStep::AdjointStep(const CompiledSystem& system, const RosenbrockTableau& 
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
-      tableau_(tableau),
+      tableau_(&tableau),
       equations_(system),
-      weights_(system, tableau.stages + 2),
+      weights_(system, RosenbrockTableau::kMaximumStages + 2),
       adjoint_(VectorX<double>::Zero(at_.size())),
       start_adjoint_(adjoint_),
       stage_adjoint_(adjoint_),
@@ -19,7 +19,7 @@ AdjointStep::AdjointStep(const CompiledSystem& system, const RosenbrockTableau& 
       time_weights_(VectorX<double>::Zero(at_.z_size + 1)),
       mu_(time_weights_),
       no_errors_(VectorX<double>::Zero(layout_.m)),
-      increment_adjoints_(static_cast<std::size_t>(tableau.stages), adjoint_) {}
+      increment_adjoints_(RosenbrockTableau::kMaximumStages, adjoint_) {}
 
 void AdjointStep::start(const std::vector<double>& parameters, const VectorX<double>& adjoint) {
   equations_.set_design(parameters);
@@ -44,7 +44,7 @@ void AdjointStep::add_products(const Linearization<double>& derivatives, RowRang
 // Reverses u_psi = h gamma (g + Sigma_psi + g_y u).
 void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = mu_;
-  mu[at_.z_size] = step.step_size() * tableau_.gamma * u[at_.psi()];
+  mu[at_.z_size] = step.step_size() * tableau_->gamma * u[at_.psi()];
   sum_adjoint_.setZero();
   sum_adjoint_[at_.psi()] = mu[at_.z_size];
   add_products(step.derivatives(), {at_.z_size, at_.z_size + 1}, mu, &u);
@@ -54,7 +54,7 @@ void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>&
 // u_sigma.
 void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = mu_;
-  const double hg = step.step_size() * tableau_.gamma;
+  const double hg = step.step_size() * tableau_->gamma;
   z_ = u.segment(at_.z(), at_.z_size);
   z_.head(at_.n) += hg * u.segment(at_.v(), at_.n) + hg * hg * u.segment(at_.x(), at_.n);
   z_.tail(at_.states) += hg * u.segment(at_.s(), at_.states);
@@ -89,19 +89,53 @@ void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& ste
   start_adjoint_ += stage_adjoint_;
   const double inverse_h = 1.0 / step.step_size();
   for (std::size_t j = 0; j < i; ++j)
-    increment_adjoints_[j] += tableau_.a[i][j] * stage_adjoint_ + (tableau_.c[i][j] * inverse_h) * sum_adjoint_;
+    increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_ + (tableau_->c[i][j] * inverse_h) * sum_adjoint_;
 }
 
-void AdjointStep::reverse_stages(const RosenbrockStep<double>& step) {
-  for (std::size_t i = 0; i < increment_adjoints_.size(); ++i) increment_adjoints_[i] = tableau_.weights[i] * adjoint_;
+// Reverses u_x = h (v, sigma), u_v = h a, u_psi = h g, and y_1 = y + sum_j m_j u_j but for z_1, which is z of the last stage; G = 0 gives
+// z of each stage.
+void AdjointStep::reverse_explicitly(RosenbrockStep<double>* step) {
+  const double h = step->step_size();
+  const int z_size = at_.z_size;
+  for (std::size_t i = 0; i < count(); ++i) increment_adjoints_[i] = tableau_->weights[i] * adjoint_;
   start_adjoint_ = adjoint_;
-  for (std::size_t i = increment_adjoints_.size(); i-- > 0;) {
+  start_adjoint_.segment(at_.z(), z_size).setZero();
+  for (std::size_t i = count(); i-- > 0;) {
+    const VectorX<double>& u = increment_adjoints_[i];
+    step->factor_stage(i);
+    z_.setZero();
+    if (i + 1 == count()) z_ = adjoint_.segment(at_.z(), z_size);
+    z_.head(at_.n) += h * u.segment(at_.v(), at_.n);
+    z_.tail(at_.states) += h * u.segment(at_.s(), at_.states);
+    mu_[z_size] = h * u[at_.psi()];
+    add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1}, 1.0, mu_, z_);
+    step->stage_matrix().lu().solve_transposed_rows<1>(z_);
+    mu_.head(z_size) = -z_;
+    stage_adjoint_.setZero();
+    stage_adjoint_.segment(at_.v(), at_.n) = h * u.segment(at_.x(), at_.n);
+    const In<double> mu = mu_;
+    equations_.add_transposed(EquationFunction::kResidual, step->stages()[i], {mu.first(z_size), mu.subspan(z_size, 1), {}, {}},
+                              stage_adjoint_);
+    stage_adjoint_.segment(at_.z(), z_size).setZero();
+    start_adjoint_ += stage_adjoint_;
+    for (std::size_t j = 0; j < i; ++j) increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_;
+  }
+  adjoint_ = start_adjoint_;
+}
+
+void AdjointStep::reverse_stages(RosenbrockStep<double>* explicit_step) {
+  tableau_ = &explicit_step->tableau();
+  if (tableau_->is_explicit()) return reverse_explicitly(explicit_step);
+  const RosenbrockStep<double>& step = *explicit_step;
+  for (std::size_t i = 0; i < count(); ++i) increment_adjoints_[i] = tableau_->weights[i] * adjoint_;
+  start_adjoint_ = adjoint_;
+  for (std::size_t i = count(); i-- > 0;) {
     reverse_integrand(i, step);
     reverse_solve(i, step);
-    reverse_elimination(i, step.step_size() * tableau_.gamma);
+    reverse_elimination(i, step.step_size() * tableau_->gamma);
     reverse_point(i, step);
     weights_.set(static_cast<int>(i), step.increments()[i], mu_);
-    time_weights_ += step.step_size() * tableau_.gamma_i[i] * mu_;
+    time_weights_ += step.step_size() * tableau_->gamma_i[i] * mu_;
   }
   adjoint_ = start_adjoint_;
 }
@@ -114,7 +148,7 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
   mu_.head(at_.z_size) = -z_;
   mu_[at_.z_size] = 0.0;
   direction_.segment(at_.z(), at_.z_size) = correction;
-  weights_.set(tableau_.stages + pair, direction_, mu_);
+  weights_.set(RosenbrockTableau::kMaximumStages + pair, direction_, mu_);
 }
 
 void AdjointStep::reverse_projection(const State<double>& start, const RosenbrockStep<double>& step) {
@@ -129,6 +163,7 @@ void AdjointStep::reverse_projection(const State<double>& start, const Rosenbroc
 }
 
 void AdjointStep::reverse_matrices(const State<double>& start) {
+  if (tableau_->is_explicit() && layout_.m == 0) return;
   const ByVariable<std::vector<double>>& weights = weights_.compute();
   equations_.add_transposed(EquationFunction::kLinearization, start, {weights.position, weights.velocity, weights.rate, time_weights_},
                             adjoint_);

@@ -23,8 +23,9 @@ class AdjointStep {
   /// @param adjoint psi_y at the end of the last step, in the order of IncrementLayout, with 1 for psi.
   void start(const std::vector<double>& parameters, const VectorX<double>& adjoint);
 
-  /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start.
-  void reverse_stages(const RosenbrockStep<double>& step);
+  /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start. @param step of an explicit pair receives
+  /// the factorization of a stage.
+  void reverse_stages(RosenbrockStep<double>* step);
   /// Reverses the projection of `start`, the unprojected start of the step, as made by RosenbrockStep::resume(start).
   void reverse_projection(const State<double>& start, const RosenbrockStep<double>& step);
   /// Adds Theta_y of (18c): the dependence of stages and projection on `start` through the matrices evaluated there.
@@ -40,6 +41,8 @@ class AdjointStep {
   void clear();
 
  private:
+  std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
+  void reverse_explicitly(RosenbrockStep<double>* step);
   void reverse_integrand(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_solve(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_elimination(std::size_t i, double hg);
@@ -50,7 +53,7 @@ class AdjointStep {
   const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
-  const RosenbrockTableau& tableau_;
+  const RosenbrockTableau* tableau_;  ///< of the step that is reversed
   CompiledEquations<double> equations_;
   MatrixWeights weights_;
   VectorX<double> adjoint_, start_adjoint_, stage_adjoint_, sum_adjoint_, z_, direction_;

@@ -22,14 +22,19 @@ using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
 /// Records the step sizes of an integration with sensitivities.
+struct TakenStep {
+  double h;  ///< [s]
+  const RosenbrockTableau* tableau;
+};
+
 Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
-                    std::vector<double>* steps) {
+                    std::vector<TakenStep>* steps) {
   RosenbrockGradient run(system);
   run.obey(cancel);
   Status status = run.start(parameters, Derivatives::kGradient);
   while (status.ok() && run.time() < system.study().duration) {
     status = run.advance(system.study().duration);
-    if (status.ok()) steps->push_back(run.step_size());
+    if (status.ok()) steps->push_back({run.step_size(), &run.tableau()});
   }
   return status;
 }
@@ -77,7 +82,7 @@ void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* 
 
 /// The run with steps of the same sizes in complex arithmetic.
 /// @param extremes of the real run.
-Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<double>& steps,
+Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<TakenStep>& steps,
                 const Extremes& extremes, RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
                 const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
@@ -90,10 +95,11 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   step.start(state);
   if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
   ControlClock clock(system.study());
-  for (double h : steps) {
+  for (const TakenStep& taken : steps) {
     if (is_set(cancel)) break;
+    step.use(*taken.tableau);
     replay_jump(clock.due(step.state().t), integrator, &step);
-    step.attempt(h);
+    step.attempt(taken.h);
     step.accept();
     step.track_turns();
     if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
@@ -151,7 +157,7 @@ void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
 void check_by_complex_step(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
                            GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
-  std::vector<double> steps;
+  std::vector<TakenStep> steps;
   check->extreme_reference.setZero(check->reference.size(), check->evaluation.extremes.values.size());
   check->status = record_steps(system, parameters, cancel, &steps);
   const Eigen::MatrixXd directions = directions_of(*check);

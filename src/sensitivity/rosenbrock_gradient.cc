@@ -23,7 +23,7 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
       watch_(system),
       residuals_(system) {
   const double tolerance = system.study().solver.sensitivity_tolerance;
-  stages_ = [this, tolerance](const RosenbrockStep<double>& step) {
+  stages_ = [this, tolerance](RosenbrockStep<double>* step) {
     double error = 0.0;
     groups_->for_each([&](auto* group) {
       group->step.attempt(step);

@@ -26,6 +26,8 @@ class RosenbrockGradient final : public GradientEngine {
   Status advance(double limit) override;
   /// Size of the last step [s].
   double step_size() const { return integrator_.step().step_size(); }
+  /// Its method.
+  const RosenbrockTableau& tableau() const { return integrator_.step().tableau(); }
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;

@@ -21,13 +21,15 @@ StepPath::StepPath(const Layout& layout, int most) : most_(static_cast<std::size
 
 void StepPath::clear() {
   sizes_.clear();
+  tableaus_.clear();
   count_ = 0;
   stride_ = 1;
 }
 
-void StepPath::append(double h, const State<double>& state) {
+void StepPath::append(double h, const RosenbrockTableau& tableau, const State<double>& state) {
   const int k = size();
   sizes_.push_back(h);
+  tableaus_.push_back(&tableau);
   if (k % stride_ != 0) return;
   if (count_ >= most_) thin_out();
   if (k % stride_ == 0) push(k, state);

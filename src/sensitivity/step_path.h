@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "integration/tableau.h"
 #include "system/state.h"
 
 namespace codesign {
@@ -18,12 +19,15 @@ class StepPath {
   explicit StepPath(const Layout& layout, int most = 0);
 
   void clear();
-  /// Appends the end of a step of size h [s]; h = 0 for the start.
-  void append(double h, const State<double>& state);
+  /// Appends the end of a step of size h [s]; h = 0 for the start. @param tableau the method of the step.
+  void append(double h, const RosenbrockTableau& tableau, const State<double>& state);
 
   int size() const { return static_cast<int>(sizes_.size()); }
   /// Size [s] of the step that ended at point k.
   double step_size(int k) const { return sizes_[static_cast<std::size_t>(k)]; }
+
+  /// The method of the step that ended at point k.
+  const RosenbrockTableau& tableau(int k) const { return *tableaus_[static_cast<std::size_t>(k)]; }
 
   /// Index of the last stored point that is not after k.
   int kept_before(int k) const;
@@ -49,7 +53,8 @@ class StepPath {
 
   std::size_t most_;
   std::vector<double> sizes_;  ///< sizes of all steps [s]
-  std::vector<Kept> kept_;     ///< the stored points, ascending, in the first `count_` entries; the others are spare memory
+  std::vector<const RosenbrockTableau*> tableaus_;
+  std::vector<Kept> kept_;  ///< the stored points, ascending, in the first `count_` entries; the others are spare memory
   std::size_t count_ = 0;
   int stride_ = 1;  ///< every stride-th point of the integration is stored
 };

@@ -25,12 +25,13 @@ TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTablea
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
-      tableau_(tableau),
+      tableau_(&tableau),
       equations_(system),
       y_(at_.size()),
       stage_y_(y_),
       rows_(layout_.columns() + 1),
-      stages_(static_cast<std::size_t>(tableau.stages), y_),
+      estimate_(y_),
+      stages_(static_cast<std::size_t>(std::max(tableau.stages, most_stages(system.study().solver.method))), y_),
       matrix_changes_(stages_.size(), rows_) {
   projected_.resize(layout_);
 }
@@ -56,7 +57,8 @@ void TangentStep<N>::take_up(const State<double>& at, const State<Lanes<N>>& lan
   take(lanes.s, at_.s());
   take(lanes.v, at_.v());
   take(lanes.z, at_.z());
-  equations_.linearize(at, y_);
+  has_changes_ = false;
+  if (!tableau_->is_explicit()) linearize(at);
 }
 
 template <int N>
@@ -78,10 +80,10 @@ void TangentStep<N>::combine(In<double> from, In<double> factors, int first, Out
 // Sets w' in increment i, the derivative of RosenbrockStep::stage_start().
 template <int N>
 void TangentStep<N>::stage_start(std::size_t i, double h) {
-  const double hg = h * tableau_.gamma;
+  const double hg = h * tableau_->gamma;
   Directions<N>& u = stages_[i];
   RosenbrockTableau::Row factors;
-  for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_.c[i][j] / h;
+  for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_->c[i][j] / h;
   const auto add = [&](const Directions<N>& from, int rate, int first, int size) {
     combine(from.part(rate, size), In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), first, u.part(first, size));
   };
@@ -104,7 +106,7 @@ template <int N>
 template <std::size_t together>
 void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
   const ByVariable<Sparsity>& patterns = system_.patterns();
-  for (std::size_t first = 0; first < stages_.size(); first += together) {
+  for (std::size_t first = 0; first < count(); first += together) {
     In<double> u[together];
     for (std::size_t k = 0; k < together; ++k) u[k] = step.increments()[first + k];
     for (int row = 0; row <= at_.z_size; ++row) {
@@ -114,17 +116,17 @@ void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
       add_row_tangents<N, together>(patterns.rate, equations_.changes().rate, row, u, at_.z(), sums);
       for (std::size_t k = 0; k < together; ++k)
         matrix_changes_[first + k].vector(row) =
-            sums[k] + (step.step_size() * tableau_.gamma_i[first + k]) * equations_.time_changes().vector(row);
+            sums[k] + (step.step_size() * tableau_->gamma_i[first + k]) * equations_.time_changes().vector(row);
     }
   }
 }
 
 template <int N>
 void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& step) {
-  const double hg = step.step_size() * tableau_.gamma;
+  const double hg = step.step_size() * tableau_->gamma;
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  combine(y_.part(0, at_.psi()), In<double>(tableau_.a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.psi()));
+  combine(y_.part(0, at_.psi()), In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.psi()));
   equations_.residual(step.stages()[i], stage_y_, &residual_);
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
@@ -146,20 +148,58 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   u.vector(at_.psi()) = hg * psi;
 }
 
+// The derivative of RosenbrockStep::take_rates(), with z' from G = 0.
 template <int N>
-void TangentStep<N>::attempt(const RosenbrockStep<double>& step) {
-  if (stages_.size() % 4 == 0)
-    change_matrices<4>(step);
-  else if (stages_.size() % 3 == 0)
-    change_matrices<3>(step);
+void TangentStep<N>::explicit_stage(std::size_t i, RosenbrockStep<double>* step) {
+  const double h = step->step_size();
+  const int z_size = at_.z_size;
+  combine(y_.part(0, at_.z()), In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.z()));
+  for (int k = 0; k < z_size; ++k) stage_y_.vector(at_.z() + k) = Vector{};
+  equations_.residual(step->stages()[i], stage_y_, &residual_);
+  step->factor_stage(i);
+  const Out<double> z = stage_y_.part(at_.z(), z_size);
+  for (int k = 0; k < z_size; ++k) stage_y_.vector(at_.z() + k) = -residual_.vector(k);
+  step->stage_matrix().lu().template solve_rows<N>(z);
+  Directions<N>& u = stages_[i];
+  Vector psi = residual_.vector(z_size);
+  add_row_product<N>(system_.patterns().rate, step->derivatives().rate, z_size, z, &psi);
+  u.vector(at_.psi()) = h * psi;
+  for (int k = 0; k < at_.n; ++k) {
+    u.vector(at_.x() + k) = h * stage_y_.vector(at_.v() + k);
+    u.vector(at_.v() + k) = h * stage_y_.vector(at_.z() + k);
+  }
+  for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) = h * stage_y_.vector(at_.sigma() + k);
+  for (int k = 0; k < z_size; ++k) u.vector(at_.z() + k) = stage_y_.vector(at_.z() + k) - y_.vector(at_.z() + k);
+}
+
+template <int N>
+void TangentStep<N>::linearize(const State<double>& state) {
+  equations_.linearize(state, y_);
+  has_changes_ = true;
+}
+
+template <int N>
+void TangentStep<N>::attempt(RosenbrockStep<double>* step) {
+  tableau_ = &step->tableau();
+  if (tableau_->is_explicit()) {
+    for (std::size_t i = 0; i < count(); ++i) explicit_stage(i, step);
+    estimate_.setZero();
+    combine(estimate_, In<double>(tableau_->estimate).first(tableau_->stages), 0, estimate_);
+    return;
+  }
+  if (!has_changes_) linearize(step->state());
+  if (count() % 4 == 0)
+    change_matrices<4>(*step);
+  else if (count() % 3 == 0)
+    change_matrices<3>(*step);
   else
-    change_matrices<1>(step);
-  for (std::size_t i = 0; i < stages_.size(); ++i) stage_tangent(i, step);
+    change_matrices<1>(*step);
+  for (std::size_t i = 0; i < count(); ++i) stage_tangent(i, *step);
 }
 
 template <int N>
 double TangentStep<N>::error(double relative_tolerance) const {
-  const Directions<N>& u = stages_.back();
+  const Directions<N>& u = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
   const auto ratio = [](const Eigen::Array<double, N, 1>& squares, const Eigen::Array<double, N, 1>& size) {
     // A parameter without influence on the motion has no error.
     return (size > 0.0).select(squares / size, 0.0).maxCoeff();
@@ -195,8 +235,12 @@ void TangentStep<N>::project(const VectorX<double>& correction, const Directions
 template <int N>
 void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
   if (keeps_previous_) previous_y_ = y_;
-  combine(y_, In<double>(tableau_.weights).first(tableau_.stages), 0, y_);
-  equations_.linearize(step.unprojected(), y_);
+  combine(y_, In<double>(tableau_->weights).first(tableau_->stages), 0, y_);
+  // The rates at the end of an explicit step are those of its last stage.
+  if (tableau_->is_explicit())
+    for (int k = at_.z(); k < at_.psi(); ++k) y_.vector(k) = stage_y_.vector(k);
+  has_changes_ = false;
+  if (!tableau_->is_explicit() || layout_.m > 0) linearize(step.unprojected());
   if (layout_.m > 0) project(step);
   measure();
 }
@@ -221,10 +265,13 @@ Eigen::Matrix<double, N, 1> TangentStep<N>::terminal(const State<double>& state)
 template <int N>
 void TangentStep<N>::interpolate(const RosenbrockStep<double>& step, double time) {
   const double h = step.step_size(), theta = h > 0.0 ? (time - step.previous().t) / h : 1.0;
-  const RosenbrockTableau::Row weights = dense_weights(tableau_, theta);
+  const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
   const int size = at_.psi();
   for (int k = 0; k < size; ++k) stage_y_.vector(k) = (1.0 - theta) * previous_y_.vector(k) + theta * y_.vector(k);
-  combine(stage_y_.part(0, size), In<double>(weights).first(tableau_.stages), 0, stage_y_.part(0, size));
+  combine(stage_y_.part(0, size), In<double>(weights).first(tableau_->stages), 0, stage_y_.part(0, size));
+  if (tableau_->is_explicit())
+    combine(previous_y_.part(at_.z(), at_.z_size), In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), at_.z(),
+            stage_y_.part(at_.z(), at_.z_size));
 }
 
 template <int N>

@@ -15,7 +15,8 @@ namespace codesign {
 ///
 /// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated including the derivative of E:
 ///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v' + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z),
-/// with dG_x the change of G_x along (y', e_k). E is solved with the factorization of the step.
+/// with dG_x the change of G_x along (y', e_k). E is solved with the factorization of the step. At the stages of an explicit pair, G = 0
+/// gives G_z z' = -G' with G' at fixed z.
 template <int N>
 class TangentStep {
  public:
@@ -29,8 +30,8 @@ class TangentStep {
   /// @param assembly that found `initial`. @param step started at `initial`.
   void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial);
 
-  /// Computes the tangent of the stages of the step's last attempt.
-  void attempt(const RosenbrockStep<double>& step);
+  /// Computes the tangent of the stages of the step's last attempt. @param step of an explicit pair receives the factorization of a stage.
+  void attempt(RosenbrockStep<double>* step);
   /// Scaled error of the last attempt, acceptable up to 1: the largest |u'_last| / (tolerance |y'|) over the parameters, with norms over
   /// positions or over velocities and the largest |y'| so far.
   double error(double relative_tolerance) const;
@@ -72,6 +73,9 @@ class TangentStep {
   /// Handles `together` stages at a time; `together` divides the number of stages.
   template <std::size_t together>
   void change_matrices(const RosenbrockStep<double>& step);
+  std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
+  void linearize(const State<double>& state);
+  void explicit_stage(std::size_t i, RosenbrockStep<double>* step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
   void measure();
@@ -87,12 +91,13 @@ class TangentStep {
   const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
-  const RosenbrockTableau& tableau_;
+  const RosenbrockTableau* tableau_;  ///< of the last attempt
   TangentEquations<N> equations_;
   State<double> projected_;
-  Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_;
+  Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_, estimate_;
   Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
+  bool has_changes_ = false;                              ///< whether the changes of the matrices are those with which the next step begins
   std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
   State<Lanes<N>> start_;                             ///< with the initial sensitivities

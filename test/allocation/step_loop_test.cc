@@ -81,7 +81,7 @@ TEST_P(StepLoop, BackwardsAsksForTheGradientOnly) {
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, StepLoop,
                          ::testing::Combine(::testing::Range(std::size_t{0}, gradient_cases().size()),
-                                            ::testing::Values("rodas4", "rodas5p")),
+                                            ::testing::Values("rodas4", "rodas5p", "dopri5")),
                          [](const auto& instance) {
                            return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
                          });

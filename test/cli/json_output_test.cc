@@ -52,7 +52,8 @@ TEST(JsonOutput, ErrorsSayWhereAndWhat) {
 TEST(JsonOutput, StatisticsKeepTheirKeys) {
   Json object;
   add_statistics({12, 3, 0.5, 0.25, 0.125}, &object);
-  EXPECT_EQ(object.dump(), R"({"steps":12,"rejected_steps":3,"cpu_seconds":0.5,"constraint_drift":0.25,"energy_error":0.125})");
+  EXPECT_EQ(object.dump(),
+            R"({"steps":12,"rejected_steps":3,"explicit_steps":0,"cpu_seconds":0.5,"constraint_drift":0.25,"energy_error":0.125})");
 }
 
 TEST(JsonOutput, WarningsSayCodeSentenceAndPlace) {

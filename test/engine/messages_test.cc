@@ -22,7 +22,7 @@ Evaluation full_evaluation() {
   evaluation.extremes.values = Eigen::Vector2d(kNan, -kInfinity);
   evaluation.extremes.times = Eigen::Vector2d(0.25, 1e300);
   evaluation.extremes.gradients = (Eigen::MatrixXd(3, 2) << 1, 2, 3, 4, 5, 6).finished();
-  evaluation.statistics = {123456789012, 7, 0.5, 1e-9, kNan};
+  evaluation.statistics = {123456789012, 7, 0.5, 1e-9, kNan, 5};
   evaluation.warnings = {{"drift", "it drifts", {"a.yaml", 3}}, {"two", "", {}}};
   return evaluation;
 }

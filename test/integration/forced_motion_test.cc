@@ -66,10 +66,10 @@ TEST_P(ForcedStep, ConvergesWithItsOrder) {
   EXPECT_GT(std::abs(coarse[state] / fine[state]), expected) << "psi";
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ForcedStep, ::testing::Values("rodas4", "rodas4p2", "rodas5p"));
+INSTANTIATE_TEST_SUITE_P(Methods, ForcedStep, ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
 
 TEST(ForcedMotion, TheGradientIsThatOfTheStepsTaken) {
-  for (const char* method : {"rodas4", "rodas5p"}) {
+  for (const char* method : {"rodas4", "rodas5p", "dopri5"}) {
     const auto system = forced(std::string("{method: ") + method + "}");
     Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
     for (Eigen::Index k = 0; k < rho.size(); ++k)

@@ -58,7 +58,7 @@ TEST_P(RosenbrockStepTest, ErrorIsThatOfTheEmbeddedSolution) {
   EXPECT_LT(step.error(1e-6, 1e-6), 0.2 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, RosenbrockStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p"));
+INSTANTIATE_TEST_SUITE_P(Methods, RosenbrockStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
 
 }  // namespace
 }  // namespace codesign

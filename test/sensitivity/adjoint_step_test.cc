@@ -39,7 +39,7 @@ TEST_P(AdjointStepTest, TheParametersExplainWhatTheStartDoesNot) {
   EXPECT_EQ(gradient[3], 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p"),
+INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

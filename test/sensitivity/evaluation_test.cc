@@ -52,7 +52,7 @@ TEST(Evaluation, HaugsSliderCrankMeetsTheReference) {
 }
 
 TEST(Evaluation, TangentIsExactForEveryMethod) {
-  for (const char* method : {"rodas4", "rodas4p2", "rodas5p"}) {
+  for (const char* method : {"rodas4", "rodas4p2", "rodas5p", "dopri5"}) {
     Case c = shipped("slider_crank");
     c.study.solver.method = method_named(method);
     c.study.solver.relative_tolerance = 1e-5;

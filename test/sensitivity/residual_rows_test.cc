@@ -75,7 +75,7 @@ class ResidualRowsTest : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(ResidualRowsTest, AreTheComplexStepOfTheResiduals) {
   const GradientCase test = gradient_cases().at(GetParam());
-  for (const char* method : {"rodas4", "rodas5p"}) {
+  for (const char* method : {"rodas4", "rodas5p", "dopri5"}) {
     const auto system = test.compile(method, "auto");
     RosenbrockGradient engine(*system);
     const Rooted rooted = run_with_root(&engine, *system);

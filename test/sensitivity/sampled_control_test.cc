@@ -69,7 +69,7 @@ std::shared_ptr<const CompiledSystem> compile_case(const ControlCase& c, const s
 class ControlGradientTest : public ::testing::TestWithParam<ControlCase> {};
 
 TEST_P(ControlGradientTest, MeetsTheComplexStep) {
-  for (const char* method : {"rodas4", "rodas5p"}) {
+  for (const char* method : {"rodas4", "rodas5p", "dopri5"}) {
     const auto system = compile_case(GetParam(), "{gradient: direct, method: " + std::string(method) + "}");
     const GradientCheck check = check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;

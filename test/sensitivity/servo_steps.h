@@ -33,7 +33,7 @@ struct ServoSteps {
     points.push_back(initial);
     for (int k = 0; k < 3; ++k) {
       EXPECT_TRUE(step.attempt(kSize));
-      tangent.attempt(step);
+      tangent.attempt(&step);
       EXPECT_TRUE(step.accept());
       tangent.accept(step);
       points.push_back(step.unprojected());
@@ -54,7 +54,7 @@ struct ServoSteps {
       }
       if (k + 1 < points.size()) {
         EXPECT_TRUE(step.attempt(kSize));
-        adjoint.reverse_stages(step);
+        adjoint.reverse_stages(&step);
       }
       if (k > 0) adjoint.reverse_projection(points[k], step);
       adjoint.reverse_matrices(points[k]);

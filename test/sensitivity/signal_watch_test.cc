@@ -61,7 +61,7 @@ TEST_P(SignalWatchTest, NoSampleOfTheRunIsBeyondTheExtremes) {
 }
 
 TEST_P(SignalWatchTest, GradientsMeetTheComplexStep) {
-  for (const char* method : {"rodas4", "rodas5p"}) {
+  for (const char* method : {"rodas4", "rodas5p", "dopri5"}) {
     const auto system = test_.compile(method, "auto");
     const Eigen::VectorXd rho = start_of(system->study());
     const GradientCheck check = check_gradient(system, rho, CheckMethod::kComplexStep);

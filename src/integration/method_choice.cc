@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/method_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace codesign {
+namespace {
+
+// Of the code DOPRI5: the limit of stability on the negative real axis, how many steps at it make a stiff stretch, and how many others in a
+// row end the count.
+constexpr double kLimit = 3.25;
+constexpr int kStiffSteps = 15, kOtherSteps = 6;
+// A margin against ping-pong, and against the error of the estimate.
+constexpr double kCalm = 1.0;
+constexpr int kLooks = 8, kFirstPause = 16, kLongestPause = 1024;
+
+}  // namespace
+
+MethodChoice::MethodChoice(const CompiledSystem& system)
+    : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto), direction_(IncrementLayout(system.layout()).size()) {}
+
+void MethodChoice::start() {
+  stiff_ = others_ = 0;
+  pause_ = kFirstPause;
+  // Without any pattern, so that it has a part along every eigenvector.
+  for (Eigen::Index k = 0; k < direction_.size(); ++k) direction_[k] = std::sin(1.0 + 7.0 * static_cast<double>(k));
+}
+
+bool MethodChoice::is_stiff(const RosenbrockStep<double>& step) {
+  if (step.stiffness() > kLimit) {
+    others_ = 0;
+    return ++stiff_ >= kStiffSteps;
+  }
+  if (++others_ >= kOtherSteps) stiff_ = 0;
+  return false;
+}
+
+bool MethodChoice::is_calm(RosenbrockStep<double>* step) {
+  if (--waits_ > 0) return false;
+  waits_ = kLooks;
+  return step->step_size() * step->spectral_radius(&direction_) < kCalm;
+}
+
+// Each return doubles the pause before the next one, so that a stretch between both costs little.
+const RosenbrockTableau& MethodChoice::next(RosenbrockStep<double>* step) {
+  const RosenbrockTableau& tableau = step->tableau();
+  if (!is_automatic_) return tableau;
+  if (tableau.is_explicit()) {
+    if (!is_stiff(*step)) return tableau;
+    stiff_ = others_ = 0;
+    waits_ = pause_;
+    pause_ = std::min(2 * pause_, kLongestPause);
+    return rodas5p();
+  }
+  return is_calm(step) ? dopri5() : tableau;
+}
+
+}  // namespace codesign

@@ -1,0 +1,33 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef MECHANISM_CODESIGN_INTEGRATION_METHOD_CHOICE_H_
+#define MECHANISM_CODESIGN_INTEGRATION_METHOD_CHOICE_H_
+
+#include "integration/rosenbrock_step.h"
+
+namespace codesign {
+
+/// The change-over between dopri5() and rodas5p() of `solver: {method: auto}`, theory (15c): a run begins explicitly, goes on implicitly
+/// when stability limits the explicit steps, and returns when steps of the same size would be stable explicitly.
+class MethodChoice {
+ public:
+  explicit MethodChoice(const CompiledSystem& system);
+
+  /// Begins a run.
+  void start();
+  /// The method of the next step. @param step after its last attempt was accepted.
+  const RosenbrockTableau& next(RosenbrockStep<double>* step);
+
+ private:
+  bool is_stiff(const RosenbrockStep<double>& step);
+  bool is_calm(RosenbrockStep<double>* step);
+
+  const bool is_automatic_;
+  int stiff_ = 0, others_ = 0;  ///< explicit steps at the limit of stability; others in a row
+  int waits_ = 0;               ///< implicit steps before the next look
+  int pause_ = 0;               ///< implicit steps before the first look after a change
+  VectorX<double> direction_;   ///< of RosenbrockStep::spectral_radius()
+};
+
+}  // namespace codesign
+
+#endif  // MECHANISM_CODESIGN_INTEGRATION_METHOD_CHOICE_H_
