@@ -45,7 +45,7 @@ class SearchTrials {
   /// The residual of the optimality conditions at the best point over the same at the start, and over the scale of (24j).
   double slope_left();
   double stationarity();
-  /// Whether the search may end here: stationarity() is at most the root of the relative tolerance of the objective, and at most 0.01.
+  /// Whether the search may end here: stationarity() is at most the root of the relative tolerance of the objective, and at most 0.001.
   bool is_stationary() { return stationarity() <= most_slope(); }
   /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all constraints are met.
   double best_violation() const { return best_violation_; }

@@ -29,14 +29,17 @@ TEST(ThirdTrial, ALoopWithTwoBranchesEndsAtAnOptimum) {
   EXPECT_LT(result["stationarity"].get<double>(), 1e-5);
 }
 
-// A tail over samples with a bounded signal, at the size of a test: judging the stop took longer than the search.
+// A tail over samples with a bounded signal, at the size of a test: after 28 evaluations the steps were small, and the search ended as a
+// success at 6.36. A relative tolerance of 1e-9 leads to 4.44486.
 TEST(ThirdTrial, ATailWithABoundedSignalIsJudged) {
   const Outcome outcome = run_words({"optimize", of_trial("cp.urdf"), of_trial("rob.yaml"), "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const Json result = json_of(outcome);
-  EXPECT_EQ(result["evaluations"], 6);
-  EXPECT_LT(result["objective"].get<double>(), 0.5 * result["initial_objective"].get<double>());
+  EXPECT_GT(result["initial_objective"].get<double>(), 50.0);
   EXPECT_GT(result["stationarity"].get<double>(), 0.0);
+  if (result["objective"].get<double>() > 1.001 * 4.44486) {
+    EXPECT_NE(outcome.out.find("not_stationary"), std::string::npos) << result["objective"];
+  }
 }
 
 // At its loose tolerance these ended 16 and 27 % above the optimum, as a success: the slope was below 0.01.
