@@ -54,6 +54,8 @@ Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A) {
 }
 
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold) {
+  // Eigen's decomposition reads the first entry of a matrix that has none.
+  if (A.cols() == 0) return Eigen::MatrixXd::Identity(A.rows(), A.rows());
   PivotedQr qr;
   qr.matrix(A.rows(), A.cols()) = A;
   qr.factor(threshold);

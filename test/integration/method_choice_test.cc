@@ -1,0 +1,87 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/method_choice.h"
+
+#include "sensitivity/adjoint_gradient.h"
+#include "sensitivity/gradient_cases.h"
+#include "sensitivity/gradient_check.h"
+#include "sensitivity/rosenbrock_gradient.h"
+
+namespace codesign {
+namespace {
+
+/// An arm on a vertical pin with dry friction, pulled to and fro by a spring whose other end moves: it sticks, slips, and sticks again.
+GradientCase stick_slip(const std::string& coordinates) {
+  GradientCase test = from_texts(
+      "stick_slip",
+      "<robot name='arm' xmlns:codesign='https://mechanism-codesign.org/urdf'><link name='base'/><link name='arm'><inertial>"
+      "<origin xyz='0.3 0 0'/><mass value='2'/><inertia ixx='0.01' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+      "<joint name='hinge' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>"
+      "<codesign:friction mu_static='0.3' mu_dynamic='0.2' transition_velocity='1e-5' pin_radius='0.02' joint_length='0.1'/></joint></robot>",
+      "duration: 6.0\ninitial_state: {hinge: {velocity: 2.0}}\nparameters: {stiffness: {initial: 3.0, lower: 1.0, upper: 5.0, tune: true}}\n"
+      "controllers: {spring: {type: pid, input: hinge/position, setpoint: {type: sine, amplitude: 0.4, period: 3.0}, output: hinge,\n"
+      "  gains: {p: \"${stiffness}\", d: 0.3}}}\n"
+      "objective: {integral: [{signal: hinge/position}], terminal: [{signal: hinge/velocity}]}\n");
+  test.study.solver.coordinates = coordinates == "joint" ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
+  test.study.solver.relative_tolerance = test.study.solver.absolute_tolerance = 1e-8;
+  return test;
+}
+
+/// The steps at which the method changed.
+std::vector<int> changes(const CompiledSystem& system) {
+  RosenbrockIntegrator integrator(system);
+  EXPECT_TRUE(integrator.start(system.parameters()).ok());
+  std::vector<int> changes;
+  bool was_explicit = true;
+  while (integrator.state().t < system.study().duration) {
+    const Status status = integrator.advance(system.study().duration);
+    EXPECT_TRUE(status.ok()) << status.cause;
+    if (!status.ok()) break;
+    if (integrator.step().tableau().is_explicit() != was_explicit) changes.push_back(static_cast<int>(integrator.statistics().steps));
+    was_explicit = integrator.step().tableau().is_explicit();
+  }
+  return changes;
+}
+
+class MethodChoiceTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(MethodChoiceTest, ChangesOverBothWaysWithinARun) {
+  const auto system = stick_slip(GetParam()).compile("auto", "direct");
+  EXPECT_GE(changes(*system).size(), 2U);
+  EXPECT_EQ(changes(*system), changes(*system));
+}
+
+TEST_P(MethodChoiceTest, FindsWhatTheImplicitMethodFinds) {
+  const GradientCase test = stick_slip(GetParam());
+  const auto automatic = test.compile("auto", "direct"), implicit = test.compile("rodas5p", "direct");
+  RosenbrockGradient a(*automatic), b(*implicit);
+  const GradientRun changing = run_gradient(&a, *automatic, automatic->parameters()),
+                    fixed = run_gradient(&b, *implicit, implicit->parameters());
+  ASSERT_TRUE(changing.status.ok() && fixed.status.ok());
+  EXPECT_NEAR(changing.objective, fixed.objective, 1e-6 * fixed.objective);
+  EXPECT_NEAR(changing.gradient[0], fixed.gradient[0], 1e-4 * std::abs(fixed.gradient[0]));
+  EXPECT_GT(a.statistics().explicit_steps, 0);
+  EXPECT_LT(a.statistics().explicit_steps, a.statistics().steps);
+  EXPECT_EQ(b.statistics().explicit_steps, 0);
+}
+
+TEST_P(MethodChoiceTest, TheTangentOfAChangingRunIsExactAndTheAdjointTheSame) {
+  const auto system = stick_slip(GetParam()).compile("auto", "direct");
+  const Eigen::VectorXd rho = Eigen::VectorXd::Constant(1, system->parameters()[0]);
+  const GradientCheck check = check_gradient(system, rho, CheckMethod::kComplexStep);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  EXPECT_LT(check.largest_relative_difference, 1e-10);
+  AdjointGradient adjoint(*system);
+  const GradientRun back = run_gradient(&adjoint, *system, system->parameters());
+  ASSERT_TRUE(back.status.ok()) << back.status.cause;
+  EXPECT_NEAR(back.gradient[0], check.evaluation.gradient[0], 1e-9 * std::abs(back.gradient[0]));
+}
+
+INSTANTIATE_TEST_SUITE_P(Coordinates, MethodChoiceTest, ::testing::Values("joint", "absolute"));
+
+TEST(MethodChoice, StaysExplicitWhereNothingIsStiff) {
+  const auto system = shipped_case("two_link_arm", 0.5).compile("auto", "direct");
+  EXPECT_TRUE(changes(*system).empty());
+}
+
+}  // namespace
+}  // namespace codesign
