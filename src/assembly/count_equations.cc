@@ -7,7 +7,9 @@
 
 namespace codesign {
 
-Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
+namespace {
+
+Counts count_absolute(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
   const Layout& layout = system.layout();
   Counts counts;
   counts.bodies = layout.bodies;
@@ -30,6 +32,21 @@ Counts count_equations(const CompiledSystem& system, const std::vector<double>& 
   counts.dynamic_equations = counts.first_order_equations + counts.constraints;
   counts.sensitivities = counts.parameters * counts.dynamic_equations;
   counts.total_equations = counts.dynamic_equations + counts.sensitivities;
+  return counts;
+}
+
+}  // namespace
+
+// A system in joint coordinates has no redundant constraints.
+Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
+  const Layout& layout = system.layout();
+  Study study = system.study();
+  study.solver.coordinates = CoordinatesKind::kAbsolute;
+  Counts counts = layout.has_forest() ? count_absolute(CompiledSystem(system.robot(), study), parameters, status)
+                                      : count_absolute(system, parameters, status);
+  counts.in_joint_coordinates = layout.has_forest();
+  counts.solved_coordinates = layout.n;
+  counts.solved_constraints = layout.constraints();
   return counts;
 }
 

@@ -143,8 +143,8 @@ std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorksp
 
 /// The same study in absolute coordinates, for loops with redundant constraints: their reactions are shared among the rows of all joints,
 /// (23). @throws InputError if the study asks for joint coordinates.
-Study in_absolute_coordinates(const Study& study, const Redundancy& redundancy) {
-  if (study.solver.coordinates == CoordinatesKind::kJoint)
+Study in_absolute_coordinates(const Study& study, bool is_chosen, const Redundancy& redundancy) {
+  if (!is_chosen)
     throw InputError(
         {study.solver.coordinates_where, "solver.coordinates",
          "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
@@ -154,10 +154,8 @@ Study in_absolute_coordinates(const Study& study, const Redundancy& redundancy) 
   return absolute;
 }
 
-}  // namespace
-
-// The study's own design must start; a later design that cannot is a trial point with a failed status.
-std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
+/// @param is_chosen whether the coordinates were chosen for the study, which then may have others.
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, bool is_chosen, Warnings* warnings) {
   Warnings found;
   const auto system = std::make_shared<const CompiledSystem>(robot, study);
   StartWorkspace start(*system, system->parameters());
@@ -166,7 +164,7 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
   if (system->layout().has_forest()) {
     const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly, start.parameters, start.state);
-    if (!in_loops.rows.empty()) return make_system(robot, in_absolute_coordinates(study, in_loops), warnings);
+    if (!in_loops.rows.empty()) return make_system(robot, in_absolute_coordinates(study, is_chosen, in_loops), false, warnings);
   }
   const std::optional<Redundancy> redundancy = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;
@@ -181,6 +179,18 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   if (redundancy && !redundancy->chosen_joints.empty()) append({undetermined_friction(*result, *redundancy)}, &found);
   if (warnings) append(found, warnings);
   return result;
+}
+
+}  // namespace
+
+// The study's own design must start; a later design that cannot is a trial point with a failed status.
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
+  if (study.solver.coordinates == CoordinatesKind::kAuto) {
+    Study chosen = study;
+    chosen.solver.coordinates = System(robot, study).best_coordinates();
+    return make_system(robot, chosen, true, warnings);
+  }
+  return make_system(robot, study, false, warnings);
 }
 
 }  // namespace codesign

@@ -40,6 +40,8 @@ void print_table(const Counts& counts, std::ostream& out) {
   add("sensitivities", counts.sensitivities);
   add("equations in all", counts.total_equations);
   table.print(out);
+  out << "solved in " << (counts.in_joint_coordinates ? "joint" : "absolute") << " coordinates: " << counts.solved_coordinates << ", with "
+      << counts.solved_constraints << " constraints\n";
   print_redundancy(counts, out);
 }
 

@@ -26,6 +26,9 @@ Json to_json(const Counts& counts) {
           {"parameters", counts.parameters},
           {"sensitivities", counts.sensitivities},
           {"total_equations", counts.total_equations},
+          {"solved_in", counts.in_joint_coordinates ? "joint" : "absolute"},
+          {"solved_coordinates", counts.solved_coordinates},
+          {"solved_constraints", counts.solved_constraints},
           {"redundant_rows", to_json(counts.redundant_rows)},
           {"undetermined_reactions", counts.undetermined_reactions},
           {"chosen_friction", counts.chosen_friction}};

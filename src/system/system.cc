@@ -60,17 +60,21 @@ std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { retur
 
 // Drives prescribe motions of absolute coordinates, theory (28), and shared reactions are those of all rows, (23).
 void System::choose_forest() {
-  if (study_.solver.coordinates == CoordinatesKind::kAbsolute || drives_ > 0) return;
-  const bool is_asked_for = study_.solver.coordinates == CoordinatesKind::kJoint;
+  if (study_.solver.coordinates != CoordinatesKind::kJoint || drives_ > 0) return;
   InputFault fault;
   fault.message = forest_obstacle(&fault);
-  if (fault.message.empty()) {
-    Forest forest = tree_forest(topology_);
-    if (is_asked_for || coupled_coordinates(topology_, forest) <= kMostCoupled) layout_.forest = std::move(forest);
-  } else if (is_asked_for) {
+  if (!fault.message.empty()) {
     fault.allowed = "solver.coordinates: auto or absolute";
     throw InputError(fault);
   }
+  layout_.forest = tree_forest(topology_);
+}
+
+CoordinatesKind System::best_coordinates() const {
+  InputFault fault;
+  const bool is_possible = forest_obstacle(&fault).empty();
+  return is_possible && coupled_coordinates(topology_, tree_forest(topology_)) <= kMostCoupled ? CoordinatesKind::kJoint
+                                                                                               : CoordinatesKind::kAbsolute;
 }
 
 /// What keeps the equations from joint coordinates; empty: nothing. @param fault receives its place and value.

@@ -286,10 +286,21 @@ TEST(JointCoordinates, AutoKeepsLongChainsInAbsoluteCoordinates) {
                                     "duration: 1.0\nobjective: {integral: [{signal: bar0/position/x}]}\n"
                                     "solver: {coordinates: auto}\n"},
                                    model);
-    return System(model, study).layout().has_forest();
+    return System(model, study).best_coordinates();
   };
-  EXPECT_TRUE(chain(24));
-  EXPECT_FALSE(chain(25));
+  EXPECT_EQ(chain(24), CoordinatesKind::kJoint);
+  EXPECT_EQ(chain(25), CoordinatesKind::kAbsolute);
+}
+
+// A tree has no constraints there, among which the motions without inertia are sought.
+TEST(JointCoordinates, APointMassOnAHingeMovesAsInAbsoluteOnes) {
+  const std::string model =
+      robot(bar("upper") + hinge("shoulder", "ground", "upper", "0 0 0") +
+            "<link name='bob'><inertial><origin xyz='0 0 -0.5'/><mass value='1'/><inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/>"
+            "</inertial></link>" +
+            hinge("elbow", "upper", "bob", "0 0 -1"));
+  const std::string study = "duration: 1.0\nobjective: {integral: [{signal: bob/position/x}]}\nsolver: {coordinates: ";
+  for (const char* coordinates : {"joint", "absolute"}) EXPECT_NO_THROW(system_of(model, study + coordinates + "}\n")) << coordinates;
 }
 
 TEST(JointCoordinates, AnUnknownKindIsRefused) {

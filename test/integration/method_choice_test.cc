@@ -16,8 +16,10 @@ GradientCase stick_slip(const std::string& coordinates) {
       "<robot name='arm' xmlns:codesign='https://mechanism-codesign.org/urdf'><link name='base'/><link name='arm'><inertial>"
       "<origin xyz='0.3 0 0'/><mass value='2'/><inertia ixx='0.01' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
       "<joint name='hinge' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>"
-      "<codesign:friction mu_static='0.3' mu_dynamic='0.2' transition_velocity='1e-5' pin_radius='0.02' joint_length='0.1'/></joint></robot>",
-      "duration: 6.0\ninitial_state: {hinge: {velocity: 2.0}}\nparameters: {stiffness: {initial: 3.0, lower: 1.0, upper: 5.0, tune: true}}\n"
+      "<codesign:friction mu_static='0.3' mu_dynamic='0.2' transition_velocity='1e-5' pin_radius='0.02' "
+      "joint_length='0.1'/></joint></robot>",
+      "duration: 6.0\ninitial_state: {hinge: {velocity: 2.0}}\nparameters: {stiffness: {initial: 3.0, lower: 1.0, upper: 5.0, tune: "
+      "true}}\n"
       "controllers: {spring: {type: pid, input: hinge/position, setpoint: {type: sine, amplitude: 0.4, period: 3.0}, output: hinge,\n"
       "  gains: {p: \"${stiffness}\", d: 0.3}}}\n"
       "objective: {integral: [{signal: hinge/position}], terminal: [{signal: hinge/velocity}]}\n");

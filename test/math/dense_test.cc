@@ -54,6 +54,10 @@ TEST(Dense, ComplementIsOrthonormalAndOrthogonalToTheColumns) {
   EXPECT_LT((m.transpose() * complement).norm(), 1e-13);
 }
 
+TEST(Dense, WithoutColumnsTheComplementIsTheWholeSpace) {
+  EXPECT_EQ(orthogonal_complement(Eigen::MatrixXd(3, 0), 1e-9), Eigen::MatrixXd(Eigen::Matrix3d::Identity()));
+}
+
 TEST(Dense, SolutionsOfLeastNormAndEigenvaluesAreExact) {
   const Eigen::MatrixXd m = matrix();
   const Eigen::Vector4d x(1.0, 2.0, 3.0, 0.5);

@@ -117,6 +117,7 @@ TEST(RunControl, TheEndOfTheRunOrOfTheNodeAnswersWhoWaits) {
   control.configure(true, 5);
   control.begin_run();
   control.note_frame(0.0);
+  EXPECT_TRUE(control.stand_if_paused());
   std::thread run([&] {
     while (control.is_paused()) bell.wait(0.01);
     control.end_run("finished");
