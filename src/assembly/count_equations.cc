@@ -6,7 +6,6 @@
 #include "assembly/start_workspace.h"
 
 namespace codesign {
-
 namespace {
 
 Counts count_absolute(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
@@ -40,10 +39,14 @@ Counts count_absolute(const CompiledSystem& system, const std::vector<double>& p
 // A system in joint coordinates has no redundant constraints.
 Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
   const Layout& layout = system.layout();
-  Study study = system.study();
-  study.solver.coordinates = CoordinatesKind::kAbsolute;
-  Counts counts = layout.has_forest() ? count_absolute(CompiledSystem(system.robot(), study), parameters, status)
-                                      : count_absolute(system, parameters, status);
+  Counts counts;
+  if (layout.has_forest()) {
+    Study study = system.study();
+    study.solver.coordinates = CoordinatesKind::kAbsolute;
+    counts = count_absolute(CompiledSystem(system.robot(), study), parameters, status);
+  } else {
+    counts = count_absolute(system, parameters, status);
+  }
   counts.in_joint_coordinates = layout.has_forest();
   counts.solved_coordinates = layout.n;
   counts.solved_constraints = layout.constraints();

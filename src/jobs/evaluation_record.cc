@@ -86,7 +86,7 @@ Json statistics_json(const Statistics& statistics) {
   return Json::array({steps, rejected, exact(seconds), exact(drift), exact(energy), explicit_steps});
 }
 
-// Journals of version 0.1.0 have no explicit steps.
+// The first journals with a checksum per line have no explicit steps.
 Statistics statistics_of(const Json& array) {
   constexpr std::size_t kOldSize = 5;
   return {array.at(0).get<std::int64_t>(), array.at(1).get<std::int64_t>(),

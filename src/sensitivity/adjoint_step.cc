@@ -92,51 +92,46 @@ void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& ste
     increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_ + (tableau_->c[i][j] * inverse_h) * sum_adjoint_;
 }
 
-// Reverses u_x = h (v, sigma), u_v = h a, u_psi = h g, and y_1 = y + sum_j m_j u_j but for z_1, which is z of the last stage; G = 0 gives
-// z of each stage.
-void AdjointStep::reverse_explicitly(RosenbrockStep<double>* step) {
+// Reverses u_x = h (v, sigma), u_v = h a, u_psi = h g; z at the end of the step is z of the last stage. G = 0 gives z of each stage.
+void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* step) {
   const double h = step->step_size();
   const int z_size = at_.z_size;
-  for (std::size_t i = 0; i < count(); ++i) increment_adjoints_[i] = tableau_->weights[i] * adjoint_;
-  start_adjoint_ = adjoint_;
-  start_adjoint_.segment(at_.z(), z_size).setZero();
-  for (std::size_t i = count(); i-- > 0;) {
-    const VectorX<double>& u = increment_adjoints_[i];
-    step->factor_stage(i);
-    z_.setZero();
-    if (i + 1 == count()) z_ = adjoint_.segment(at_.z(), z_size);
-    z_.head(at_.n) += h * u.segment(at_.v(), at_.n);
-    z_.tail(at_.states) += h * u.segment(at_.s(), at_.states);
-    mu_[z_size] = h * u[at_.psi()];
-    add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1}, 1.0, mu_, z_);
-    step->stage_matrix().lu().solve_transposed_rows<1>(z_);
-    mu_.head(z_size) = -z_;
-    stage_adjoint_.setZero();
-    stage_adjoint_.segment(at_.v(), at_.n) = h * u.segment(at_.x(), at_.n);
-    const In<double> mu = mu_;
-    equations_.add_transposed(EquationFunction::kResidual, step->stages()[i], {mu.first(z_size), mu.subspan(z_size, 1), {}, {}},
-                              stage_adjoint_);
-    stage_adjoint_.segment(at_.z(), z_size).setZero();
-    start_adjoint_ += stage_adjoint_;
-    for (std::size_t j = 0; j < i; ++j) increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_;
-  }
-  adjoint_ = start_adjoint_;
+  const VectorX<double>& u = increment_adjoints_[i];
+  step->factor_stage(i);
+  z_.setZero();
+  if (i + 1 == count()) z_ = adjoint_.segment(at_.z(), z_size);
+  z_.head(at_.n) += h * u.segment(at_.v(), at_.n);
+  z_.tail(at_.states) += h * u.segment(at_.s(), at_.states);
+  mu_[z_size] = h * u[at_.psi()];
+  add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1}, 1.0, mu_, z_);
+  step->stage_matrix().lu().solve_transposed_rows<1>(z_);
+  mu_.head(z_size) = -z_;
+  stage_adjoint_.setZero();
+  stage_adjoint_.segment(at_.v(), at_.n) = h * u.segment(at_.x(), at_.n);
+  const In<double> mu = mu_;
+  equations_.add_transposed(EquationFunction::kResidual, step->stages()[i], {mu.first(z_size), mu.subspan(z_size, 1), {}, {}},
+                            stage_adjoint_);
+  stage_adjoint_.segment(at_.z(), z_size).setZero();
+  start_adjoint_ += stage_adjoint_;
+  for (std::size_t j = 0; j < i; ++j) increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_;
 }
 
-void AdjointStep::reverse_stages(RosenbrockStep<double>* explicit_step) {
-  tableau_ = &explicit_step->tableau();
-  if (tableau_->is_explicit()) return reverse_explicitly(explicit_step);
-  const RosenbrockStep<double>& step = *explicit_step;
+void AdjointStep::reverse_stage(std::size_t i, const RosenbrockStep<double>& step) {
+  reverse_integrand(i, step);
+  reverse_solve(i, step);
+  reverse_elimination(i, step.step_size() * tableau_->gamma);
+  reverse_point(i, step);
+  weights_.set(static_cast<int>(i), step.increments()[i], mu_);
+  time_weights_ += step.step_size() * tableau_->gamma_i[i] * mu_;
+}
+
+void AdjointStep::reverse_stages(RosenbrockStep<double>* step) {
+  tableau_ = &step->tableau();
+  const bool is_explicit = tableau_->is_explicit();
   for (std::size_t i = 0; i < count(); ++i) increment_adjoints_[i] = tableau_->weights[i] * adjoint_;
   start_adjoint_ = adjoint_;
-  for (std::size_t i = count(); i-- > 0;) {
-    reverse_integrand(i, step);
-    reverse_solve(i, step);
-    reverse_elimination(i, step.step_size() * tableau_->gamma);
-    reverse_point(i, step);
-    weights_.set(static_cast<int>(i), step.increments()[i], mu_);
-    time_weights_ += step.step_size() * tableau_->gamma_i[i] * mu_;
-  }
+  if (is_explicit) start_adjoint_.segment(at_.z(), at_.z_size).setZero();
+  for (std::size_t i = count(); i-- > 0;) is_explicit ? reverse_explicit_stage(i, step) : reverse_stage(i, *step);
   adjoint_ = start_adjoint_;
 }
 

@@ -42,7 +42,8 @@ class AdjointStep {
 
  private:
   std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
-  void reverse_explicitly(RosenbrockStep<double>* step);
+  void reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* step);
+  void reverse_stage(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_integrand(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_solve(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_elimination(std::size_t i, double hg);

@@ -21,12 +21,13 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 
-/// Records the step sizes of an integration with sensitivities.
+/// A step that a run took.
 struct TakenStep {
   double h;  ///< [s]
   const RosenbrockTableau* tableau;
 };
 
+/// Records the steps of an integration with sensitivities.
 Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
                     std::vector<TakenStep>* steps) {
   RosenbrockGradient run(system);
