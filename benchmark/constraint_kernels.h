@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_CONSTRAINT_KERNELS_H_
-#define MECHANISM_CODESIGN_BENCHMARK_CONSTRAINT_KERNELS_H_
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
@@ -380,5 +379,3 @@ void ConstraintKernels<T>::curvature(const T* q, const T* v, T* out) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_CONSTRAINT_KERNELS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_
-#define MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_
+#pragma once
 
 // Access of the benchmarks to the derivatives and to the parts of a step. No other file of benchmark/ depends on how the core stores them.
 
@@ -79,5 +78,3 @@ class StepProbe {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_CORE_ACCESS_H_

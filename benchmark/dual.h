@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_DUAL_H_
-#define MECHANISM_CODESIGN_BENCHMARK_DUAL_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -38,5 +37,3 @@ struct NumTraits<codesign::Dual> : GenericNumTraits<double> {
 };
 
 }  // namespace Eigen
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_DUAL_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_
-#define MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_
+#pragma once
 
 #include "reading/urdf/urdf_reader.h"
 
@@ -29,5 +28,3 @@ GeneratedCase ladder(int loops);
 GeneratedCase stacked_four_bars(int loops, bool with_friction);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_MECHANISMS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_RANK_PROGRAM_H_
-#define MECHANISM_CODESIGN_BENCHMARK_RANK_PROGRAM_H_
+#pragma once
 
 #include <string>
 
@@ -17,5 +16,3 @@ constexpr const char* kRankProgram = "--rank-program";
 int run_rank_program(const std::string& what);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_RANK_PROGRAM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_REPORT_H_
-#define MECHANISM_CODESIGN_BENCHMARK_REPORT_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -42,5 +41,3 @@ void measure_ranks(Report* report);
 void measure_simbody(Report* report);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_REPORT_H_

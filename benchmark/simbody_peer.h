@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_SIMBODY_PEER_H_
-#define MECHANISM_CODESIGN_BENCHMARK_SIMBODY_PEER_H_
+#pragma once
 
 namespace codesign {
 
@@ -14,5 +13,3 @@ struct SimbodyResult {
 SimbodyResult run_simbody(double crank_length, double rod_length, double Kp, double accuracy);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_SIMBODY_PEER_H_

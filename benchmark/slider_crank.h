@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_SLIDER_CRANK_H_
-#define MECHANISM_CODESIGN_BENCHMARK_SLIDER_CRANK_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -41,5 +40,3 @@ constexpr double kReferenceGradient[5] = {32.0105032, -15.462857, -0.0754624, -0
 constexpr double kReferenceOptimum = 0.0212131;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_SLIDER_CRANK_H_

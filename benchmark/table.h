@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_TABLE_H_
-#define MECHANISM_CODESIGN_BENCHMARK_TABLE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -27,5 +26,3 @@ std::string three_digits(double value);
 std::string one_digit(double value);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_TABLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_TIMING_H_
-#define MECHANISM_CODESIGN_BENCHMARK_TIMING_H_
+#pragma once
 
 #include <benchmark/benchmark.h>
 
@@ -35,5 +34,3 @@ Job make_job(std::string name, Function function) {
 std::vector<double> median_cpu_seconds(const std::vector<Job>& jobs, int repetitions = 7, double shortest = 0.02);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_TIMING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_BENCHMARK_WORK_PRECISION_H_
-#define MECHANISM_CODESIGN_BENCHMARK_WORK_PRECISION_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <functional>
@@ -56,5 +55,3 @@ std::vector<Sweep> race(const std::string& name, const std::string& what, bool w
                         const std::vector<double>& tolerances, Report* report);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_BENCHMARK_WORK_PRECISION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_CHILD_PROCESS_H_
-#define MECHANISM_CODESIGN_TEST_CHILD_PROCESS_H_
+#pragma once
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -71,5 +70,3 @@ inline bool comes_true(const std::function<bool()>& condition) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_CHILD_PROCESS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_PATHS_H_
-#define MECHANISM_CODESIGN_TEST_PATHS_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ std::string codesign_executable();
 std::string mpirun_executable();
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_PATHS_H_

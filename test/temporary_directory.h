@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_TEMPORARY_DIRECTORY_H_
-#define MECHANISM_CODESIGN_TEST_TEMPORARY_DIRECTORY_H_
+#pragma once
 
 #include <cstdlib>
 #include <filesystem>
@@ -26,5 +25,3 @@ class TemporaryDirectory {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_TEMPORARY_DIRECTORY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_COUNTS_H_
-#define MECHANISM_CODESIGN_COUNTS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -37,5 +36,3 @@ struct Counts {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_COUNTS_H_

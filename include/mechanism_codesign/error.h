@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ERROR_H_
-#define MECHANISM_CODESIGN_ERROR_H_
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -36,5 +35,3 @@ class InputError : public std::runtime_error {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ERROR_H_

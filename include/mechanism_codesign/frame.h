@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FRAME_H_
-#define MECHANISM_CODESIGN_FRAME_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -70,5 +69,3 @@ struct Frame {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FRAME_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_GRADIENT_H_
-#define MECHANISM_CODESIGN_GRADIENT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -92,5 +91,3 @@ GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system
                              const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_GRADIENT_H_

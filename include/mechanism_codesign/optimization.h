@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_H_
+#pragma once
 
 #include <functional>
 #include <limits>
@@ -141,5 +140,3 @@ OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
                             const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_H_

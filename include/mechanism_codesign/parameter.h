@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PARAMETER_H_
-#define MECHANISM_CODESIGN_PARAMETER_H_
+#pragma once
 
 #include <limits>
 #include <string>
@@ -20,5 +19,3 @@ struct Parameter {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PARAMETER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PROBLEM_H_
-#define MECHANISM_CODESIGN_PROBLEM_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <memory>
@@ -84,5 +83,3 @@ Problem with_settings(const Problem& problem, const ParameterSettings& settings)
 void require_objective(const Problem& problem);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PROBLEM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SIMULATION_H_
-#define MECHANISM_CODESIGN_SIMULATION_H_
+#pragma once
 
 #include <atomic>
 #include <functional>
@@ -88,5 +87,3 @@ Status simulate(Simulation* simulation, double duration, int count, const FrameO
                 const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SIMULATION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SOURCE_TEXT_H_
-#define MECHANISM_CODESIGN_SOURCE_TEXT_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ struct SourceText {
 SourceText read_source(const std::string& path);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SOURCE_TEXT_H_

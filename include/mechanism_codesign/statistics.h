@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_H_
-#define MECHANISM_CODESIGN_STATISTICS_H_
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
@@ -29,5 +28,3 @@ struct Statistics {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_H_

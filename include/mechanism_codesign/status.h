@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATUS_H_
-#define MECHANISM_CODESIGN_STATUS_H_
+#pragma once
 
 #include <string>
 
@@ -44,5 +43,3 @@ struct Status {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATUS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_VERSION_H_
-#define MECHANISM_CODESIGN_VERSION_H_
+#pragma once
 
 namespace codesign {
 
@@ -9,5 +8,3 @@ namespace codesign {
 const char* version();
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_VERSION_H_

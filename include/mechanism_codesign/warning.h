@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_WARNING_H_
-#define MECHANISM_CODESIGN_WARNING_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -27,5 +26,3 @@ Warning warn(const std::string& code, const InputFault& fault);
 void append(const Warnings& more, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_WARNING_H_

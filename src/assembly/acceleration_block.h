@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_ACCELERATION_BLOCK_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_ACCELERATION_BLOCK_H_
+#pragma once
 
 #include <Eigen/SparseCore>
 #include <vector>
@@ -20,5 +19,3 @@ std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& sys
 SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_ACCELERATION_BLOCK_H_

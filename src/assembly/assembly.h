@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_ASSEMBLY_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_ASSEMBLY_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -228,5 +227,3 @@ class Assembly {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_ASSEMBLY_H_

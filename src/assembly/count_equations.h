@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_COUNT_EQUATIONS_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_COUNT_EQUATIONS_H_
+#pragma once
 
 #include <vector>
 
@@ -18,5 +17,3 @@ namespace codesign {
 Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_COUNT_EQUATIONS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_DETERMINED_MOTION_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_DETERMINED_MOTION_H_
+#pragma once
 
 #include "assembly/assembly.h"
 
@@ -15,5 +14,3 @@ void require_determined_motion(const CompiledSystem& system, const std::vector<d
                                Equations<double>* equations);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_DETERMINED_MOTION_H_

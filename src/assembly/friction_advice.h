@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_FRICTION_ADVICE_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_FRICTION_ADVICE_H_
+#pragma once
 
 #include <vector>
 
@@ -29,5 +28,3 @@ std::vector<Release> releases_for_friction(const CompiledSystem& system, const R
 double effect_of_sharing(const CompiledSystem& system, const Redundancy& redundancy, State<double> state, Equations<double>* equations);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_FRICTION_ADVICE_H_

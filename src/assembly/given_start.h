@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_
+#pragma once
 
 #include <vector>
 
@@ -28,5 +27,3 @@ template <class T>
 void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_GIVEN_START_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_LOOP_JACOBIAN_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_LOOP_JACOBIAN_H_
+#pragma once
 
 #include <string>
 #include <string_view>
@@ -121,5 +120,3 @@ class LoopJacobian {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_LOOP_JACOBIAN_H_

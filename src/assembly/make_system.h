@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_MAKE_SYSTEM_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_MAKE_SYSTEM_H_
+#pragma once
 
 #include <memory>
 
@@ -19,5 +18,3 @@ namespace codesign {
 std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_MAKE_SYSTEM_H_

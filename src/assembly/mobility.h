@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_MOBILITY_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_MOBILITY_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -20,5 +19,3 @@ int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms);
 int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly, const Equations<double>& equations);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_MOBILITY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_REDUNDANCY_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_REDUNDANCY_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -38,5 +37,3 @@ std::vector<std::size_t> open_reactions(const CompiledSystem& system, const Redu
                                         const std::vector<Signal>& signals, Equations<double>* equations);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_REDUNDANCY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_SIGNAL_WARNINGS_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_SIGNAL_WARNINGS_H_
+#pragma once
 
 #include <vector>
 
@@ -19,5 +18,3 @@ Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& 
 Warnings warn_of_open_reactions(const CompiledSystem& system, const std::vector<SignalDescription>& signals);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_SIGNAL_WARNINGS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_SINGULAR_START_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_SINGULAR_START_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -68,5 +67,3 @@ class SingularStart {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_SINGULAR_START_H_

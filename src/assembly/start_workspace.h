@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_START_WORKSPACE_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_START_WORKSPACE_H_
+#pragma once
 
 #include <utility>
 #include <vector>
@@ -32,5 +31,3 @@ struct StartWorkspace {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_START_WORKSPACE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ASSEMBLY_TREE_COORDINATES_H_
-#define MECHANISM_CODESIGN_ASSEMBLY_TREE_COORDINATES_H_
+#pragma once
 
 #include <string>
 
@@ -22,5 +21,3 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree, const
                              Equations<double>* equations, TreeCoordinates* result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ASSEMBLY_TREE_COORDINATES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_ARGUMENTS_H_
-#define MECHANISM_CODESIGN_CLI_ARGUMENTS_H_
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -44,5 +43,3 @@ struct Arguments {
 Arguments parse_arguments(const std::vector<std::string>& words);
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_ARGUMENTS_H_

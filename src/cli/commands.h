@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_COMMANDS_H_
-#define MECHANISM_CODESIGN_CLI_COMMANDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -24,5 +23,3 @@ int excite(const Arguments& arguments, const Console& console);
 int run(const std::vector<std::string>& words, const Console& console);
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_COMMANDS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_CONSOLE_H_
-#define MECHANISM_CODESIGN_CLI_CONSOLE_H_
+#pragma once
 
 #include <atomic>
 #include <ostream>
@@ -31,5 +30,3 @@ struct Console {
 enum ExitCode : int { kDone = 0, kFailed = 1, kBadInput = 2 };
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_CONSOLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_HAND_OVER_H_
-#define MECHANISM_CODESIGN_CLI_HAND_OVER_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -24,5 +23,3 @@ std::string find_program(const std::string& name, const std::string& program_fol
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& words);
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_HAND_OVER_H_

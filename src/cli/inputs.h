@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_INPUTS_H_
-#define MECHANISM_CODESIGN_CLI_INPUTS_H_
+#pragma once
 
 #include <vector>
 
@@ -25,5 +24,3 @@ std::vector<std::string> input_files(const Problem& problem);
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem);
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_INPUTS_H_

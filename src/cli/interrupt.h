@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_INTERRUPT_H_
-#define MECHANISM_CODESIGN_CLI_INTERRUPT_H_
+#pragma once
 
 #include <atomic>
 
@@ -16,5 +15,3 @@ void keep_results();
 const std::atomic<bool>& interrupted();
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_INTERRUPT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_JOB_FOLDER_H_
-#define MECHANISM_CODESIGN_CLI_JOB_FOLDER_H_
+#pragma once
 
 #include <atomic>
 #include <fstream>
@@ -71,5 +70,3 @@ class JobFolder {
 };
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_JOB_FOLDER_H_

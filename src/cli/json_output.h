@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_JSON_OUTPUT_H_
-#define MECHANISM_CODESIGN_CLI_JSON_OUTPUT_H_
+#pragma once
 
 #include <ostream>
 
@@ -12,5 +11,3 @@ namespace codesign::cli {
 inline void print(const Json& object, std::ostream& out) { out << to_text(object) << std::flush; }
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_JSON_OUTPUT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_OUTPUT_FILE_H_
-#define MECHANISM_CODESIGN_CLI_OUTPUT_FILE_H_
+#pragma once
 
 #include <fstream>
 #include <string>
@@ -20,5 +19,3 @@ void require_no_input(const std::string& path, const std::string& option, const 
 void make_folder(const std::string& path, const std::string& option);
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_OUTPUT_FILE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_PROGRESS_LINE_H_
-#define MECHANISM_CODESIGN_CLI_PROGRESS_LINE_H_
+#pragma once
 
 #include <chrono>
 #include <string>
@@ -30,5 +29,3 @@ class LinePace {
 };
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_PROGRESS_LINE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_RECORDINGS_TABLE_H_
-#define MECHANISM_CODESIGN_CLI_RECORDINGS_TABLE_H_
+#pragma once
 
 #include <ostream>
 #include <vector>
@@ -23,5 +22,3 @@ std::vector<RecordingSummary> check_recordings(const Problem& problem, const Con
 void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out);
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_RECORDINGS_TABLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_REPORT_H_
-#define MECHANISM_CODESIGN_CLI_REPORT_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -28,5 +27,3 @@ int finish(const Arguments& arguments, const Status& status, Json object, const 
            const std::vector<Failure>& failures = {});
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_REPORT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_TABLE_H_
-#define MECHANISM_CODESIGN_CLI_TABLE_H_
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -19,5 +18,3 @@ class Table {
 };
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_TABLE_H_

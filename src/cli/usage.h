@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CLI_USAGE_H_
-#define MECHANISM_CODESIGN_CLI_USAGE_H_
+#pragma once
 
 #include <string>
 
@@ -10,5 +9,3 @@ namespace codesign::cli {
 std::string usage(const std::string& command = "");
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_CLI_USAGE_H_

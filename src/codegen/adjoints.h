@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_ADJOINTS_H_
-#define MECHANISM_CODESIGN_CODEGEN_ADJOINTS_H_
+#pragma once
 
 #include <vector>
 
@@ -25,5 +24,3 @@ struct AdjointSeed {
 std::vector<Traced> derive_adjoints(Recording* recording, const std::vector<AdjointSeed>& seeds, const std::vector<bool>& is_target);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_ADJOINTS_H_

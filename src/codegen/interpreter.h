@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_INTERPRETER_H_
-#define MECHANISM_CODESIGN_CODEGEN_INTERPRETER_H_
+#pragma once
 
 #include <cstddef>
 #include <memory>
@@ -55,5 +54,3 @@ class Interpreter final : public ValueCode {
 std::unique_ptr<StraightLine> interpret_sums(std::vector<Sum> sums, int width, const StraightLine::RowLayouts& layouts);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_INTERPRETER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_JACOBIAN_H_
-#define MECHANISM_CODESIGN_CODEGEN_JACOBIAN_H_
+#pragma once
 
 #include <vector>
 
@@ -39,5 +38,3 @@ std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vect
                                            EliminationOrder order = EliminationOrder::kMarkowitz);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_JACOBIAN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_MACHINE_CODE_H_
-#define MECHANISM_CODESIGN_CODEGEN_MACHINE_CODE_H_
+#pragma once
 
 namespace codesign {
 
@@ -81,5 +80,3 @@ class MachineCode : protected Xbyak::CodeGenerator {
 
 }  // namespace codesign
 #endif
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_MACHINE_CODE_H_

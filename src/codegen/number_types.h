@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_
-#define MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_
+#pragma once
 
 #include <complex>
 
@@ -21,5 +20,3 @@
 #define CODESIGN_FOR_EACH_FORMULA_TYPE(INSTANTIATE) \
   INSTANTIATE(double)                               \
   INSTANTIATE(Traced)
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_NUMBER_TYPES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_OPERATE_H_
-#define MECHANISM_CODESIGN_CODEGEN_OPERATE_H_
+#pragma once
 
 #include <cmath>
 
@@ -49,5 +48,3 @@ T operate(Operation operation, const T& a, const T& b) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_OPERATE_H_

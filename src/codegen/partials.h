@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_
-#define MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_
+#pragma once
 
 #include <vector>
 
@@ -25,5 +24,3 @@ Traced folded(Recording* recording, const Traced& x);
 Traced product(Recording* recording, const Traced& x, const Traced& y);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_PARTIALS_H_

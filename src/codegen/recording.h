@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_RECORDING_H_
-#define MECHANISM_CODESIGN_CODEGEN_RECORDING_H_
+#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -116,5 +115,3 @@ class Recording {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_RECORDING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_SOURCE_ID_H_
-#define MECHANISM_CODESIGN_CODEGEN_SOURCE_ID_H_
+#pragma once
 
 #include <typeindex>
 
@@ -26,5 +25,3 @@ class SourceId {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_SOURCE_ID_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_STRAIGHT_LINE_H_
-#define MECHANISM_CODESIGN_CODEGEN_STRAIGHT_LINE_H_
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -84,5 +83,3 @@ class LazyStraightLine {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_STRAIGHT_LINE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_TANGENT_PROGRAM_H_
-#define MECHANISM_CODESIGN_CODEGEN_TANGENT_PROGRAM_H_
+#pragma once
 
 #include <vector>
 
@@ -35,5 +34,3 @@ struct TangentProgram {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_TANGENT_PROGRAM_H_

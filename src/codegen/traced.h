@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_TRACED_H_
-#define MECHANISM_CODESIGN_CODEGEN_TRACED_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -93,5 +92,3 @@ struct ScalarBinaryOpTraits<double, codesign::Traced, Operation> {
 };
 
 }  // namespace Eigen
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_TRACED_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CODEGEN_VALUE_CODE_H_
-#define MECHANISM_CODESIGN_CODEGEN_VALUE_CODE_H_
+#pragma once
 
 #include <array>
 #include <memory>
@@ -29,5 +28,3 @@ class ValueCode {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CODEGEN_VALUE_CODE_H_

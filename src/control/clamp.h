@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_CLAMP_H_
-#define MECHANISM_CODESIGN_CONTROL_CLAMP_H_
+#pragma once
 
 #include <cmath>
 
@@ -38,5 +37,3 @@ T clamped_integral_rate(const T& e, const T& s, const T& i, const T& bound) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_CLAMP_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_
-#define MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
@@ -48,5 +47,3 @@ class ControlClock {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_CONTROL_CLOCK_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_CONTROLLER_H_
-#define MECHANISM_CODESIGN_CONTROL_CONTROLLER_H_
+#pragma once
 
 #include <vector>
 
@@ -40,5 +39,3 @@ std::vector<Controller> resolve_controllers(const Study& study, const RobotDescr
                                             const std::vector<Signal>& observed, int* states);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_CONTROLLER_H_

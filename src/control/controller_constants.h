@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_CONTROLLER_CONSTANTS_H_
-#define MECHANISM_CODESIGN_CONTROL_CONTROLLER_CONSTANTS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -58,5 +57,3 @@ ControllerConstants<T> controller_constants(const ControllerDescription& descrip
 std::string find_impossible(const ControllerDescription& description, const ControllerConstants<double>& constants);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_CONTROLLER_CONSTANTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_PID_H_
-#define MECHANISM_CODESIGN_CONTROL_PID_H_
+#pragma once
 
 namespace codesign {
 
@@ -14,5 +13,3 @@ struct Pid {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_PID_H_

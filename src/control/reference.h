@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_REFERENCE_H_
-#define MECHANISM_CODESIGN_CONTROL_REFERENCE_H_
+#pragma once
 
 #include <array>
 #include <memory>
@@ -71,5 +70,3 @@ class Reference<Traced> {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_REFERENCE_H_

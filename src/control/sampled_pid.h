@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_SAMPLED_PID_H_
-#define MECHANISM_CODESIGN_CONTROL_SAMPLED_PID_H_
+#pragma once
 
 #include "control/clamp.h"
 #include "control/pid.h"
@@ -51,5 +50,3 @@ T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, bool is_first,
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_SAMPLED_PID_H_

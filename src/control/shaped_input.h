@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_SHAPED_INPUT_H_
-#define MECHANISM_CODESIGN_CONTROL_SHAPED_INPUT_H_
+#pragma once
 
 #include <vector>
 
@@ -45,5 +44,3 @@ class ShapedInput<Traced> {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_SHAPED_INPUT_H_

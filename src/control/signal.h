@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_SIGNAL_H_
-#define MECHANISM_CODESIGN_CONTROL_SIGNAL_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -71,5 +70,3 @@ std::optional<Signal> differentiate(const Signal& resolved);
 Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_SIGNAL_H_

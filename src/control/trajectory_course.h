@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_TRAJECTORY_COURSE_H_
-#define MECHANISM_CODESIGN_CONTROL_TRAJECTORY_COURSE_H_
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -32,5 +31,3 @@ Course trajectory_course(const std::vector<CoursePoint>& points, double now, con
 Course rate_of(Course course);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_TRAJECTORY_COURSE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_CONTROL_WAYPOINT_PIECE_H_
-#define MECHANISM_CODESIGN_CONTROL_WAYPOINT_PIECE_H_
+#pragma once
 
 #include <array>
 
@@ -39,5 +38,3 @@ std::array<T, 6> waypoint_polynomial(Interpolation interpolation, const Knot<T>&
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_CONTROL_WAYPOINT_PIECE_H_

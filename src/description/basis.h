@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_BASIS_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_BASIS_H_
+#pragma once
 
 #include <array>
 #include <vector>
@@ -36,5 +35,3 @@ struct BasisWeights {
 BasisWeights basis_weights(const BasisDescription& basis, double t);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_BASIS_H_

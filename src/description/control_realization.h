@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_CONTROL_REALIZATION_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_CONTROL_REALIZATION_H_
+#pragma once
 
 #include <optional>
 
@@ -25,5 +24,3 @@ struct ControlRealization {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_CONTROL_REALIZATION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_DEPENDENCIES_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_DEPENDENCIES_H_
+#pragma once
 
 #include <vector>
 
@@ -14,5 +13,3 @@ std::vector<int> dependencies(const ReferenceDescription& description);
 std::vector<int> dependencies(const BasisDescription& description);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_DEPENDENCIES_H_

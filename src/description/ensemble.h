@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_ENSEMBLE_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_ENSEMBLE_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -135,5 +134,3 @@ struct EnsembleDescription {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_ENSEMBLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_H_
+#pragma once
 
 #include <complex>
 #include <functional>
@@ -83,5 +82,3 @@ class Expression {
 std::string identifier_fault(const std::string& name);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_H_

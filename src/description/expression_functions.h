@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_FUNCTIONS_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_FUNCTIONS_H_
+#pragma once
 
 #include <complex>
 #include <string>
@@ -34,5 +33,3 @@ std::complex<double> expression_power(In<std::complex<double>> z);
 std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_FUNCTIONS_H_

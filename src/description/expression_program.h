@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_PROGRAM_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_PROGRAM_H_
+#pragma once
 
 #include <complex>
 #include <vector>
@@ -45,5 +44,3 @@ int stack_size(const ExpressionSteps& steps);
 std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables, Out<std::complex<double>> stack);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_PROGRAM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_RANGE_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_RANGE_H_
+#pragma once
 
 #include <limits>
 
@@ -19,5 +18,3 @@ struct ValueRange {
 ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_RANGE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SCANNER_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SCANNER_H_
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -46,5 +45,3 @@ bool starts_identifier(char c);
 bool continues_identifier(char c);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SCANNER_H_

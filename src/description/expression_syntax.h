@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SYNTAX_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SYNTAX_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -22,5 +21,3 @@ struct ParsedExpression {
 ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_EXPRESSION_SYNTAX_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_FRICTION_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_FRICTION_H_
+#pragma once
 
 #include <array>
 #include <optional>
@@ -106,5 +105,3 @@ struct FrictionDescription : FrictionNumbers<Quantity> {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_FRICTION_H_

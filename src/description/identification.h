@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_IDENTIFICATION_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_IDENTIFICATION_H_
+#pragma once
 
 #include <array>
 #include <limits>
@@ -177,5 +176,3 @@ struct IdentificationDescription {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_IDENTIFICATION_H_

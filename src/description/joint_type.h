@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_JOINT_TYPE_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_JOINT_TYPE_H_
+#pragma once
 
 #include <array>
 
@@ -35,5 +34,3 @@ constexpr std::array<JointTypeName, 10> kJointTypeNames{{
 }};
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_JOINT_TYPE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_LIVE_FUNCTION_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_LIVE_FUNCTION_H_
+#pragma once
 
 #include <array>
 
@@ -15,5 +14,3 @@ struct LiveFunction {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_LIVE_FUNCTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_NAMED_FILE_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_NAMED_FILE_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -30,5 +29,3 @@ FileLoader files_in(const std::string& folder);
 FileLoader files_beside(const std::string& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_NAMED_FILE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_CONSTRAINT_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_CONSTRAINT_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -22,5 +21,3 @@ ParameterConstraint make_constraint(const std::string& text, const std::string& 
                                     const std::vector<std::string>& names, const SourceLocation& where, const std::string& element);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_PARAMETER_CONSTRAINT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_QUANTITY_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_QUANTITY_H_
+#pragma once
 
 #include <array>
 #include <complex>
@@ -60,5 +59,3 @@ class Quantity {
 using QuantityVector = std::array<Quantity, 3>;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_QUANTITY_H_

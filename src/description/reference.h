@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_REFERENCE_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_REFERENCE_H_
+#pragma once
 
 #include <functional>
 #include <memory>
@@ -84,5 +83,3 @@ struct RecordedTrajectory {
 using TrajectoryLoader = std::function<RecordedTrajectory(const TrajectoryAddress&)>;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_REFERENCE_H_

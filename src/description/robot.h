@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_ROBOT_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_ROBOT_H_
+#pragma once
 
 #include <array>
 #include <optional>
@@ -142,5 +141,3 @@ struct RobotDescription {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_ROBOT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_SIGNAL_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_SIGNAL_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -29,5 +28,3 @@ struct SignalDescription {
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_SIGNAL_H_

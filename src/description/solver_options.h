@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_SOLVER_OPTIONS_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_SOLVER_OPTIONS_H_
+#pragma once
 
 #include <array>
 
@@ -52,5 +51,3 @@ struct SolverOptions {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_SOLVER_OPTIONS_H_

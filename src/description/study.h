@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_STUDY_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_STUDY_H_
+#pragma once
 
 #include <array>
 #include <memory>
@@ -145,5 +144,3 @@ struct Study {
 bool has_objective(const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_STUDY_H_

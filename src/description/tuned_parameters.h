@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <optional>
@@ -45,5 +44,3 @@ std::optional<InputFault> find_missing_bounds(const Parameter& parameter);
 std::vector<std::string> tuned_names(const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_TUNED_PARAMETERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_DESCRIPTION_WATCHED_SIGNAL_H_
-#define MECHANISM_CODESIGN_DESCRIPTION_WATCHED_SIGNAL_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -41,5 +40,3 @@ bool is_equality(const WatchedSignal& watched);
 void require_ordered_bounds(const WatchedSignal& watched, const std::vector<double>& parameters);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_DESCRIPTION_WATCHED_SIGNAL_H_

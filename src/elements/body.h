@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_BODY_H_
-#define MECHANISM_CODESIGN_ELEMENTS_BODY_H_
+#pragma once
 
 #include "elements/rigid_body.h"
 #include "elements/state_view.h"
@@ -44,5 +43,3 @@ void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Ph
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_BODY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_
-#define MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_
+#pragma once
 
 #include "elements/contact_friction.h"
 #include "elements/state_view.h"
@@ -57,5 +56,3 @@ void bristle_residual(const StateView<T>& view, const BristleContact& contact, V
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_BRISTLE_H_

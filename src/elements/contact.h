@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_CONTACT_H_
-#define MECHANISM_CODESIGN_ELEMENTS_CONTACT_H_
+#pragma once
 
 #include "elements/bristle.h"
 #include "elements/contact_friction.h"
@@ -30,5 +29,3 @@ void contact_residual(const StateView<T>& view, Workspace<T>* workspace, int pai
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_CONTACT_H_

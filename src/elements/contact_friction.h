@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_CONTACT_FRICTION_H_
-#define MECHANISM_CODESIGN_ELEMENTS_CONTACT_FRICTION_H_
+#pragma once
 
 #include <array>
 
@@ -85,5 +84,3 @@ ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair,
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_CONTACT_FRICTION_H_

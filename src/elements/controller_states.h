@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_CONTROLLER_STATES_H_
-#define MECHANISM_CODESIGN_ELEMENTS_CONTROLLER_STATES_H_
+#pragma once
 
 #include "elements/controllers.h"
 
@@ -49,5 +48,3 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_CONTROLLER_STATES_H_

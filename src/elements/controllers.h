@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_
-#define MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_
+#pragma once
 
 #include "control/clamp.h"
 #include "control/pid.h"
@@ -145,5 +144,3 @@ T drive_effort(const StateView<T>& view, int controller) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_CONTROLLERS_H_

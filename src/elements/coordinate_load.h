@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_COORDINATE_LOAD_H_
-#define MECHANISM_CODESIGN_ELEMENTS_COORDINATE_LOAD_H_
+#pragma once
 
 #include "elements/state_view.h"
 #include "elements/workspace.h"
@@ -61,5 +60,3 @@ void add_slip_load(const StateView<T>& view, Workspace<T>* workspace, int pair, 
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_COORDINATE_LOAD_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_
-#define MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_
+#pragma once
 
 #include "elements/coordinate_load.h"
 #include "elements/state_view.h"
@@ -51,5 +50,3 @@ void coupling_residual(const StateView<T>& view, Workspace<T>* workspace, std::s
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_COUPLING_H_

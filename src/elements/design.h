@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_DESIGN_H_
-#define MECHANISM_CODESIGN_ELEMENTS_DESIGN_H_
+#pragma once
 
 #include <vector>
 
@@ -96,5 +95,3 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_DESIGN_H_

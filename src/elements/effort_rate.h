@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_EFFORT_RATE_H_
-#define MECHANISM_CODESIGN_ELEMENTS_EFFORT_RATE_H_
+#pragma once
 
 #include "elements/controller_states.h"
 #include "elements/joint_load.h"
@@ -76,5 +75,3 @@ T applied_effort_rate(const StateView<T>& view, const JointLoad& load) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_EFFORT_RATE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_ENERGY_H_
-#define MECHANISM_CODESIGN_ELEMENTS_ENERGY_H_
+#pragma once
 
 #include "elements/rotor.h"
 #include "elements/spring.h"
@@ -59,5 +58,3 @@ T potential_energy(const StateView<T>& view) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_ENERGY_H_

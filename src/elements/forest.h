@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_FOREST_H_
-#define MECHANISM_CODESIGN_ELEMENTS_FOREST_H_
+#pragma once
 
 #include <cassert>
 
@@ -107,5 +106,3 @@ const Wrench<T>& transmitted_wrench(const StateView<T>& view, int body) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_FOREST_H_

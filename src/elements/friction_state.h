@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_FRICTION_STATE_H_
-#define MECHANISM_CODESIGN_ELEMENTS_FRICTION_STATE_H_
+#pragma once
 
 namespace codesign {
 
@@ -13,5 +12,3 @@ struct FrictionState {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_FRICTION_STATE_H_

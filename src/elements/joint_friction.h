@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_JOINT_FRICTION_H_
-#define MECHANISM_CODESIGN_ELEMENTS_JOINT_FRICTION_H_
+#pragma once
 
 #include "elements/bristle.h"
 #include "elements/friction_state.h"
@@ -35,5 +34,3 @@ T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& ra
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_JOINT_FRICTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_
-#define MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_
+#pragma once
 
 #include "elements/controllers.h"
 #include "elements/coordinate_load.h"
@@ -109,5 +108,3 @@ T joint_effort(const StateView<T>& view, int pair, int element) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_JOINT_LOAD_H_

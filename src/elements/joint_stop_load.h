@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_JOINT_STOP_LOAD_H_
-#define MECHANISM_CODESIGN_ELEMENTS_JOINT_STOP_LOAD_H_
+#pragma once
 
 #include "elements/state_view.h"
 #include "forces/joint_stop.h"
@@ -29,5 +28,3 @@ T stop_dissipation(const StateView<T>& view, const JointLoad& load, const T& rat
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_JOINT_STOP_LOAD_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_LINK_LOAD_H_
-#define MECHANISM_CODESIGN_ELEMENTS_LINK_LOAD_H_
+#pragma once
 
 #include "elements/state_view.h"
 #include "elements/workspace.h"
@@ -56,5 +55,3 @@ T link_load_power(const StateView<T>& view, std::size_t k) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_LINK_LOAD_H_

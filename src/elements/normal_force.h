@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_NORMAL_FORCE_H_
-#define MECHANISM_CODESIGN_ELEMENTS_NORMAL_FORCE_H_
+#pragma once
 
 #include "elements/state_view.h"
 #include "forces/normal_force.h"
@@ -94,5 +93,3 @@ T normal_force(const StateView<T>& view, int pair) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_NORMAL_FORCE_H_

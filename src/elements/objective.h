@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_
-#define MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_
+#pragma once
 
 #include "elements/signals.h"
 
@@ -30,5 +29,3 @@ T watched_value(const StateView<T>& view, std::size_t k) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_OBJECTIVE_H_

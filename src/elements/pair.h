@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_PAIR_H_
-#define MECHANISM_CODESIGN_ELEMENTS_PAIR_H_
+#pragma once
 
 #include <cassert>
 
@@ -68,5 +67,3 @@ void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i,
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_PAIR_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_POWER_H_
-#define MECHANISM_CODESIGN_ELEMENTS_POWER_H_
+#pragma once
 
 #include "elements/contact.h"
 #include "elements/joint_load.h"
@@ -77,5 +76,3 @@ T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_POWER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_POWER_KIND_H_
-#define MECHANISM_CODESIGN_ELEMENTS_POWER_KIND_H_
+#pragma once
 
 namespace codesign {
 
@@ -14,5 +13,3 @@ enum class PowerKind {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_POWER_KIND_H_

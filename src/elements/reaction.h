@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_REACTION_H_
-#define MECHANISM_CODESIGN_ELEMENTS_REACTION_H_
+#pragma once
 
 #include "elements/contact.h"
 #include "elements/joint_load.h"
@@ -161,5 +160,3 @@ T reaction_term(const StateView<T>& view, const SignalReference& term) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_REACTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_REACTION_AXIS_H_
-#define MECHANISM_CODESIGN_ELEMENTS_REACTION_AXIS_H_
+#pragma once
 
 #include "joints/local_row.h"
 
@@ -25,5 +24,3 @@ struct ReactionAxis {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_REACTION_AXIS_H_

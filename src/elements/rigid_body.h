@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_RIGID_BODY_H_
-#define MECHANISM_CODESIGN_ELEMENTS_RIGID_BODY_H_
+#pragma once
 
 #include "joints/body_kinematics.h"
 #include "mechanism/constants.h"
@@ -19,5 +18,3 @@ void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vec
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_RIGID_BODY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_SAMPLED_CONTROL_H_
-#define MECHANISM_CODESIGN_ELEMENTS_SAMPLED_CONTROL_H_
+#pragma once
 
 #include "control/control_clock.h"
 #include "control/sampled_pid.h"
@@ -83,5 +82,3 @@ void begin_controller(const System& system, int controller, const Sample& sample
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_SAMPLED_CONTROL_H_

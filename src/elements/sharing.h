@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_SHARING_H_
-#define MECHANISM_CODESIGN_ELEMENTS_SHARING_H_
+#pragma once
 
 #include "elements/pair.h"
 #include "elements/state_view.h"
@@ -132,5 +131,3 @@ void sharing_residual(const StateView<T>& view, Workspace<T>* workspace, VectorX
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_SHARING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_SIGNALS_H_
-#define MECHANISM_CODESIGN_ELEMENTS_SIGNALS_H_
+#pragma once
 
 #include "elements/controllers.h"
 #include "elements/effort_rate.h"
@@ -136,5 +135,3 @@ T signal_value(const StateView<T>& view, const Signal& signal) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_SIGNALS_H_

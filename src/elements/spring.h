@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_SPRING_H_
-#define MECHANISM_CODESIGN_ELEMENTS_SPRING_H_
+#pragma once
 
 #include "elements/state_view.h"
 #include "elements/workspace.h"
@@ -46,5 +45,3 @@ T spring_power(const StateView<T>& view, std::size_t k) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_SPRING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_STATE_VIEW_H_
-#define MECHANISM_CODESIGN_ELEMENTS_STATE_VIEW_H_
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -173,5 +172,3 @@ T StateView<T>::whole_turns(int pair, int element, const T& position) const {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_STATE_VIEW_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ELEMENTS_WORKSPACE_H_
-#define MECHANISM_CODESIGN_ELEMENTS_WORKSPACE_H_
+#pragma once
 
 #include <vector>
 
@@ -60,5 +59,3 @@ struct Workspace {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ELEMENTS_WORKSPACE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_BYTES_H_
-#define MECHANISM_CODESIGN_ENGINE_BYTES_H_
+#pragma once
 
 #include <cstdint>
 #include <cstring>
@@ -78,5 +77,3 @@ class ByteReader {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_BYTES_H_

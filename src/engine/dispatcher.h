@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_DISPATCHER_H_
-#define MECHANISM_CODESIGN_ENGINE_DISPATCHER_H_
+#pragma once
 
 #include <condition_variable>
 #include <deque>
@@ -104,5 +103,3 @@ class Dispatcher {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_DISPATCHER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_EVALUATION_ENGINE_H_
-#define MECHANISM_CODESIGN_ENGINE_EVALUATION_ENGINE_H_
+#pragma once
 
 #include <atomic>
 #include <cstdint>
@@ -49,5 +48,3 @@ std::unique_ptr<EvaluationEngine> make_engine(const Problem& problem, std::int64
 std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, std::int64_t most_useful);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_EVALUATION_ENGINE_H_

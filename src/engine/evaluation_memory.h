@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_EVALUATION_MEMORY_H_
-#define MECHANISM_CODESIGN_ENGINE_EVALUATION_MEMORY_H_
+#pragma once
 
 #include <optional>
 
@@ -19,5 +18,3 @@ class EvaluationMemory {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_EVALUATION_MEMORY_H_

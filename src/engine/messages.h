@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_MESSAGES_H_
-#define MECHANISM_CODESIGN_ENGINE_MESSAGES_H_
+#pragma once
 
 #include <cstdint>
 #include <exception>
@@ -71,5 +70,3 @@ Evaluation read_result(ByteReader* reader);
 std::exception_ptr read_error(ByteReader* reader);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_MESSAGES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_MPI_ENGINE_H_
-#define MECHANISM_CODESIGN_ENGINE_MPI_ENGINE_H_
+#pragma once
 
 #include <map>
 #include <thread>
@@ -34,5 +33,3 @@ class MpiEngine final : public EvaluationEngine {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_MPI_ENGINE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_POLL_PAUSE_H_
-#define MECHANISM_CODESIGN_ENGINE_POLL_PAUSE_H_
+#pragma once
 
 #include <algorithm>
 #include <chrono>
@@ -38,5 +37,3 @@ struct RankTimes {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_POLL_PAUSE_H_

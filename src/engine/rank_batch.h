@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_RANK_BATCH_H_
-#define MECHANISM_CODESIGN_ENGINE_RANK_BATCH_H_
+#pragma once
 
 #include <condition_variable>
 #include <cstdint>
@@ -58,5 +57,3 @@ struct RankState {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_RANK_BATCH_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_RANK_WORKER_H_
-#define MECHANISM_CODESIGN_ENGINE_RANK_WORKER_H_
+#pragma once
 
 #include <condition_variable>
 #include <deque>
@@ -59,5 +58,3 @@ class RankWorker {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_RANK_WORKER_H_

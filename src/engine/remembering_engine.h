@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_REMEMBERING_ENGINE_H_
-#define MECHANISM_CODESIGN_ENGINE_REMEMBERING_ENGINE_H_
+#pragma once
 
 #include <functional>
 #include <memory>
@@ -38,5 +37,3 @@ class RememberingEngine final : public EvaluationEngine {
 std::unique_ptr<EvaluationEngine> with_records(std::unique_ptr<EvaluationEngine> engine, EngineRecords records);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_REMEMBERING_ENGINE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_SIDE_BY_SIDE_H_
-#define MECHANISM_CODESIGN_ENGINE_SIDE_BY_SIDE_H_
+#pragma once
 
 #include <cstddef>
 #include <functional>
@@ -18,5 +17,3 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
 int worker_threads(const EngineOptions& engine);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_SIDE_BY_SIDE_H_

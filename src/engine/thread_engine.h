@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_THREAD_ENGINE_H_
-#define MECHANISM_CODESIGN_ENGINE_THREAD_ENGINE_H_
+#pragma once
 
 #include <condition_variable>
 #include <deque>
@@ -43,5 +42,3 @@ class ThreadEngine final : public EvaluationEngine {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_THREAD_ENGINE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_TRANSPORT_H_
-#define MECHANISM_CODESIGN_ENGINE_TRANSPORT_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -28,5 +27,3 @@ class Transport {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_TRANSPORT_H_

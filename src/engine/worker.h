@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENGINE_WORKER_H_
-#define MECHANISM_CODESIGN_ENGINE_WORKER_H_
+#pragma once
 
 #include <map>
 
@@ -37,5 +36,3 @@ class EvaluationWorker {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENGINE_WORKER_H_

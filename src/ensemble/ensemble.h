@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_
-#define MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_
+#pragma once
 
 #include <memory>
 #include <vector>
@@ -78,5 +77,3 @@ GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, 
 bool disagrees(const GradientCheck& check);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENSEMBLE_ENSEMBLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENSEMBLE_PARAMETER_ROWS_H_
-#define MECHANISM_CODESIGN_ENSEMBLE_PARAMETER_ROWS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -37,5 +36,3 @@ class ParameterRows {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENSEMBLE_PARAMETER_ROWS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ENSEMBLE_SCENARIO_H_
-#define MECHANISM_CODESIGN_ENSEMBLE_SCENARIO_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <memory>
@@ -38,5 +37,3 @@ std::vector<Scenario> make_scenarios(const Problem& problem);
 std::vector<Scenario> make_validation_scenarios(const Problem& problem, int count);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ENSEMBLE_SCENARIO_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_COMPILED_EQUATIONS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_COMPILED_EQUATIONS_H_
+#pragma once
 
 #include <complex>
 #include <memory>
@@ -139,5 +138,3 @@ class CompiledEquations {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_COMPILED_EQUATIONS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_
-#define MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -42,5 +41,3 @@ class CompiledSystem final : public System {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_COMPILED_SYSTEM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_DERIVATIVE_PRODUCTS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_DERIVATIVE_PRODUCTS_H_
+#pragma once
 
 #include "equations/compiled_system.h"
 #include "math/span.h"
@@ -20,5 +19,3 @@ void subtract_position_product(const CompiledSystem& system, const Linearization
                                Out<double> result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_DERIVATIVE_PRODUCTS_H_

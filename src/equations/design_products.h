@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_DESIGN_PRODUCTS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_DESIGN_PRODUCTS_H_
+#pragma once
 
 #include <array>
 #include <variant>
@@ -48,5 +47,3 @@ class DesignProducts {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_DESIGN_PRODUCTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATION_CODE_H_
-#define MECHANISM_CODESIGN_EQUATIONS_EQUATION_CODE_H_
+#pragma once
 
 #include <array>
 #include <atomic>
@@ -142,5 +141,3 @@ class EquationCode {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_EQUATION_CODE_H_

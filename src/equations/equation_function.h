@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_
-#define MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_
+#pragma once
 
 #include <cstddef>
 
@@ -50,5 +49,3 @@ constexpr EquationFunction controller_function(int controller, ControllerFunctio
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_EQUATION_FUNCTION_H_

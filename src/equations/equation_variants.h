@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATION_VARIANTS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_EQUATION_VARIANTS_H_
+#pragma once
 
 #include <cstddef>
 #include <deque>
@@ -28,5 +27,3 @@ class EquationVariants {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_EQUATION_VARIANTS_H_

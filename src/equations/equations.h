@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_H_
+#pragma once
 
 #include <type_traits>
 #include <vector>
@@ -90,5 +89,3 @@ class Equations {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_EQUATIONS_H_

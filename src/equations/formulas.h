@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_H_
+#pragma once
 
 #include <vector>
 
@@ -95,5 +94,3 @@ class Formulas {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_FORMULAS_H_

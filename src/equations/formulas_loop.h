@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
-#define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_
+#pragma once
 
 #include "elements/controller_states.h"
 #include "elements/forest.h"
@@ -89,5 +88,3 @@ void Formulas<T>::track_turns(State<T>* state) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_FORMULAS_LOOP_H_

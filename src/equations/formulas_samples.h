@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_
-#define MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_
+#pragma once
 
 #include "elements/forest.h"
 #include "elements/objective.h"
@@ -109,5 +108,3 @@ T Formulas<T>::multiplier_reaction(const SignalReference& term) const {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_FORMULAS_SAMPLES_H_

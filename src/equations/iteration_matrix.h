@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_ITERATION_MATRIX_H_
-#define MECHANISM_CODESIGN_EQUATIONS_ITERATION_MATRIX_H_
+#pragma once
 
 #include <memory>
 #include <vector>
@@ -60,5 +59,3 @@ class IterationMatrix {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_ITERATION_MATRIX_H_

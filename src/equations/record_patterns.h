@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_RECORD_PATTERNS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_RECORD_PATTERNS_H_
+#pragma once
 
 #include "sparse/sparsity.h"
 #include "system/system.h"
@@ -13,5 +12,3 @@ namespace codesign {
 ByVariable<Sparsity> record_patterns(const System& system);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_RECORD_PATTERNS_H_

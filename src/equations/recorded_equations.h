@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
-#define MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_
+#pragma once
 
 #include <vector>
 
@@ -42,5 +41,3 @@ std::vector<JacobianEntry> derive_gradients(const System& system, const std::vec
 Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, RecordedEquations* recorded);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_RECORDED_EQUATIONS_H_

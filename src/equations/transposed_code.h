@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EQUATIONS_TRANSPOSED_CODE_H_
-#define MECHANISM_CODESIGN_EQUATIONS_TRANSPOSED_CODE_H_
+#pragma once
 
 #include <array>
 #include <memory>
@@ -72,5 +71,3 @@ class TransposedCode {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EQUATIONS_TRANSPOSED_CODE_H_

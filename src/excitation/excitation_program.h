@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_EXCITATION_PROGRAM_H_
-#define MECHANISM_CODESIGN_EXCITATION_EXCITATION_PROGRAM_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -61,5 +60,3 @@ class ExcitationProgram {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_EXCITATION_PROGRAM_H_

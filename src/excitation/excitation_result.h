@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_EXCITATION_RESULT_H_
-#define MECHANISM_CODESIGN_EXCITATION_EXCITATION_RESULT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -56,5 +55,3 @@ struct ExcitationResult {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_EXCITATION_RESULT_H_

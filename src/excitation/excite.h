@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_EXCITE_H_
-#define MECHANISM_CODESIGN_EXCITATION_EXCITE_H_
+#pragma once
 
 #include <atomic>
 
@@ -18,5 +17,3 @@ namespace codesign {
 ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer, const std::atomic<bool>* cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_EXCITE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_EXCITED_MOTION_H_
-#define MECHANISM_CODESIGN_EXCITATION_EXCITED_MOTION_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -83,5 +82,3 @@ class ExcitedMotion {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_EXCITED_MOTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_INFORMATION_H_
-#define MECHANISM_CODESIGN_EXCITATION_INFORMATION_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -44,5 +43,3 @@ class Information {
 double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& columns, Eigen::MatrixXd* by_jacobian);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_INFORMATION_H_

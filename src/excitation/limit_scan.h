@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_LIMIT_SCAN_H_
-#define MECHANISM_CODESIGN_EXCITATION_LIMIT_SCAN_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -51,5 +50,3 @@ class LimitScan {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_LIMIT_SCAN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_MOTION_LIMITS_H_
-#define MECHANISM_CODESIGN_EXCITATION_MOTION_LIMITS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -42,5 +41,3 @@ struct MotionLimits {
 MotionLimits motion_limits(const Problem& problem);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_MOTION_LIMITS_H_

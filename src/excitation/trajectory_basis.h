@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_BASIS_H_
-#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_BASIS_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -40,5 +39,3 @@ class TrajectoryBasis {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_BASIS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_
-#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <functional>
@@ -21,5 +20,3 @@ struct TrajectoryPoints {
 using TrajectoryBagWriter = std::function<void(const std::string& path, const TrajectoryPoints& points)>;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_POINTS_H_

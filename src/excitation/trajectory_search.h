@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SEARCH_H_
-#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SEARCH_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <functional>
@@ -35,5 +34,3 @@ TrajectorySearchResult search_trajectory(const ExcitationDescription& descriptio
                                          const ExcitationObserver& observer, ExcitationProgram* program);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SEARCH_H_

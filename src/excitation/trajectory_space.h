@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SPACE_H_
-#define MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SPACE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -70,5 +69,3 @@ class TrajectorySpace {
 std::vector<double> times_in_period(double period, Eigen::Index count);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_EXCITATION_TRAJECTORY_SPACE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_BRISTLE_H_
-#define MECHANISM_CODESIGN_FORCES_BRISTLE_H_
+#pragma once
 
 #include "math/scalar.h"
 
@@ -22,5 +21,3 @@ struct Bristle {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_BRISTLE_H_

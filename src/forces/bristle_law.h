@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_BRISTLE_LAW_H_
-#define MECHANISM_CODESIGN_FORCES_BRISTLE_LAW_H_
+#pragma once
 
 #include "description/robot.h"
 #include "forces/gonthier.h"
@@ -31,5 +30,3 @@ Bristle<T> bristle_law(const BristleContact& contact, const Vector3<T>& u, const
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_BRISTLE_LAW_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_BROWN_MCPHEE_H_
-#define MECHANISM_CODESIGN_FORCES_BROWN_MCPHEE_H_
+#pragma once
 
 #include <cmath>
 
@@ -20,5 +19,3 @@ T brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_BROWN_MCPHEE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_DIRECTIONAL_FRICTION_H_
-#define MECHANISM_CODESIGN_FORCES_DIRECTIONAL_FRICTION_H_
+#pragma once
 
 #include <cmath>
 
@@ -38,5 +37,3 @@ T directional_viscous(const T& rate, const T& radius, const FrictionNumbers<T>& 
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_DIRECTIONAL_FRICTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_GONTHIER_H_
-#define MECHANISM_CODESIGN_FORCES_GONTHIER_H_
+#pragma once
 
 #include <cmath>
 
@@ -57,5 +56,3 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state, const Fri
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_GONTHIER_H_

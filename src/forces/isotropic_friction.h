@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_ISOTROPIC_FRICTION_H_
-#define MECHANISM_CODESIGN_FORCES_ISOTROPIC_FRICTION_H_
+#pragma once
 
 #include <cmath>
 
@@ -42,5 +41,3 @@ T length_of(const Eigen::Matrix<T, D, 1>& u) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_ISOTROPIC_FRICTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_JOINT_STOP_H_
-#define MECHANISM_CODESIGN_FORCES_JOINT_STOP_H_
+#pragma once
 
 #include <cmath>
 
@@ -46,5 +45,3 @@ T stop_energy(const T& excess, double stiffness, double width) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_JOINT_STOP_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_LUGRE_H_
-#define MECHANISM_CODESIGN_FORCES_LUGRE_H_
+#pragma once
 
 #include <cmath>
 
@@ -32,5 +31,3 @@ Bristle<T> lugre(const Vector3<T>& u, const BristleState<T>& state, const Fricti
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_LUGRE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_NORMAL_FORCE_H_
-#define MECHANISM_CODESIGN_FORCES_NORMAL_FORCE_H_
+#pragma once
 
 #include <cmath>
 
@@ -60,5 +59,3 @@ T ball_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_NORMAL_FORCE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_SATURATION_H_
-#define MECHANISM_CODESIGN_FORCES_SATURATION_H_
+#pragma once
 
 #include <cmath>
 
@@ -33,5 +32,3 @@ SaturatedEffort<T> saturate(const T& u, const T& u_max) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_SATURATION_H_

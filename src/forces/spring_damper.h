@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_FORCES_SPRING_DAMPER_H_
-#define MECHANISM_CODESIGN_FORCES_SPRING_DAMPER_H_
+#pragma once
 
 #include <cmath>
 
@@ -43,5 +42,3 @@ T spring_energy(const Vector3<T>& d, const T& stiffness, const T& free_length) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_FORCES_SPRING_DAMPER_H_

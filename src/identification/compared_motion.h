@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_COMPARED_MOTION_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_COMPARED_MOTION_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -56,5 +55,3 @@ ComparedMotion compare_motion(const Problem& problem, const StudyRecordings& rec
                               const std::function<bool()>& stop = {});
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_COMPARED_MOTION_H_

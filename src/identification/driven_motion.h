@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_MOTION_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_MOTION_H_
+#pragma once
 
 #include <vector>
 
@@ -66,5 +65,3 @@ class DrivenMotion {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_MOTION_H_

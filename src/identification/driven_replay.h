@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_REPLAY_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_REPLAY_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -44,5 +43,3 @@ class DrivenReplay {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_REPLAY_H_

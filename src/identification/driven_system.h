@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_SYSTEM_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_SYSTEM_H_
+#pragma once
 
 #include <memory>
 #include <string>
@@ -49,5 +48,3 @@ Status assemble_driven(const CompiledSystem& of, const std::vector<MeasuredJoint
                        const std::vector<double>& parameters, const Eigen::VectorXd& positions, State<double>* state);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_DRIVEN_SYSTEM_H_

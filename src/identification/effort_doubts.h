@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_DOUBTS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_DOUBTS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -51,5 +50,3 @@ Warnings warnings_of(const IdentificationDescription& options, const std::vector
 std::string sentence_of(const EffortDoubt& doubt);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_DOUBTS_H_

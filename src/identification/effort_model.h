@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_MODEL_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_MODEL_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -94,5 +93,3 @@ class EffortModel {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_MODEL_H_

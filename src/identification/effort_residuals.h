@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_RESIDUALS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_RESIDUALS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <memory>
@@ -89,5 +88,3 @@ class EffortResiduals final : public RecordingResiduals {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_RESIDUALS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_
+#pragma once
 
 #include "math/sampled_function.h"
 
@@ -30,5 +29,3 @@ struct EffortResidual {
 EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort& recorded, double time, double effort);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_SENSOR_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_TANGENT_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_TANGENT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -49,5 +48,3 @@ class EffortTangent {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_EFFORT_TANGENT_H_

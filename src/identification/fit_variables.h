@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <array>
@@ -68,5 +67,3 @@ class FitVariables {
 std::vector<std::pair<std::string, std::array<int, 10>>> free_inertias(const std::vector<std::string>& names);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_FIT_VARIABLES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFICATION_RESULT_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFICATION_RESULT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <limits>
@@ -80,5 +79,3 @@ struct IdentificationResult {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFICATION_RESULT_H_

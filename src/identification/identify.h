@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFY_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFY_H_
+#pragma once
 
 #include <atomic>
 
@@ -24,5 +23,3 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
                               const std::atomic<bool>* cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_IDENTIFY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_INERTIAL_NUMBERS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_INERTIAL_NUMBERS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <array>
@@ -32,5 +31,3 @@ struct LinearNumbers {
 LinearNumbers with_inertial_numbers(const std::vector<std::string>& names, const Eigen::VectorXd& x, const Eigen::MatrixXd& jacobian);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_INERTIAL_NUMBERS_H_

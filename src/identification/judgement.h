@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_JUDGEMENT_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_JUDGEMENT_H_
+#pragma once
 
 #include <vector>
 
@@ -38,5 +37,3 @@ Warnings unexplained_outputs(const IdentificationDescription& options, const Ide
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_JUDGEMENT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_LOSS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_LOSS_H_
+#pragma once
 
 #include <cmath>
 
@@ -33,5 +32,3 @@ inline LossValue loss_of(const LossOptions& options, double u) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_LOSS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_MANY_STARTS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_MANY_STARTS_H_
+#pragma once
 
 #include <vector>
 
@@ -28,5 +27,3 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
                             const FitObserver& observer, FitSearches* searches);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_MANY_STARTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_MOTION_RESIDUALS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_MOTION_RESIDUALS_H_
+#pragma once
 
 #include <cstdint>
 #include <memory>
@@ -98,5 +97,3 @@ class MotionResiduals final : public RecordingResiduals {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_MOTION_RESIDUALS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_FIT_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_FIT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <functional>
@@ -76,5 +75,3 @@ ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& s
                              const FitObserver& observer = {});
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_FIT_H_

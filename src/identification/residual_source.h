@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_SOURCE_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_SOURCE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -68,5 +67,3 @@ class RecordingResiduals : public ResidualSource {
 inline std::vector<DelaySignal> RecordingResiduals::delay_signals(const Eigen::VectorXd& /*x*/) { return {}; }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_RESIDUAL_SOURCE_H_

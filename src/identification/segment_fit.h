@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_FIT_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_FIT_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <optional>
@@ -56,5 +55,3 @@ struct SegmentSolution {
 SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentWork work, SegmentRun* run);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_FIT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_RUN_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_RUN_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -76,5 +75,3 @@ class SegmentRun {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_RUN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_SYSTEM_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_SYSTEM_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <memory>
@@ -53,5 +52,3 @@ SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& 
                                   const JointRecording& recording);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_SEGMENT_SYSTEM_H_

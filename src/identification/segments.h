@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_SEGMENTS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_SEGMENTS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -25,5 +24,3 @@ Status set_branches(const JointRecording& recording, const SegmentSystem& of, co
                     std::vector<Segment>* segments);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_SEGMENTS_H_

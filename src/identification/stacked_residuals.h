@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_IDENTIFICATION_STACKED_RESIDUALS_H_
-#define MECHANISM_CODESIGN_IDENTIFICATION_STACKED_RESIDUALS_H_
+#pragma once
 
 #include <memory>
 #include <string>
@@ -42,5 +41,3 @@ class StackedResiduals final : public RecordingResiduals {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_IDENTIFICATION_STACKED_RESIDUALS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_APPLIED_WORK_H_
-#define MECHANISM_CODESIGN_INTEGRATION_APPLIED_WORK_H_
+#pragma once
 
 #include "integration/rosenbrock_step.h"
 #include "system/forest_motion.h"
@@ -69,5 +68,3 @@ class StepWork {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_APPLIED_WORK_H_

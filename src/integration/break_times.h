@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_BREAK_TIMES_H_
-#define MECHANISM_CODESIGN_INTEGRATION_BREAK_TIMES_H_
+#pragma once
 
 #include <vector>
 
@@ -28,5 +27,3 @@ class BreakTimes {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_BREAK_TIMES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_COMMAND_INPUTS_H_
-#define MECHANISM_CODESIGN_INTEGRATION_COMMAND_INPUTS_H_
+#pragma once
 
 #include <memory>
 #include <optional>
@@ -53,5 +52,3 @@ struct TrajectoryFollower {
 std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs, const std::string& joint);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_COMMAND_INPUTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_COUNTS_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_COUNTS_H_
+#pragma once
 
 #include <cstdint>
 
@@ -16,5 +15,3 @@ struct IdasCounts {
 IdasCounts count_idas(void* ida, bool with_sensitivities);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_COUNTS_H_

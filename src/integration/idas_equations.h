@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_EQUATIONS_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_EQUATIONS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -72,5 +71,3 @@ class IdasEquations {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_EQUATIONS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_HANDLES_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_HANDLES_H_
+#pragma once
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
@@ -76,5 +75,3 @@ inline void require(int flag, const char* call) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_HANDLES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_INTEGRATOR_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_INTEGRATOR_H_
+#pragma once
 
 #include <memory>
 #include <vector>
@@ -81,5 +80,3 @@ class IdasIntegrator final : public Integrator {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_INTEGRATOR_H_

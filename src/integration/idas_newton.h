@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_NEWTON_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_NEWTON_H_
+#pragma once
 
 #include "equations/iteration_matrix.h"
 #include "integration/idas_handles.h"
@@ -62,5 +61,3 @@ class IdasNewton {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_NEWTON_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_SETUP_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_SETUP_H_
+#pragma once
 
 #include <string>
 
@@ -27,5 +26,3 @@ void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEqu
                  const IdasVectors& vectors);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_SETUP_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_IDAS_STATUS_H_
-#define MECHANISM_CODESIGN_INTEGRATION_IDAS_STATUS_H_
+#pragma once
 
 #include <string>
 
@@ -19,5 +18,3 @@ Status idas_status(int flag, double time, bool singular, const std::string& mess
 Warning sensitivities_restarted(double time, double drift);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_IDAS_STATUS_H_

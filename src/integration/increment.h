@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_
-#define MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_
+#pragma once
 
 #include <cassert>
 #include <type_traits>
@@ -85,5 +84,3 @@ void combine(const IncrementLayout& at, const State<T>& from, In<double> factors
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_INCREMENT_H_

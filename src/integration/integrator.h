@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_
-#define MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_
+#pragma once
 
 #include <atomic>
 #include <memory>
@@ -74,5 +73,3 @@ Status assemble_start(const CompiledSystem& system, const std::vector<double>& p
                       State<double>* initial);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_INTEGRATOR_H_

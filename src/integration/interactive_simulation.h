@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_INTERACTIVE_SIMULATION_H_
-#define MECHANISM_CODESIGN_INTEGRATION_INTERACTIVE_SIMULATION_H_
+#pragma once
 
 #include <atomic>
 #include <memory>
@@ -71,5 +70,3 @@ class InteractiveSimulation {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_INTERACTIVE_SIMULATION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_METHOD_CHOICE_H_
-#define MECHANISM_CODESIGN_INTEGRATION_METHOD_CHOICE_H_
+#pragma once
 
 #include "integration/rosenbrock_step.h"
 
@@ -29,5 +28,3 @@ class MethodChoice {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_METHOD_CHOICE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_MOTION_WATCH_H_
-#define MECHANISM_CODESIGN_INTEGRATION_MOTION_WATCH_H_
+#pragma once
 
 #include <cstdint>
 
@@ -44,5 +43,3 @@ class MotionWatch {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_MOTION_WATCH_H_

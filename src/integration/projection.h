@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_PROJECTION_H_
-#define MECHANISM_CODESIGN_INTEGRATION_PROJECTION_H_
+#pragma once
 
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
@@ -27,5 +26,3 @@ class Projection {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_PROJECTION_H_

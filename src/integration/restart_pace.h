@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_RESTART_PACE_H_
-#define MECHANISM_CODESIGN_INTEGRATION_RESTART_PACE_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -47,5 +46,3 @@ class RestartPace {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_RESTART_PACE_H_

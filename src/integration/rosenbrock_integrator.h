@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_INTEGRATOR_H_
-#define MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_INTEGRATOR_H_
+#pragma once
 
 #include <functional>
 #include <vector>
@@ -84,5 +83,3 @@ class RosenbrockIntegrator final : public Integrator {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_INTEGRATOR_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_
-#define MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_
+#pragma once
 
 #include <vector>
 
@@ -129,5 +128,3 @@ class RosenbrockStep {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_ROSENBROCK_STEP_H_

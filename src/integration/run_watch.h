@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_RUN_WATCH_H_
-#define MECHANISM_CODESIGN_INTEGRATION_RUN_WATCH_H_
+#pragma once
 
 #include "integration/applied_work.h"
 #include "mechanism_codesign/simulation.h"
@@ -59,5 +58,3 @@ class RunWatch {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_RUN_WATCH_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_SETTLED_START_H_
-#define MECHANISM_CODESIGN_INTEGRATION_SETTLED_START_H_
+#pragma once
 
 #include <vector>
 
@@ -32,5 +31,3 @@ class SettledStart {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_SETTLED_START_H_

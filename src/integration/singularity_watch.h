@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_
-#define MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_
+#pragma once
 
 #include <array>
 #include <memory>
@@ -51,5 +50,3 @@ class SingularityWatch {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_SINGULARITY_WATCH_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_
-#define MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_
+#pragma once
 
 #include <Eigen/SparseLU>
 #include <complex>
@@ -51,5 +50,3 @@ class StageMatrix<std::complex<double>> {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_STAGE_MATRIX_H_

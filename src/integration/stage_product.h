@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_
-#define MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_
+#pragma once
 
 #include <complex>
 #include <memory>
@@ -40,5 +39,3 @@ class StageProduct {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_STAGE_PRODUCT_H_

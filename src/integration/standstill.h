@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_
-#define MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_
+#pragma once
 
 #include "equations/equations.h"
 #include "mechanism_codesign/simulation.h"
@@ -21,5 +20,3 @@ Status judge_standstill(const Status& status, const CompiledSystem& system, cons
                         double step_size, const Statistics& statistics, Equations<double>* equations);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_STANDSTILL_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_STEP_CONTROLLER_H_
-#define MECHANISM_CODESIGN_INTEGRATION_STEP_CONTROLLER_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -47,5 +46,3 @@ class StepController {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_STEP_CONTROLLER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
-#define MECHANISM_CODESIGN_INTEGRATION_SUNDIALS_COMPATIBILITY_H_
+#pragma once
 
 #include <idas/idas.h>
 #include <sundials/sundials_config.h>
@@ -43,5 +42,3 @@ inline int keep_last_message(void* ida, SUNContext context, std::string* message
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_SUNDIALS_COMPATIBILITY_H_

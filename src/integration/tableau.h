@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_
-#define MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_
+#pragma once
 
 #include <array>
 
@@ -59,5 +58,3 @@ const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method);
 int most_stages(RosenbrockMethod method);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_TABLEAU_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_
-#define MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_
+#pragma once
 
 #include <optional>
 #include <vector>
@@ -46,5 +45,3 @@ class WatchLayout {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_INTEGRATION_WATCH_LAYOUT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_BAG_FILES_H_
-#define MECHANISM_CODESIGN_JOBS_BAG_FILES_H_
+#pragma once
 
 #include "excitation/trajectory_points.h"
 #include "jobs/identification_files.h"
@@ -20,5 +19,3 @@ struct BagFiles {
 BagFiles bag_files();
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_BAG_FILES_H_

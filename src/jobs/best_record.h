@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_BEST_RECORD_H_
-#define MECHANISM_CODESIGN_JOBS_BEST_RECORD_H_
+#pragma once
 
 #include <string>
 
@@ -36,5 +35,3 @@ class BestRecord {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_BEST_RECORD_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_CSV_WRITER_H_
-#define MECHANISM_CODESIGN_JOBS_CSV_WRITER_H_
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -24,5 +23,3 @@ class CsvWriter {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_CSV_WRITER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_DESIGN_RECORD_H_
-#define MECHANISM_CODESIGN_JOBS_DESIGN_RECORD_H_
+#pragma once
 
 #include <atomic>
 #include <string>
@@ -25,5 +24,3 @@ struct DesignRecord {
 DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_DESIGN_RECORD_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_ENSEMBLE_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_ENSEMBLE_RECORDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -34,5 +33,3 @@ std::vector<std::string> scenario_columns(const OptimizationResult& result);
 std::vector<std::vector<std::string>> scenario_rows(const OptimizationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_ENSEMBLE_RECORDS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_EVALUATION_RECORD_H_
-#define MECHANISM_CODESIGN_JOBS_EVALUATION_RECORD_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -26,5 +25,3 @@ std::string to_line(const EvaluationRecord& record);
 EvaluationRecord read_line(const std::string& line);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_EVALUATION_RECORD_H_

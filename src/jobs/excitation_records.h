@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_EXCITATION_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_EXCITATION_RECORDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -23,5 +22,3 @@ std::vector<std::string> trajectory_columns(const TrajectoryPoints& points);
 std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& points);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_EXCITATION_RECORDS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_FAILURE_H_
-#define MECHANISM_CODESIGN_JOBS_FAILURE_H_
+#pragma once
 
 #include <string>
 
@@ -13,5 +12,3 @@ struct Failure {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_FAILURE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_FINISHED_JOB_H_
-#define MECHANISM_CODESIGN_JOBS_FINISHED_JOB_H_
+#pragma once
 
 #include <atomic>
 #include <stdexcept>
@@ -41,5 +40,3 @@ std::string folder_of_job(const std::string& path);
 FinishedJob read_finished_job(const std::string& path, const TrajectoryLoader& loader = {}, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_FINISHED_JOB_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_GAINS_YAML_H_
-#define MECHANISM_CODESIGN_JOBS_GAINS_YAML_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -16,5 +15,3 @@ namespace codesign {
 std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_GAINS_YAML_H_

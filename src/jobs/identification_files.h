@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_IDENTIFICATION_FILES_H_
-#define MECHANISM_CODESIGN_JOBS_IDENTIFICATION_FILES_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -42,5 +41,3 @@ using IdentificationBagWriter = std::function<void(const std::string& path, cons
 constexpr double kShownRate = 50.0;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_IDENTIFICATION_FILES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_IDENTIFICATION_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_IDENTIFICATION_RECORDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -24,5 +23,3 @@ std::vector<std::string> residual_columns(const IdentificationResult& result);
 std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_IDENTIFICATION_RECORDS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_IDENTIFIED_OVERLAY_H_
-#define MECHANISM_CODESIGN_JOBS_IDENTIFIED_OVERLAY_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ namespace codesign {
 std::string identified_overlay(const Problem& problem, const IdentificationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_IDENTIFIED_OVERLAY_H_

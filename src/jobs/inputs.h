@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_INPUTS_H_
-#define MECHANISM_CODESIGN_JOBS_INPUTS_H_
+#pragma once
 
 #include <vector>
 
@@ -23,5 +22,3 @@ struct Inputs {
 Problem load(const Inputs& inputs, const TrajectoryLoader& loader = {});
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_INPUTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_JOB_FILES_H_
-#define MECHANISM_CODESIGN_JOBS_JOB_FILES_H_
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -53,5 +52,3 @@ class JobFiles {
 std::vector<std::string> remove_leftovers(const std::string& directory);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_JOB_FILES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_JOURNAL_H_
-#define MECHANISM_CODESIGN_JOBS_JOURNAL_H_
+#pragma once
 
 #include <cstdint>
 #include <map>
@@ -92,5 +91,3 @@ class Journal final : public EvaluationMemory {
 void require_journal(const std::string& path);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_JOURNAL_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_JOURNAL_HEADER_H_
-#define MECHANISM_CODESIGN_JOBS_JOURNAL_HEADER_H_
+#pragma once
 
 #include <string>
 
@@ -18,5 +17,3 @@ std::string journal_header(const Problem& problem, const OptimizerOptions& optio
 std::string header_difference(const std::string& found, const std::string& expected);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_JOURNAL_HEADER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_JSON_H_
-#define MECHANISM_CODESIGN_JOBS_JSON_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -27,5 +26,3 @@ Json parameters_json(const Problem& problem, const std::vector<double>& values);
 std::string to_text(const Json& object);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_JSON_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -31,5 +30,3 @@ void add_statistics(const Statistics& statistics, Json* object);
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_JSON_RECORDS_H_

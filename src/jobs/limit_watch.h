@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_LIMIT_WATCH_H_
-#define MECHANISM_CODESIGN_JOBS_LIMIT_WATCH_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -47,5 +46,3 @@ class LimitWatch {
 std::string describe(const LimitCrossing& crossing);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_LIMIT_WATCH_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_LOCK_FILE_H_
-#define MECHANISM_CODESIGN_JOBS_LOCK_FILE_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -34,5 +33,3 @@ class LockFile {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_LOCK_FILE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_OPTIMIZATION_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_OPTIMIZATION_RECORDS_H_
+#pragma once
 
 #include "jobs/json.h"
 #include "mechanism_codesign/optimization.h"
@@ -20,5 +19,3 @@ bool has_design(const Problem& problem, const OptimizationResult& result);
 Json optimization_json(const Problem& problem, const OptimizationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_OPTIMIZATION_RECORDS_H_

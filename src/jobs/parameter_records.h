@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_PARAMETER_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_PARAMETER_RECORDS_H_
+#pragma once
 
 #include <atomic>
 
@@ -19,5 +18,3 @@ Json parameter_table(const Problem& problem, const OptimizationResult& result);
 Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_PARAMETER_RECORDS_H_

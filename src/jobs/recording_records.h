@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_RECORDING_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_RECORDING_RECORDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -27,5 +26,3 @@ RecordingSummary summary_of(const JointRecording& recording, const MeasuredMotio
 Json to_json(const std::vector<RecordingSummary>& recordings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_RECORDING_RECORDS_H_

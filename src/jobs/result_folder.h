@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_RESULT_FOLDER_H_
-#define MECHANISM_CODESIGN_JOBS_RESULT_FOLDER_H_
+#pragma once
 
 #include <atomic>
 #include <functional>
@@ -49,5 +48,3 @@ std::vector<std::string> convergence_columns(const std::vector<std::string>& tun
 std::vector<std::string> convergence_row(const Trial& trial);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_RESULT_FOLDER_H_

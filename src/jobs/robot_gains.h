@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_ROBOT_GAINS_H_
-#define MECHANISM_CODESIGN_JOBS_ROBOT_GAINS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -26,5 +25,3 @@ struct RobotGains {
 std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_ROBOT_GAINS_H_

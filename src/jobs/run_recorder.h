@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_RUN_RECORDER_H_
-#define MECHANISM_CODESIGN_JOBS_RUN_RECORDER_H_
+#pragma once
 
 #include <atomic>
 #include <functional>
@@ -36,5 +35,3 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
 std::vector<std::string> column_names(const std::vector<SignalDescription>& signals);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_RUN_RECORDER_H_

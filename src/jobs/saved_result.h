@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
-#define MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_
+#pragma once
 
 #include "problem/load_problem.h"
 
@@ -14,5 +13,3 @@ ParameterSettings read_result(const SourceText& json);
 inline SavedDesign read_design(const SourceText& json) { return {json.name, read_result(json)}; }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_SAVED_RESULT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_SENTENCES_H_
-#define MECHANISM_CODESIGN_JOBS_SENTENCES_H_
+#pragma once
 
 #include <string>
 
@@ -15,5 +14,3 @@ std::string describe(const Status& status);
 std::string reason(const Status& status);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_SENTENCES_H_

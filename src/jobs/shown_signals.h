@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_SHOWN_SIGNALS_H_
-#define MECHANISM_CODESIGN_JOBS_SHOWN_SIGNALS_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -26,5 +25,3 @@ std::vector<ShownSignal> shown_signals(const Problem& problem, const std::vector
 std::string unit_of(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_SHOWN_SIGNALS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_TRIAL_LINES_H_
-#define MECHANISM_CODESIGN_JOBS_TRIAL_LINES_H_
+#pragma once
 
 #include <chrono>
 #include <map>
@@ -59,5 +58,3 @@ class FitLines {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_TRIAL_LINES_H_

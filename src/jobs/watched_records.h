@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_WATCHED_RECORDS_H_
-#define MECHANISM_CODESIGN_JOBS_WATCHED_RECORDS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -18,5 +17,3 @@ void add_watched(const OptimizationResult& result, Json* object);
 std::vector<std::string> watched_sentences(const OptimizationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_WATCHED_RECORDS_H_

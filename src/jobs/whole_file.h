@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOBS_WHOLE_FILE_H_
-#define MECHANISM_CODESIGN_JOBS_WHOLE_FILE_H_
+#pragma once
 
 #include <string>
 
@@ -17,5 +16,3 @@ void write_whole_file(const std::string& path, const std::string& text);
 void give_final_name(const std::string& active, const std::string& path);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOBS_WHOLE_FILE_H_

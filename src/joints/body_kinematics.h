@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_BODY_KINEMATICS_H_
-#define MECHANISM_CODESIGN_JOINTS_BODY_KINEMATICS_H_
+#pragma once
 
 #include "math/euler_parameters.h"
 
@@ -76,5 +75,3 @@ VectorMotion<T> displacement_motion(const BodyKinematics<T>& i, const Vector3<T>
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_BODY_KINEMATICS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_COORDINATE_H_
-#define MECHANISM_CODESIGN_JOINTS_COORDINATE_H_
+#pragma once
 
 #include <cmath>
 
@@ -215,5 +214,3 @@ CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const Coordi
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_COORDINATE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_JOINT_SWEEP_H_
-#define MECHANISM_CODESIGN_JOINTS_JOINT_SWEEP_H_
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -157,5 +156,3 @@ Wrench<T> carry_back(const Wrench<T>& wrench, const PairConstants<T>& pair, cons
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_JOINT_SWEEP_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_LOCAL_ROW_H_
-#define MECHANISM_CODESIGN_JOINTS_LOCAL_ROW_H_
+#pragma once
 
 #include "math/euler_parameters.h"
 
@@ -54,5 +53,3 @@ struct PairVector {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_LOCAL_ROW_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_PAIR_MOTION_H_
-#define MECHANISM_CODESIGN_JOINTS_PAIR_MOTION_H_
+#pragma once
 
 #include <array>
 
@@ -34,5 +33,3 @@ struct PairMotion {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_PAIR_MOTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_PAIR_ROWS_H_
-#define MECHANISM_CODESIGN_JOINTS_PAIR_ROWS_H_
+#pragma once
 
 #include <array>
 #include <vector>
@@ -123,5 +122,3 @@ PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_PAIR_ROWS_H_

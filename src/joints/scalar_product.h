@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_JOINTS_SCALAR_PRODUCT_H_
-#define MECHANISM_CODESIGN_JOINTS_SCALAR_PRODUCT_H_
+#pragma once
 
 #include "joints/body_kinematics.h"
 #include "joints/local_row.h"
@@ -87,5 +86,3 @@ void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const Vect
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_JOINTS_SCALAR_PRODUCT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_CONDITIONAL_NORMAL_H_
-#define MECHANISM_CODESIGN_MATH_CONDITIONAL_NORMAL_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <optional>
@@ -19,5 +18,3 @@ struct ConditionalNormal {
 std::optional<ConditionalNormal> conditional_normal(const Eigen::MatrixXd& covariance);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_CONDITIONAL_NORMAL_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_CPU_TIMER_H_
-#define MECHANISM_CODESIGN_MATH_CPU_TIMER_H_
+#pragma once
 
 #include <ctime>
 
@@ -28,5 +27,3 @@ class CpuTimer {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_CPU_TIMER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_DENSE_H_
-#define MECHANISM_CODESIGN_MATH_DENSE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <memory>
@@ -114,5 +113,3 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_DENSE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_DERIVATIVE_CHECK_H_
-#define MECHANISM_CODESIGN_MATH_DERIVATIVE_CHECK_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -49,5 +48,3 @@ Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& 
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_DERIVATIVE_CHECK_H_

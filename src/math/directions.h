@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_DIRECTIONS_H_
-#define MECHANISM_CODESIGN_MATH_DIRECTIONS_H_
+#pragma once
 
 #include "math/scalar.h"
 
@@ -34,5 +33,3 @@ void add_directions(const Eigen::MatrixXd& d, VectorX<Lanes<N>>* x) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_DIRECTIONS_H_

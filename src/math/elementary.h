@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_ELEMENTARY_H_
-#define MECHANISM_CODESIGN_MATH_ELEMENTARY_H_
+#pragma once
 
 #include <cmath>
 
@@ -40,5 +39,3 @@ T nearest_turns(double reference, const T& angle) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_ELEMENTARY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_EULER_PARAMETERS_H_
-#define MECHANISM_CODESIGN_MATH_EULER_PARAMETERS_H_
+#pragma once
 
 #include <Eigen/Geometry>
 
@@ -183,5 +182,3 @@ T dot(const Vector3<T>& a, const Vector3<T>& b) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_EULER_PARAMETERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_LANES_H_
-#define MECHANISM_CODESIGN_MATH_LANES_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cmath>
@@ -161,5 +160,3 @@ struct ScalarBinaryOpTraits<double, codesign::Lanes<N>, Operation> {
 };
 
 }  // namespace Eigen
-
-#endif  // MECHANISM_CODESIGN_MATH_LANES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_LINE_VECTOR_H_
-#define MECHANISM_CODESIGN_MATH_LINE_VECTOR_H_
+#pragma once
 
 #include <cstddef>
 #include <new>
@@ -35,5 +34,3 @@ struct LineAllocator {
 using LineVector = std::vector<double, LineAllocator<double>>;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_LINE_VECTOR_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_RIDDERS_H_
-#define MECHANISM_CODESIGN_MATH_RIDDERS_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -37,5 +36,3 @@ RiddersDerivative ridders_derivative(const Function& f, double x, double step) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_RIDDERS_H_

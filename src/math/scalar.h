@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_SCALAR_H_
-#define MECHANISM_CODESIGN_MATH_SCALAR_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <complex>
@@ -47,5 +46,3 @@ bool is_less(const T& x, const T& y, bool likely, unsigned place = place_in_sour
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_SCALAR_H_

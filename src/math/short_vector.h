@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_SHORT_VECTOR_H_
-#define MECHANISM_CODESIGN_MATH_SHORT_VECTOR_H_
+#pragma once
 
 #include <array>
 #include <cassert>
@@ -51,5 +50,3 @@ class ShortVector {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_SHORT_VECTOR_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_SPAN_H_
-#define MECHANISM_CODESIGN_MATH_SPAN_H_
+#pragma once
 
 #include <cassert>
 #include <cstddef>
@@ -77,5 +76,3 @@ template <class T>
 using Out = Span<std::common_type_t<T>>;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_SPAN_H_

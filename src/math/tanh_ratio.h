@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_TANH_RATIO_H_
-#define MECHANISM_CODESIGN_MATH_TANH_RATIO_H_
+#pragma once
 
 #include <cmath>
 
@@ -36,5 +35,3 @@ T tanh_ratio(const T& x) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_TANH_RATIO_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_TO_INDEX_H_
-#define MECHANISM_CODESIGN_MATH_TO_INDEX_H_
+#pragma once
 
 #include <cstddef>
 
@@ -10,5 +9,3 @@ namespace codesign {
 constexpr std::size_t to_index(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_TO_INDEX_H_

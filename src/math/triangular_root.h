@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MATH_TRIANGULAR_ROOT_H_
-#define MECHANISM_CODESIGN_MATH_TRIANGULAR_ROOT_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -34,5 +33,3 @@ class RowRoot {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MATH_TRIANGULAR_ROOT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_BODY_CHECK_H_
-#define MECHANISM_CODESIGN_MECHANISM_BODY_CHECK_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -28,5 +27,3 @@ MassFault find_mass_fault(const MassProperties<double>& body);
 void check_bodies(const RobotDescription& robot, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_BODY_CHECK_H_

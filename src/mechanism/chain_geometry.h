@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_CHAIN_GEOMETRY_H_
-#define MECHANISM_CODESIGN_MECHANISM_CHAIN_GEOMETRY_H_
+#pragma once
 
 #include <vector>
 
@@ -47,5 +46,3 @@ Vector3<T> nearest_point(const Vector3<T>& o1, const Vector3<T>& z1, const Vecto
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_CHAIN_GEOMETRY_H_

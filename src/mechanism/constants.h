@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_CONSTANTS_H_
-#define MECHANISM_CODESIGN_MECHANISM_CONSTANTS_H_
+#pragma once
 
 #include <array>
 #include <string>
@@ -151,5 +150,3 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_CONSTANTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_COUPLING_H_
-#define MECHANISM_CODESIGN_MECHANISM_COUPLING_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -48,5 +47,3 @@ std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topo
 Coupling drive_of(const RobotDescription& robot, const Topology& topology, int joint);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_COUPLING_H_

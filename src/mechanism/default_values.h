@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_DEFAULT_VALUES_H_
-#define MECHANISM_CODESIGN_MECHANISM_DEFAULT_VALUES_H_
+#pragma once
 
 #include <vector>
 
@@ -16,5 +15,3 @@ inline std::vector<double> default_values(const RobotDescription& robot) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_DEFAULT_VALUES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_DRIVEN_TREE_H_
-#define MECHANISM_CODESIGN_MECHANISM_DRIVEN_TREE_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -35,5 +34,3 @@ struct DrivenTree {
 DrivenTree driven_tree(const Topology& topology, int pair, bool accelerations, const SourceLocation& where, const std::string& element);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_DRIVEN_TREE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_FOLD_CHAIN_H_
-#define MECHANISM_CODESIGN_MECHANISM_FOLD_CHAIN_H_
+#pragma once
 
 #include <vector>
 
@@ -17,5 +16,3 @@ PairKind fold_chain(const RobotDescription& robot, const Topology& topology, con
 bool folds(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_FOLD_CHAIN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_FOREST_H_
-#define MECHANISM_CODESIGN_MECHANISM_FOREST_H_
+#pragma once
 
 #include <vector>
 
@@ -27,5 +26,3 @@ int forest_coordinates(const Pair& pair);
 Forest tree_forest(const Topology& topology);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_FOREST_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_FRICTION_GEOMETRY_H_
-#define MECHANISM_CODESIGN_MECHANISM_FRICTION_GEOMETRY_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ namespace codesign {
 void check_friction_geometry(const FrictionDescription& friction, JointType type, const std::string& element);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_FRICTION_GEOMETRY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_JOINTS_BETWEEN_H_
-#define MECHANISM_CODESIGN_MECHANISM_JOINTS_BETWEEN_H_
+#pragma once
 
 #include <vector>
 
@@ -16,5 +15,3 @@ std::vector<int> links_above(const RobotDescription& robot, const std::vector<in
 std::vector<int> joints_between(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int predecessor, int successor);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_JOINTS_BETWEEN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_LOG_CHOLESKY_H_
-#define MECHANISM_CODESIGN_MECHANISM_LOG_CHOLESKY_H_
+#pragma once
 
 #include <array>
 #include <optional>
@@ -25,5 +24,3 @@ std::optional<std::array<double, 10>> log_cholesky(const MassProperties<double>&
 MassProperties<double> properties_of(const std::array<double, 10>& numbers);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_LOG_CHOLESKY_H_

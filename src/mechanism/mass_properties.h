@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_MASS_PROPERTIES_H_
-#define MECHANISM_CODESIGN_MECHANISM_MASS_PROPERTIES_H_
+#pragma once
 
 #include <cmath>
 #include <complex>
@@ -137,5 +136,3 @@ MassProperties<T> mass_properties(const InertialDescription& inertial, const std
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_MASS_PROPERTIES_H_

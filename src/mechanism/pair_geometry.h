@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_PAIR_GEOMETRY_H_
-#define MECHANISM_CODESIGN_MECHANISM_PAIR_GEOMETRY_H_
+#pragma once
 
 #include <vector>
 
@@ -23,5 +22,3 @@ PairConstants<T> pair_constants(const RobotDescription& robot, const Topology& t
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_PAIR_GEOMETRY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_PAIR_KIND_H_
-#define MECHANISM_CODESIGN_MECHANISM_PAIR_KIND_H_
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -78,5 +77,3 @@ constexpr PairKind kind_of(JointType type) {
 constexpr bool slips_isotropically(PairKind kind) { return traits_of(kind).slip_coordinates > 0; }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_PAIR_KIND_H_

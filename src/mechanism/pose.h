@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_POSE_H_
-#define MECHANISM_CODESIGN_MECHANISM_POSE_H_
+#pragma once
 
 #include <vector>
 
@@ -77,5 +76,3 @@ Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<d
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_POSE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_RIGID_GROUPS_H_
-#define MECHANISM_CODESIGN_MECHANISM_RIGID_GROUPS_H_
+#pragma once
 
 #include <vector>
 
@@ -85,5 +84,3 @@ MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<i
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_RIGID_GROUPS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_SIGNAL_CATALOG_H_
-#define MECHANISM_CODESIGN_MECHANISM_SIGNAL_CATALOG_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -32,5 +31,3 @@ std::vector<std::string> default_signals(const RobotDescription& robot, const st
 std::vector<SignalDescription> signals_of(const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_SIGNAL_CATALOG_H_

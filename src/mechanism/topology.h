@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MECHANISM_TOPOLOGY_H_
-#define MECHANISM_CODESIGN_MECHANISM_TOPOLOGY_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -54,5 +53,3 @@ struct Topology {
 Topology derive_topology(const RobotDescription& robot);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MECHANISM_TOPOLOGY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MPI_LAUNCHER_H_
-#define MECHANISM_CODESIGN_MPI_LAUNCHER_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -21,5 +20,3 @@ std::optional<Launched> find_launcher(const char* (*value)(const char* name));
 std::optional<Launched> find_launcher();
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MPI_LAUNCHER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MPI_MPI_TRANSPORT_H_
-#define MECHANISM_CODESIGN_MPI_MPI_TRANSPORT_H_
+#pragma once
 
 #include <mpi.h>
 
@@ -48,5 +47,3 @@ class MpiTransport final : public Transport {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MPI_MPI_TRANSPORT_H_

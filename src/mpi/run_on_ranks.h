@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_MPI_RUN_ON_RANKS_H_
-#define MECHANISM_CODESIGN_MPI_RUN_ON_RANKS_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -16,5 +15,3 @@ class Dispatcher;
 int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>& first);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_MPI_RUN_ON_RANKS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OBSERVATION_ENERGY_H_
-#define MECHANISM_CODESIGN_OBSERVATION_ENERGY_H_
+#pragma once
 
 #include "equations/equations.h"
 
@@ -38,5 +37,3 @@ inline Power mechanical_power(Equations<double>* equations) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OBSERVATION_ENERGY_H_

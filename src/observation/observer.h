@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OBSERVATION_OBSERVER_H_
-#define MECHANISM_CODESIGN_OBSERVATION_OBSERVER_H_
+#pragma once
 
 #include <vector>
 
@@ -59,5 +58,3 @@ class Observer {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OBSERVATION_OBSERVER_H_

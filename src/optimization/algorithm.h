@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_ALGORITHM_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_ALGORITHM_H_
+#pragma once
 
 #include <nlopt.hpp>
 #include <string>
@@ -42,5 +41,3 @@ bool is_success(const std::string& termination);
 std::string termination_name(nlopt::result result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_ALGORITHM_H_

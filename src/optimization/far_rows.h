@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_FAR_ROWS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_FAR_ROWS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -39,5 +38,3 @@ class FarRows {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_FAR_ROWS_H_

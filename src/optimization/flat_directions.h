@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_FLAT_DIRECTIONS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_FLAT_DIRECTIONS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -16,5 +15,3 @@ namespace codesign {
 Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active, const std::vector<bool>& held);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_FLAT_DIRECTIONS_H_

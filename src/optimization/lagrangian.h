@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_LAGRANGIAN_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_LAGRANGIAN_H_
+#pragma once
 
 #include <atomic>
 
@@ -27,5 +26,3 @@ Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho, 
                       SmoothProgram* program, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_LAGRANGIAN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_LEAST_SQUARES_SEARCH_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_LEAST_SQUARES_SEARCH_H_
+#pragma once
 
 #include "optimization/search_trials.h"
 
@@ -11,5 +10,3 @@ namespace codesign {
 void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& start, const Scaling& scaling, SearchTrials* trials);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_LEAST_SQUARES_SEARCH_H_

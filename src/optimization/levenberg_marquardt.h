@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_LEVENBERG_MARQUARDT_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_LEVENBERG_MARQUARDT_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -58,5 +57,3 @@ LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options,
                                        LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_LEVENBERG_MARQUARDT_H_

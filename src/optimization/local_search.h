@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_LOCAL_SEARCH_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_LOCAL_SEARCH_H_
+#pragma once
 
 #include "ensemble/ensemble.h"
 #include "mechanism_codesign/optimization.h"
@@ -18,5 +17,3 @@ OptimizationResult search_locally(const Study& study, const OptimizerOptions& op
                                   const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_LOCAL_SEARCH_H_

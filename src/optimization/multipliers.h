@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_MULTIPLIERS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_MULTIPLIERS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -38,5 +37,3 @@ struct Multipliers {
 Multipliers least_multipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const std::atomic<bool>* cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_MULTIPLIERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_MULTISTART_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_MULTISTART_H_
+#pragma once
 
 #include <vector>
 
@@ -21,5 +20,3 @@ OptimizationResult search_from_many_starts(const Problem& problem, const Optimiz
 std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scaled, double distance, std::vector<StartResult>* starts);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_MULTISTART_H_

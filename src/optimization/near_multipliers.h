@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_NEAR_MULTIPLIERS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_NEAR_MULTIPLIERS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -57,5 +56,3 @@ class NearMultipliers {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_NEAR_MULTIPLIERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_PROGRESS_METER_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_PROGRESS_METER_H_
+#pragma once
 
 #include <chrono>
 #include <cstdint>
@@ -66,5 +65,3 @@ class ProgressMeter {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_PROGRESS_METER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SCALING_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SCALING_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -43,5 +42,3 @@ class Scaling {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SCALING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SCENARIO_RESULTS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SCENARIO_RESULTS_H_
+#pragma once
 
 #include "ensemble/ensemble.h"
 #include "mechanism_codesign/optimization.h"
@@ -15,5 +14,3 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const 
                         OptimizationResult* result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SCENARIO_RESULTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_HOOKS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_HOOKS_H_
+#pragma once
 
 #include <memory>
 
@@ -37,5 +36,3 @@ OptimizationResult run_search(const Problem& problem, const OptimizerOptions& op
                               const std::atomic<bool>* cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_HOOKS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -92,5 +91,3 @@ class SearchTrials {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_TRIALS_H_

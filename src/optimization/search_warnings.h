@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options, co
 std::string stop_sentence(const OptimizationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SEARCH_WARNINGS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_
+#pragma once
 
 #include <mutex>
 #include <tuple>
@@ -52,5 +51,3 @@ class SharedObserver {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SHARED_OBSERVER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SLACK_FORM_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SLACK_FORM_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -42,5 +41,3 @@ class SlackForm {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SLACK_FORM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_SMOOTH_PROGRAM_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_SMOOTH_PROGRAM_H_
+#pragma once
 
 #include <vector>
 
@@ -79,5 +78,3 @@ class SmoothProgram {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_SMOOTH_PROGRAM_H_

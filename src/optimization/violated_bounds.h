@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_OPTIMIZATION_VIOLATED_BOUNDS_H_
-#define MECHANISM_CODESIGN_OPTIMIZATION_VIOLATED_BOUNDS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -34,5 +33,3 @@ bool meets_constraints(const OptimizationResult& result);
 std::string describe_violated(const std::vector<WatchedResult>& watched);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_OPTIMIZATION_VIOLATED_BOUNDS_H_

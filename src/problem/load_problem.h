@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
-#define MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -68,5 +67,3 @@ std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Proble
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PROBLEM_LOAD_PROBLEM_H_

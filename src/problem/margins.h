@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PROBLEM_MARGINS_H_
-#define MECHANISM_CODESIGN_PROBLEM_MARGINS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -33,5 +32,3 @@ Warnings unsatisfiable_constraints(const Study& study);
 void require_ordered_bounds(const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PROBLEM_MARGINS_H_

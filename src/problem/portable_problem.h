@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PROBLEM_PORTABLE_PROBLEM_H_
-#define MECHANISM_CODESIGN_PROBLEM_PORTABLE_PROBLEM_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -28,5 +27,3 @@ PortableProblem make_portable(const Problem& problem);
 Problem load_portable(const PortableProblem& portable);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PROBLEM_PORTABLE_PROBLEM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PROBLEM_VARIANTS_H_
-#define MECHANISM_CODESIGN_PROBLEM_VARIANTS_H_
+#pragma once
 
 #include <memory>
 #include <vector>
@@ -29,5 +28,3 @@ void require_compatible(const Study& study);
 int count_laws(const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PROBLEM_VARIANTS_H_

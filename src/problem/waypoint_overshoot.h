@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_PROBLEM_WAYPOINT_OVERSHOOT_H_
-#define MECHANISM_CODESIGN_PROBLEM_WAYPOINT_OVERSHOOT_H_
+#pragma once
 
 #include "description/study.h"
 #include "mechanism_codesign/warning.h"
@@ -12,5 +11,3 @@ namespace codesign {
 Warnings waypoint_overshoots(const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_PROBLEM_WAYPOINT_OVERSHOOT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_PARAMETER_TABLE_H_
-#define MECHANISM_CODESIGN_READING_PARAMETER_TABLE_H_
+#pragma once
 
 #include <memory>
 #include <set>
@@ -29,5 +28,3 @@ struct ParameterTable {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_PARAMETER_TABLE_H_

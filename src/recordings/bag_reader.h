@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_BAG_READER_H_
-#define MECHANISM_CODESIGN_RECORDINGS_BAG_READER_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -19,5 +18,3 @@ using BagReader = std::function<JointRecording(const RecordingDescription& descr
                                                const std::vector<std::string>& joints, Warnings* warnings)>;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_BAG_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_EVEN_STAMPS_H_
-#define MECHANISM_CODESIGN_RECORDINGS_EVEN_STAMPS_H_
+#pragma once
 
 #include "mechanism_codesign/warning.h"
 #include "recordings/joint_recording.h"
@@ -13,5 +12,3 @@ namespace codesign {
 void even_stamps(JointRecording* recording, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_EVEN_STAMPS_H_

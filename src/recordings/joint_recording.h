@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_
-#define MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_
+#pragma once
 
 #include <cstddef>
 #include <optional>
@@ -49,5 +48,3 @@ bool has_same_settings(const JointRecording& one, const JointRecording& other);
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_JOINT_RECORDING_H_

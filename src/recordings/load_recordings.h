@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_LOAD_RECORDINGS_H_
-#define MECHANISM_CODESIGN_RECORDINGS_LOAD_RECORDINGS_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -27,5 +26,3 @@ StudyRecordings load_recordings(const IdentificationDescription& identification,
                                 const BagReader& reader, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_LOAD_RECORDINGS_H_

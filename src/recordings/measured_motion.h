@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_MEASURED_MOTION_H_
-#define MECHANISM_CODESIGN_RECORDINGS_MEASURED_MOTION_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -49,5 +48,3 @@ Eigen::Index samples_to_fit(const JointRecording& recording, const FilterOptions
 MeasuredMotion measured_motion(const JointRecording& recording, const FilterOptions& filter, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_MEASURED_MOTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_NUMBER_TABLE_H_
-#define MECHANISM_CODESIGN_RECORDINGS_NUMBER_TABLE_H_
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -56,5 +55,3 @@ class NumberTable {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_NUMBER_TABLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_RECORDING_CHECK_H_
-#define MECHANISM_CODESIGN_RECORDINGS_RECORDING_CHECK_H_
+#pragma once
 
 #include <vector>
 
@@ -36,5 +35,3 @@ void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warn
 double median_period(const std::vector<double>& times);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_RECORDING_CHECK_H_

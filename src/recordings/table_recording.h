@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_TABLE_RECORDING_H_
-#define MECHANISM_CODESIGN_RECORDINGS_TABLE_RECORDING_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -18,5 +17,3 @@ JointRecording read_table_recording(const RecordingDescription& description, con
                                     const std::vector<std::string>& joints);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_TABLE_RECORDING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_UNIFORM_SAMPLES_H_
-#define MECHANISM_CODESIGN_RECORDINGS_UNIFORM_SAMPLES_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -41,5 +40,3 @@ Eigen::VectorXd derivative(const Eigen::VectorXd& samples, double step);
 Eigen::VectorXd integral(const Eigen::VectorXd& samples, double step);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_UNIFORM_SAMPLES_H_

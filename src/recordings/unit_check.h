@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_UNIT_CHECK_H_
-#define MECHANISM_CODESIGN_RECORDINGS_UNIT_CHECK_H_
+#pragma once
 
 #include "description/robot.h"
 #include "mechanism_codesign/warning.h"
@@ -14,5 +13,3 @@ namespace codesign {
 void check_units(const RobotDescription& robot, const JointRecording& recording, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_UNIT_CHECK_H_

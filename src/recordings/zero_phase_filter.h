@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_RECORDINGS_ZERO_PHASE_FILTER_H_
-#define MECHANISM_CODESIGN_RECORDINGS_ZERO_PHASE_FILTER_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -40,5 +39,3 @@ class ZeroPhaseFilter {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_RECORDINGS_ZERO_PHASE_FILTER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_ADVANCE_H_
-#define MECHANISM_CODESIGN_ROS_ADVANCE_H_
+#pragma once
 
 #include "mechanism_codesign/simulation.h"
 
@@ -21,5 +20,3 @@ Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_ADVANCE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_APPLY_ARGUMENTS_H_
-#define MECHANISM_CODESIGN_ROS_APPLY_ARGUMENTS_H_
+#pragma once
 
 #include <mechanism_codesign/ApplyRequest.h>
 #include <mechanism_codesign/ApplyResponse.h>
@@ -36,5 +35,3 @@ std::string apply_table(const mechanism_codesign::ApplyResponse& response);
 std::string apply_json(const mechanism_codesign::ApplyResponse& response);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_APPLY_ARGUMENTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_APPLY_DOOR_H_
-#define MECHANISM_CODESIGN_ROS_APPLY_DOOR_H_
+#pragma once
 
 #include <mechanism_codesign/Apply.h>
 #include <ros/node_handle.h>
@@ -44,5 +43,3 @@ class ApplyDoor {
 std::string path_in(const std::string& directory, const std::string& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_APPLY_DOOR_H_

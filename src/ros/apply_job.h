@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_APPLY_JOB_H_
-#define MECHANISM_CODESIGN_ROS_APPLY_JOB_H_
+#pragma once
 
 #include <mechanism_codesign/ApplyRequest.h>
 #include <mechanism_codesign/ApplyResponse.h>
@@ -18,5 +17,3 @@ mechanism_codesign::ApplyResponse apply_gains(const mechanism_codesign::ApplyReq
                                               const std::atomic<bool>& cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_APPLY_JOB_H_

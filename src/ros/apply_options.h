@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_APPLY_OPTIONS_H_
-#define MECHANISM_CODESIGN_ROS_APPLY_OPTIONS_H_
+#pragma once
 
 #include <mechanism_codesign/ApplyRequest.h>
 
@@ -17,5 +16,3 @@ RampOptions ramp_options(const mechanism_codesign::ApplyRequest& request);
 WatchOptions watch_options(const mechanism_codesign::ApplyRequest& request);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_APPLY_OPTIONS_H_

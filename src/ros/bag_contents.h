@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_BAG_CONTENTS_H_
-#define MECHANISM_CODESIGN_ROS_BAG_CONTENTS_H_
+#pragma once
 
 #include <atomic>
 #include <cstdint>
@@ -84,5 +83,3 @@ class BagContents {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_BAG_CONTENTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_BAG_FILE_H_
-#define MECHANISM_CODESIGN_ROS_BAG_FILE_H_
+#pragma once
 
 #include <rosbag/bag.h>
 #include <sys/types.h>
@@ -55,5 +54,3 @@ class BagFile {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_BAG_FILE_H_

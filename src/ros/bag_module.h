@@ -1,10 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_BAG_MODULE_H_
-#define MECHANISM_CODESIGN_ROS_BAG_MODULE_H_
+#pragma once
 
 #include "jobs/bag_files.h"
 
 /// The functions of libcodesign_bags.so, which loaded_bag_files.cc finds by this name. They stay valid until the program ends.
 extern "C" const codesign::BagFiles* codesign_bag_files();
-
-#endif  // MECHANISM_CODESIGN_ROS_BAG_MODULE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_BAG_WRITER_H_
-#define MECHANISM_CODESIGN_ROS_BAG_WRITER_H_
+#pragma once
 
 #include <boost/make_shared.hpp>
 #include <string>
@@ -50,5 +49,3 @@ class BagWriter {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_BAG_WRITER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_BELL_H_
-#define MECHANISM_CODESIGN_ROS_BELL_H_
+#pragma once
 
 #include <chrono>
 #include <condition_variable>
@@ -34,5 +33,3 @@ class Bell {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_BELL_H_

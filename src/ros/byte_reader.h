@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_BYTE_READER_H_
-#define MECHANISM_CODESIGN_ROS_BYTE_READER_H_
+#pragma once
 
 #include <cstdint>
 #include <cstring>
@@ -88,5 +87,3 @@ class ByteReader {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_BYTE_READER_H_

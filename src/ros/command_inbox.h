@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_COMMAND_INBOX_H_
-#define MECHANISM_CODESIGN_ROS_COMMAND_INBOX_H_
+#pragma once
 
 #include <ros/node_handle.h>
 
@@ -67,5 +66,3 @@ void CommandInbox::receive(const std::string& topic, const ros::Time& stamp, con
 std::string legal_name(const std::string& text);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_COMMAND_INBOX_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_COMMAND_READING_H_
-#define MECHANISM_CODESIGN_ROS_COMMAND_READING_H_
+#pragma once
 
 #include <ros/time.h>
 #include <sensor_msgs/JointState.h>
@@ -52,5 +51,3 @@ SetpointCommand read_setpoint(const CommandInputs& inputs, const std::string& to
 TrajectoryCommand read_trajectory(const CommandInputs& inputs, const std::string& topic, const trajectory_msgs::JointTrajectory& message);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_COMMAND_READING_H_

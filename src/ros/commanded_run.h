@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_COMMANDED_RUN_H_
-#define MECHANISM_CODESIGN_ROS_COMMANDED_RUN_H_
+#pragma once
 
 #include <mechanism_codesign/Commands.h>
 
@@ -50,5 +49,3 @@ class CommandedRun {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_COMMANDED_RUN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_CONVERSIONS_H_
-#define MECHANISM_CODESIGN_ROS_CONVERSIONS_H_
+#pragma once
 
 #include <mechanism_codesign/ControllerStates.h>
 #include <mechanism_codesign/JointFriction.h>
@@ -65,5 +64,3 @@ std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_fil
 Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages, std::size_t of_files);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_CONVERSIONS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_DESCRIPTION_H_
-#define MECHANISM_CODESIGN_ROS_DESCRIPTION_H_
+#pragma once
 
 #include <ros/node_handle.h>
 
@@ -19,5 +18,3 @@ Warnings check_description(const ros::NodeHandle& node, const Problem& problem, 
 bool describes(const std::string& text, const Problem& problem, const std::string& effective);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_DESCRIPTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_EFFORT_MARKERS_H_
-#define MECHANISM_CODESIGN_ROS_EFFORT_MARKERS_H_
+#pragma once
 
 #include <visualization_msgs/MarkerArray.h>
 
@@ -26,5 +25,3 @@ visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, con
                                                const MessageContext& context, const MarkerStyle& style);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_EFFORT_MARKERS_H_

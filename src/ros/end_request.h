@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_END_REQUEST_H_
-#define MECHANISM_CODESIGN_ROS_END_REQUEST_H_
+#pragma once
 
 namespace codesign {
 
@@ -11,5 +10,3 @@ namespace codesign {
 void on_end_request(void (*act)());
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_END_REQUEST_H_

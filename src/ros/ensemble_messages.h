@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_ENSEMBLE_MESSAGES_H_
-#define MECHANISM_CODESIGN_ROS_ENSEMBLE_MESSAGES_H_
+#pragma once
 
 #include <mechanism_codesign/OptimizeResult.h>
 
@@ -14,5 +13,3 @@ namespace codesign {
 void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_ENSEMBLE_MESSAGES_H_

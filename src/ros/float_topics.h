@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_FLOAT_TOPICS_H_
-#define MECHANISM_CODESIGN_ROS_FLOAT_TOPICS_H_
+#pragma once
 
 #include <ros/node_handle.h>
 
@@ -34,5 +33,3 @@ class FloatTopics {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_FLOAT_TOPICS_H_

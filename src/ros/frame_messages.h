@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_FRAME_MESSAGES_H_
-#define MECHANISM_CODESIGN_ROS_FRAME_MESSAGES_H_
+#pragma once
 
 #include "ros/conversions.h"
 #include "ros/friction_markers.h"
@@ -31,5 +30,3 @@ struct FrameMessages {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_FRAME_MESSAGES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_FRICTION_MARKERS_H_
-#define MECHANISM_CODESIGN_ROS_FRICTION_MARKERS_H_
+#pragma once
 
 #include <visualization_msgs/MarkerArray.h>
 
@@ -46,5 +45,3 @@ visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const 
                                                  const MarkerStyle& style);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_FRICTION_MARKERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_GAIN_PLAN_H_
-#define MECHANISM_CODESIGN_ROS_GAIN_PLAN_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -34,5 +33,3 @@ GainValues wanted_values(const GainOrder& order, const GainServerState& state, c
 GainValues only(const GainValues& names, const GainValues& values);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_GAIN_PLAN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_GAIN_RAMP_H_
-#define MECHANISM_CODESIGN_ROS_GAIN_RAMP_H_
+#pragma once
 
 #include <chrono>
 #include <functional>
@@ -89,5 +88,3 @@ GainValues between(const GainValues& before, const GainValues& after, double sha
 std::string altered(const GainValues& sent, const GainValues& answer);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_GAIN_RAMP_H_

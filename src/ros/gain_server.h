@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_GAIN_SERVER_H_
-#define MECHANISM_CODESIGN_ROS_GAIN_SERVER_H_
+#pragma once
 
 #include <functional>
 #include <map>
@@ -46,5 +45,3 @@ class GainServer {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_GAIN_SERVER_H_

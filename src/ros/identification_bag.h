@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_IDENTIFICATION_BAG_H_
-#define MECHANISM_CODESIGN_ROS_IDENTIFICATION_BAG_H_
+#pragma once
 
 #include <mechanism_codesign/IdentificationProgress.h>
 #include <mechanism_codesign/IdentifyGoal.h>
@@ -29,5 +28,3 @@ struct IdentificationAnswer {
 void write_identification_bag(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_IDENTIFICATION_BAG_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_IDENTIFICATION_FEEDBACK_H_
-#define MECHANISM_CODESIGN_ROS_IDENTIFICATION_FEEDBACK_H_
+#pragma once
 
 #include <mechanism_codesign/IdentificationProgress.h>
 #include <ros/time.h>
@@ -44,5 +43,3 @@ class IdentificationFeedback {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_IDENTIFICATION_FEEDBACK_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_IDENTIFICATION_JOB_H_
-#define MECHANISM_CODESIGN_ROS_IDENTIFICATION_JOB_H_
+#pragma once
 
 #include <mechanism_codesign/IdentifyGoal.h>
 #include <mechanism_codesign/IdentifyResult.h>
@@ -29,5 +28,3 @@ IdentificationOutcome run_identification(const Problem& problem, const std::stri
                                          const std::atomic<bool>& cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_IDENTIFICATION_JOB_H_

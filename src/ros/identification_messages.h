@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_IDENTIFICATION_MESSAGES_H_
-#define MECHANISM_CODESIGN_ROS_IDENTIFICATION_MESSAGES_H_
+#pragma once
 
 #include <mechanism_codesign/IdentifyResult.h>
 
@@ -13,5 +12,3 @@ namespace codesign {
 mechanism_codesign::IdentifyResult identification_message(const Problem& problem, const IdentificationResult& result);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_IDENTIFICATION_MESSAGES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_INPUTS_H_
-#define MECHANISM_CODESIGN_ROS_INPUTS_H_
+#pragma once
 
 #include <ros/node_handle.h>
 
@@ -32,5 +31,3 @@ void require_every_parameter(const Inputs& inputs, const RobotDescription& robot
 const std::vector<std::string>& input_parameters();
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_INPUTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_JOB_H_
-#define MECHANISM_CODESIGN_ROS_JOB_H_
+#pragma once
 
 #include <mechanism_codesign/EvaluateRequest.h>
 #include <mechanism_codesign/EvaluateResponse.h>
@@ -68,5 +67,3 @@ void refuse(const std::string& code, const std::string& message, Reply* reply) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_JOB_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_JOB_BAG_H_
-#define MECHANISM_CODESIGN_ROS_JOB_BAG_H_
+#pragma once
 
 #include <mechanism_codesign/OptimizationProgress.h>
 #include <mechanism_codesign/OptimizeGoal.h>
@@ -46,5 +45,3 @@ struct JobRecord {
 void write_bag(const std::string& path, const JobRecord& record);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_JOB_BAG_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_JOB_FEEDBACK_H_
-#define MECHANISM_CODESIGN_ROS_JOB_FEEDBACK_H_
+#pragma once
 
 #include <mutex>
 #include <string>
@@ -46,5 +45,3 @@ class JobFeedback {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_JOB_FEEDBACK_H_

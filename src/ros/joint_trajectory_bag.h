@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_JOINT_TRAJECTORY_BAG_H_
-#define MECHANISM_CODESIGN_ROS_JOINT_TRAJECTORY_BAG_H_
+#pragma once
 
 #include <string>
 
@@ -16,5 +15,3 @@ inline constexpr const char* kTrajectoryTopic = "joint_trajectory";
 void write_joint_trajectory_bag(const std::string& path, const TrajectoryPoints& points);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_JOINT_TRAJECTORY_BAG_H_

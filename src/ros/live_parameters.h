@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_LIVE_PARAMETERS_H_
-#define MECHANISM_CODESIGN_ROS_LIVE_PARAMETERS_H_
+#pragma once
 
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/ConfigDescription.h>
@@ -69,5 +68,3 @@ class LiveParameters {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_LIVE_PARAMETERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_NODE_ARGUMENTS_H_
-#define MECHANISM_CODESIGN_ROS_NODE_ARGUMENTS_H_
+#pragma once
 
 #include <functional>
 #include <memory>
@@ -32,5 +31,3 @@ RunningNode make_simulation_node();
 RunningNode make_optimization_node(Dispatcher* ranks);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_NODE_ARGUMENTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_NODE_STATE_H_
-#define MECHANISM_CODESIGN_ROS_NODE_STATE_H_
+#pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/timer.h>
@@ -50,5 +49,3 @@ class NodeState {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_NODE_STATE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_OPTIMIZATION_NODE_H_
-#define MECHANISM_CODESIGN_ROS_OPTIMIZATION_NODE_H_
+#pragma once
 
 #include <actionlib/server/action_server.h>
 #include <actionlib_msgs/GoalID.h>
@@ -85,5 +84,3 @@ class OptimizationNode {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_OPTIMIZATION_NODE_H_

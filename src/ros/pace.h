@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_PACE_H_
-#define MECHANISM_CODESIGN_ROS_PACE_H_
+#pragma once
 
 #include <ros/time.h>
 
@@ -58,5 +57,3 @@ class RealTimeFactor {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_PACE_H_

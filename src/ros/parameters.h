@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_PARAMETERS_H_
-#define MECHANISM_CODESIGN_ROS_PARAMETERS_H_
+#pragma once
 
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
@@ -68,5 +67,3 @@ std::string text_of(const XmlRpc::XmlRpcValue& value);
 std::string to_yaml(const XmlRpc::XmlRpcValue& tree);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_PARAMETERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_PATIENCE_H_
-#define MECHANISM_CODESIGN_ROS_PATIENCE_H_
+#pragma once
 
 #include <ros/time.h>
 
@@ -35,5 +34,3 @@ class Patience {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_PATIENCE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_PROGRESS_LOG_H_
-#define MECHANISM_CODESIGN_ROS_PROGRESS_LOG_H_
+#pragma once
 
 #include <mechanism_codesign/OptimizationProgress.h>
 
@@ -30,5 +29,3 @@ class ProgressLog {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_PROGRESS_LOG_H_

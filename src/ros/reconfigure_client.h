@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_RECONFIGURE_CLIENT_H_
-#define MECHANISM_CODESIGN_ROS_RECONFIGURE_CLIENT_H_
+#pragma once
 
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/ConfigDescription.h>
@@ -71,5 +70,3 @@ dynamic_reconfigure::Config config_of(const GainValues& values);
 GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description, const dynamic_reconfigure::Config& now);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_RECONFIGURE_CLIENT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
-#define MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -32,5 +31,3 @@ RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, cons
                        const std::function<bool()>& stop = {});
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_RECORDED_RUN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
-#define MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_
+#pragma once
 
 #include <atomic>
 #include <string>
@@ -27,5 +26,3 @@ JointRecording read_recording_bag(const RecordingDescription& description, const
 BagReader cancellable_bag_reader(const std::atomic<bool>& cancel);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_RECORDING_BAG_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_REQUEST_H_
-#define MECHANISM_CODESIGN_ROS_REQUEST_H_
+#pragma once
 
 #include <mechanism_codesign/EvaluateRequest.h>
 #include <mechanism_codesign/IdentifyGoal.h>
@@ -41,5 +40,3 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Identify
 Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_REQUEST_H_

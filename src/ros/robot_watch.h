@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_
-#define MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_
+#pragma once
 
 #include <ros/node_handle.h>
 #include <ros/time.h>
@@ -67,5 +66,3 @@ class RobotWatch {
 double age_of(const ros::Time& stamp, const ros::Time& now);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_ROBOT_WATCH_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_RUN_CLOCK_H_
-#define MECHANISM_CODESIGN_ROS_RUN_CLOCK_H_
+#pragma once
 
 #include <ros/time.h>
 
@@ -48,5 +47,3 @@ class RunClock {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_RUN_CLOCK_H_

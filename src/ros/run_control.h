@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_RUN_CONTROL_H_
-#define MECHANISM_CODESIGN_ROS_RUN_CONTROL_H_
+#pragma once
 
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
@@ -74,5 +73,3 @@ class RunControl {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_RUN_CONTROL_H_

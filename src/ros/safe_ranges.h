@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SAFE_RANGES_H_
-#define MECHANISM_CODESIGN_ROS_SAFE_RANGES_H_
+#pragma once
 
 #include <map>
 #include <string>
@@ -41,5 +40,3 @@ class SafeRanges {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SAFE_RANGES_H_

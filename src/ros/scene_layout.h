@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SCENE_LAYOUT_H_
-#define MECHANISM_CODESIGN_ROS_SCENE_LAYOUT_H_
+#pragma once
 
 #include <mechanism_codesign/Scene.h>
 
@@ -50,5 +49,3 @@ struct Stage {
 Stage stage_of(const SceneLayout& layout, const std::vector<Eigen::Vector3d>& places, int lines);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SCENE_LAYOUT_H_

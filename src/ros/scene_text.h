@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SCENE_TEXT_H_
-#define MECHANISM_CODESIGN_ROS_SCENE_TEXT_H_
+#pragma once
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/time.h>
@@ -37,5 +36,3 @@ visualization_msgs::Marker label(const std::string& name, const std::string& fra
                                  const ros::Time& stamp);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SCENE_TEXT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SCENE_VIEW_H_
-#define MECHANISM_CODESIGN_ROS_SCENE_VIEW_H_
+#pragma once
 
 #include <Eigen/Geometry>
 #include <vector>
@@ -49,5 +48,3 @@ std::vector<Eigen::Vector3d> corners(const Eigen::AlignedBox3d& box);
 double round_down(double length);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SCENE_VIEW_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SIMULATION_NODE_H_
-#define MECHANISM_CODESIGN_ROS_SIMULATION_NODE_H_
+#pragma once
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -112,5 +111,3 @@ class SimulationNode {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SIMULATION_NODE_H_

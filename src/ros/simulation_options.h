@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SIMULATION_OPTIONS_H_
-#define MECHANISM_CODESIGN_ROS_SIMULATION_OPTIONS_H_
+#pragma once
 
 #include <ros/node_handle.h>
 
@@ -45,5 +44,3 @@ SimulationOptions read_simulation_options(const ros::NodeHandle& private_node);
 void check_duration(const ros::NodeHandle& private_node, const SimulationOptions& options, double duration);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SIMULATION_OPTIONS_H_

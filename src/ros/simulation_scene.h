@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_SIMULATION_SCENE_H_
-#define MECHANISM_CODESIGN_ROS_SIMULATION_SCENE_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -32,5 +31,3 @@ class SimulationScene {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_SIMULATION_SCENE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_TRAJECTORY_BAG_H_
-#define MECHANISM_CODESIGN_ROS_TRAJECTORY_BAG_H_
+#pragma once
 
 #include <string>
 
@@ -18,5 +17,3 @@ TrajectoryLoader bag_trajectory_loader(const std::string& folder);
 std::string study_folder(const Inputs& inputs);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_TRAJECTORY_BAG_H_

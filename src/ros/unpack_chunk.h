@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_UNPACK_CHUNK_H_
-#define MECHANISM_CODESIGN_ROS_UNPACK_CHUNK_H_
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -14,5 +13,3 @@ namespace codesign {
 std::string unpack_chunk(const std::string& compression, std::string packed, std::uint64_t size);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_UNPACK_CHUNK_H_

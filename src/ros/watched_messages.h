@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_WATCHED_MESSAGES_H_
-#define MECHANISM_CODESIGN_ROS_WATCHED_MESSAGES_H_
+#pragma once
 
 #include <mechanism_codesign/WatchedSignal.h>
 
@@ -14,5 +13,3 @@ namespace codesign {
 std::vector<mechanism_codesign::WatchedSignal> watched_messages(const std::vector<WatchedResult>& watched, bool is_ensemble);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_WATCHED_MESSAGES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_WAY_OUT_H_
-#define MECHANISM_CODESIGN_ROS_WAY_OUT_H_
+#pragma once
 
 #include "mechanism_codesign/frame.h"
 #include "reading/urdf/link_solids.h"
@@ -13,5 +12,3 @@ namespace codesign {
 double way_out(const Eigen::Vector3d& from, const Eigen::Vector3d& along, const Frame& frame, const LinkBoxes& boxes, double clearance);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_WAY_OUT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_WIRE_H_
-#define MECHANISM_CODESIGN_ROS_WIRE_H_
+#pragma once
 
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
@@ -25,5 +24,3 @@ To same_fields(const From& from) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_WIRE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_ROS_WORKER_H_
-#define MECHANISM_CODESIGN_ROS_WORKER_H_
+#pragma once
 
 #include <atomic>
 #include <condition_variable>
@@ -48,5 +47,3 @@ class Worker {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_ROS_WORKER_H_

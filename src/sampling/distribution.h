@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SAMPLING_DISTRIBUTION_H_
-#define MECHANISM_CODESIGN_SAMPLING_DISTRIBUTION_H_
+#pragma once
 
 #include "description/ensemble.h"
 
@@ -16,5 +15,3 @@ namespace codesign {
 double quantile(const Distribution& distribution, double u);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SAMPLING_DISTRIBUTION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SAMPLING_MEASURE_H_
-#define MECHANISM_CODESIGN_SAMPLING_MEASURE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <limits>
@@ -25,5 +24,3 @@ struct Measured {
 Measured measure(const RobustOptions& options, const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SAMPLING_MEASURE_H_

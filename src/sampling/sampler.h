@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SAMPLING_SAMPLER_H_
-#define MECHANISM_CODESIGN_SAMPLING_SAMPLER_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -25,5 +24,3 @@ Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uin
 PointSequence point_sequence(SamplerKind kind, int count, int dimension, std::uint32_t seed);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SAMPLING_SAMPLER_H_

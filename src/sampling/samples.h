@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SAMPLING_SAMPLES_H_
-#define MECHANISM_CODESIGN_SAMPLING_SAMPLES_H_
+#pragma once
 
 #include <cstdint>
 #include <vector>
@@ -16,5 +15,3 @@ namespace codesign {
 std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities, SamplerKind sampler, int count, std::uint32_t seed);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SAMPLING_SAMPLES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SAMPLING_SOBOL_H_
-#define MECHANISM_CODESIGN_SAMPLING_SOBOL_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -25,5 +24,3 @@ PointSequence sobol_sequence(int dimension, std::uint32_t seed);
 Eigen::MatrixXd sobol_points(int count, int dimension, std::uint32_t seed);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SAMPLING_SOBOL_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_STEP_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_STEP_H_
+#pragma once
 
 #include <vector>
 
@@ -66,5 +65,3 @@ class AdjointStep {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_ADJOINT_STEP_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_CHECK_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_CHECK_H_
+#pragma once
 
 #include "mechanism_codesign/gradient.h"
 
@@ -20,5 +19,3 @@ Eigen::MatrixXd check_directions(const Eigen::VectorXd& gradient, int count);
 void compare(GradientCheck* check);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_CHECK_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_COST_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_COST_H_
+#pragma once
 
 namespace codesign {
 
@@ -19,5 +18,3 @@ inline double direct_cost(int parameters) {
 constexpr double kAdjointCost = 4.0;
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_COST_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <atomic>
@@ -51,5 +50,3 @@ bool prefers_adjoint(const CompiledSystem& system);
 std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, Derivatives derivatives = Derivatives::kGradient);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_GRADIENT_ENGINE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_GRADIENT_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_IDAS_GRADIENT_H_
+#pragma once
 
 #include <memory>
 #include <vector>
@@ -47,5 +46,3 @@ class IdasGradient final : public GradientEngine {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_IDAS_GRADIENT_H_

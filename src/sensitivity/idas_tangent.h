@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_
+#pragma once
 
 #include <array>
 #include <vector>
@@ -81,5 +80,3 @@ class IdasTangent final : public IdasSensitivities {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_IDAS_TANGENT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_DIRECTIONS_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_LANE_DIRECTIONS_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <new>
@@ -47,5 +46,3 @@ class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_DIRECTIONS_H_

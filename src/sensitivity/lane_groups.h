@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_
+#pragma once
 
 #include <algorithm>
 #include <memory>
@@ -67,5 +66,3 @@ class LaneGroups {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_GROUPS_H_

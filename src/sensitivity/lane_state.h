@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_
+#pragma once
 
 #include "integration/increment.h"
 #include "sensitivity/lane_directions.h"
@@ -27,5 +26,3 @@ void load_lanes(const IncrementLayout& at, const State<double>& values, const Di
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_LANE_STATE_H_

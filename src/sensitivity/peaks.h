@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_PEAKS_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_PEAKS_H_
+#pragma once
 
 #include "integration/watch_layout.h"
 #include "mechanism_codesign/gradient.h"
@@ -20,5 +19,3 @@ double peak_terms(const Study& study, const WatchLayout& layout, const Extremes&
 double peak_terms(const Study& study, const Extremes& extremes, Eigen::VectorXd* gradient);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_PEAKS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_RESIDUAL_ROWS_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_RESIDUAL_ROWS_H_
+#pragma once
 
 #include <functional>
 
@@ -44,5 +43,3 @@ class ResidualRows {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_RESIDUAL_ROWS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_
+#pragma once
 
 #include <algorithm>
 #include <optional>
@@ -71,5 +70,3 @@ class RosenbrockGradient final : public GradientEngine {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_ROSENBROCK_GRADIENT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_SIGNAL_WATCH_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_SIGNAL_WATCH_H_
+#pragma once
 
 #include <functional>
 #include <vector>
@@ -74,5 +73,3 @@ class SignalWatch {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_SIGNAL_WATCH_H_

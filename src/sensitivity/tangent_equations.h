@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_TANGENT_EQUATIONS_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_TANGENT_EQUATIONS_H_
+#pragma once
 
 #include "equations/equations.h"
 #include "integration/increment.h"
@@ -45,5 +44,3 @@ class TangentEquations {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_TANGENT_EQUATIONS_H_

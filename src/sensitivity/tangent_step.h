@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
-#define MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_
+#pragma once
 
 #include <array>
 #include <vector>
@@ -108,5 +107,3 @@ class TangentStep {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SENSITIVITY_TANGENT_STEP_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_LEAST_SQUARES_H_
-#define MECHANISM_CODESIGN_SPARSE_LEAST_SQUARES_H_
+#pragma once
 
 #include <Eigen/SparseCore>
 #include <memory>
@@ -72,5 +71,3 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance);
 SparseMatrix columns_of(const SparseMatrix& A, const std::vector<int>& columns);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_LEAST_SQUARES_H_

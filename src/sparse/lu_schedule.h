@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_LU_SCHEDULE_H_
-#define MECHANISM_CODESIGN_SPARSE_LU_SCHEDULE_H_
+#pragma once
 
 #include <cstddef>
 #include <vector>
@@ -77,5 +76,3 @@ class LuSchedule {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_LU_SCHEDULE_H_

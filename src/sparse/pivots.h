@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_PIVOTS_H_
-#define MECHANISM_CODESIGN_SPARSE_PIVOTS_H_
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -29,5 +28,3 @@ std::int64_t count_products(const LuPattern& pattern);
 std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, In<double> values);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_PIVOTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_ROW_PRODUCT_H_
-#define MECHANISM_CODESIGN_SPARSE_ROW_PRODUCT_H_
+#pragma once
 
 #include <cassert>
 #include <cstddef>
@@ -57,5 +56,3 @@ void add_row_tangents(const Sparsity& pattern, In<double> derivatives, int row, 
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_ROW_PRODUCT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_SPARSE_LU_H_
-#define MECHANISM_CODESIGN_SPARSE_SPARSE_LU_H_
+#pragma once
 
 #include <cstdint>
 #include <memory>
@@ -53,5 +52,3 @@ class SparseLu {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_SPARSE_LU_H_

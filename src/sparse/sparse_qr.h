@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_SPARSE_QR_H_
-#define MECHANISM_CODESIGN_SPARSE_SPARSE_QR_H_
+#pragma once
 
 #include <memory>
 #include <vector>
@@ -39,5 +38,3 @@ class SparseQr {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_SPARSE_QR_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
-#define MECHANISM_CODESIGN_SPARSE_SPARSITY_H_
+#pragma once
 
 #include <vector>
 
@@ -58,5 +57,3 @@ struct SparseGradient {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_SPARSITY_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SPARSE_TRANSPOSED_PRODUCT_H_
-#define MECHANISM_CODESIGN_SPARSE_TRANSPOSED_PRODUCT_H_
+#pragma once
 
 #include <cassert>
 #include <cstddef>
@@ -31,5 +30,3 @@ inline void add_transposed_product(const Sparsity& pattern, const std::vector<do
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SPARSE_TRANSPOSED_PRODUCT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_BLOCK_BOOTSTRAP_H_
-#define MECHANISM_CODESIGN_STATISTICS_BLOCK_BOOTSTRAP_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -19,5 +18,3 @@ Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths
 double empirical_quantile(Eigen::VectorXd values, double fraction);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_BLOCK_BOOTSTRAP_H_

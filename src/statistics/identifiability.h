@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_IDENTIFIABILITY_H_
-#define MECHANISM_CODESIGN_STATISTICS_IDENTIFIABILITY_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <string>
@@ -49,5 +48,3 @@ double combination_value(const Identifiability& found, const Eigen::VectorXd& x,
 std::vector<std::string> describe_undetermined(const Identifiability& found, const std::vector<std::string>& names);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_IDENTIFIABILITY_H_

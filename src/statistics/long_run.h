@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_LONG_RUN_H_
-#define MECHANISM_CODESIGN_STATISTICS_LONG_RUN_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -31,5 +30,3 @@ int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths);
 Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_LONG_RUN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_
-#define MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_
+#pragma once
 
 #include <Eigen/Core>
 #include <vector>
@@ -45,5 +44,3 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const
 ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows, double level);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_PARAMETER_COVARIANCE_H_

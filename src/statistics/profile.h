@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_PROFILE_H_
-#define MECHANISM_CODESIGN_STATISTICS_PROFILE_H_
+#pragma once
 
 #include <functional>
 #include <limits>
@@ -49,5 +48,3 @@ ProfileInterval profile_interval(const ProfileProblem& problem, const ProfiledCo
 double profile_threshold(double level, double residual_variance, double inflation, double degrees);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_PROFILE_H_

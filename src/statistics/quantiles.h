@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_QUANTILES_H_
-#define MECHANISM_CODESIGN_STATISTICS_QUANTILES_H_
+#pragma once
 
 namespace codesign {
 
@@ -15,5 +14,3 @@ double interval_factor(double level, double degrees);
 double chi_squared_tail(double x, double degrees);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_QUANTILES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_STATISTICS_WHITENESS_H_
-#define MECHANISM_CODESIGN_STATISTICS_WHITENESS_H_
+#pragma once
 
 #include <Eigen/Core>
 
@@ -21,5 +20,3 @@ struct Whiteness {
 Whiteness ljung_box(const Eigen::VectorXd& residuals, const SeriesLengths& lengths, int lags = 0);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_STATISTICS_WHITENESS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_FOREST_MOTION_H_
-#define MECHANISM_CODESIGN_SYSTEM_FOREST_MOTION_H_
+#pragma once
 
 #include <vector>
 
@@ -71,5 +70,3 @@ void set_forest_kinematics(const AxesMotion<T>& m, const Vector3<T>& gravity, Bo
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_FOREST_MOTION_H_

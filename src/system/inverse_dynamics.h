@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_INVERSE_DYNAMICS_H_
-#define MECHANISM_CODESIGN_SYSTEM_INVERSE_DYNAMICS_H_
+#pragma once
 
 #include <vector>
 
@@ -63,5 +62,3 @@ class InverseDynamics {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_INVERSE_DYNAMICS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_REACTION_SHARING_H_
-#define MECHANISM_CODESIGN_SYSTEM_REACTION_SHARING_H_
+#pragma once
 
 #include <vector>
 
@@ -48,5 +47,3 @@ struct SharingLayout {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_REACTION_SHARING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_START_ROTATIONS_H_
-#define MECHANISM_CODESIGN_SYSTEM_START_ROTATIONS_H_
+#pragma once
 
 #include "description/robot.h"
 #include "description/study.h"
@@ -14,5 +13,3 @@ int tree_joint(const RobotDescription& robot, const InitialJointState& initial);
 RobotDescription with_start_rotations(RobotDescription robot, const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_START_ROTATIONS_H_

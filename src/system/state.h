@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_STATE_H_
-#define MECHANISM_CODESIGN_SYSTEM_STATE_H_
+#pragma once
 
 #include <vector>
 
@@ -111,5 +110,3 @@ void cast_state(const State<double>& from, State<To>* to) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_STATE_H_

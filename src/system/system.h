@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_SYSTEM_H_
-#define MECHANISM_CODESIGN_SYSTEM_SYSTEM_H_
+#pragma once
 
 #include <vector>
 
@@ -145,5 +144,3 @@ class System {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_SYSTEM_H_

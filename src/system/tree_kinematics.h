@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_SYSTEM_TREE_KINEMATICS_H_
-#define MECHANISM_CODESIGN_SYSTEM_TREE_KINEMATICS_H_
+#pragma once
 
 #include <vector>
 
@@ -84,5 +83,3 @@ void state_coordinates(const System& system, const TreeLayout& layout, const Con
                        VectorX<T>* v);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_SYSTEM_TREE_KINEMATICS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEXT_CANCEL_H_
-#define MECHANISM_CODESIGN_TEXT_CANCEL_H_
+#pragma once
 
 #include <atomic>
 
@@ -10,5 +9,3 @@ namespace codesign {
 inline bool is_set(const std::atomic<bool>* cancel) { return cancel != nullptr && *cancel; }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEXT_CANCEL_H_

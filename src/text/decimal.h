@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEXT_DECIMAL_H_
-#define MECHANISM_CODESIGN_TEXT_DECIMAL_H_
+#pragma once
 
 #include <string>
 
@@ -10,5 +9,3 @@ namespace codesign {
 std::string to_decimal(double value);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEXT_DECIMAL_H_

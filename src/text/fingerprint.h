@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEXT_FINGERPRINT_H_
-#define MECHANISM_CODESIGN_TEXT_FINGERPRINT_H_
+#pragma once
 
 #include <string>
 
@@ -18,5 +17,3 @@ std::string with_checksum(std::string object);
 bool has_right_checksum(const std::string& text);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEXT_FINGERPRINT_H_

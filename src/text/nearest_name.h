@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEXT_NEAREST_NAME_H_
-#define MECHANISM_CODESIGN_TEXT_NEAREST_NAME_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -18,5 +17,3 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 std::string did_you_mean(const std::string& near);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEXT_NEAREST_NAME_H_

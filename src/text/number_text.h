@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEXT_NUMBER_TEXT_H_
-#define MECHANISM_CODESIGN_TEXT_NUMBER_TEXT_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -24,5 +23,3 @@ bool ends_with(const std::string& text, const std::string& tail);
 std::vector<std::string> split_words(const std::string& text);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEXT_NUMBER_TEXT_H_

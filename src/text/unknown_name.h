@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEXT_UNKNOWN_NAME_H_
-#define MECHANISM_CODESIGN_TEXT_UNKNOWN_NAME_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -19,5 +18,3 @@ InputError unknown_name(const SourceLocation& where, const std::string& element,
                         const std::vector<std::string>& known);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEXT_UNKNOWN_NAME_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ALLOCATION_COUNT_H_
-#define MECHANISM_CODESIGN_TEST_ALLOCATION_COUNT_H_
+#pragma once
 
 #include <cstdint>
 
@@ -10,5 +9,3 @@ namespace codesign {
 std::int64_t allocations();
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_ALLOCATION_COUNT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_CASES_JOINT_COORDINATE_CASES_H_
-#define MECHANISM_CODESIGN_TEST_CASES_JOINT_COORDINATE_CASES_H_
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -116,5 +115,3 @@ inline std::vector<CoordinatesCase> loads() {
 
 }  // namespace joint_coordinates
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_CASES_JOINT_COORDINATE_CASES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_SYSTEM_SHIPPED_H_
-#define MECHANISM_CODESIGN_TEST_SYSTEM_SHIPPED_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -113,5 +112,3 @@ inline void expect_series(const Shipped& shipped, const std::vector<SignalPoints
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_SYSTEM_SHIPPED_H_

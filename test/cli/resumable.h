@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_CLI_RESUMABLE_H_
-#define MECHANISM_CODESIGN_TEST_CLI_RESUMABLE_H_
+#pragma once
 
 #include <set>
 #include <string>
@@ -54,5 +53,3 @@ inline std::multiset<std::string> evaluations_of(const std::string& path) {
 }
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_TEST_CLI_RESUMABLE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_
+#pragma once
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -80,5 +79,3 @@ class ScratchFolder {
 };
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_TEST_CLI_RUN_FIXTURE_H_

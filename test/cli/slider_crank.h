@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_CLI_SLIDER_CRANK_H_
-#define MECHANISM_CODESIGN_TEST_CLI_SLIDER_CRANK_H_
+#pragma once
 
 #include <sstream>
 #include <string>
@@ -32,5 +31,3 @@ inline std::string short_study(const ScratchFolder& folder) {
 }
 
 }  // namespace codesign::cli
-
-#endif  // MECHANISM_CODESIGN_TEST_CLI_SLIDER_CRANK_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_CODEGEN_SOME_RECORDING_H_
-#define MECHANISM_CODESIGN_TEST_CODEGEN_SOME_RECORDING_H_
+#pragma once
 
 #include <cmath>
 #include <random>
@@ -109,5 +108,3 @@ inline std::vector<double> node_values(const Recording& recording, const std::ve
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_CODEGEN_SOME_RECORDING_H_

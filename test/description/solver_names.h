@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_DESCRIPTION_SOLVER_NAMES_H_
-#define MECHANISM_CODESIGN_TEST_DESCRIPTION_SOLVER_NAMES_H_
+#pragma once
 
 #include <algorithm>
 #include <stdexcept>
@@ -23,5 +22,3 @@ inline RosenbrockMethod method_named(const std::string& name) { return enumerato
 inline GradientMethod gradient_named(const std::string& name) { return enumerator_named<GradientMethod>(kGradientMethodNames, name); }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_DESCRIPTION_SOLVER_NAMES_H_

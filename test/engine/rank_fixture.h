@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ENGINE_RANK_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_ENGINE_RANK_FIXTURE_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -142,5 +141,3 @@ class PlayedJob {
 inline Hello own_hello() { return {kMessageFormat, version(), "elsewhere"}; }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_ENGINE_RANK_FIXTURE_H_

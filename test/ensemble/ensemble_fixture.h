@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ENSEMBLE_ENSEMBLE_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_ENSEMBLE_ENSEMBLE_FIXTURE_H_
+#pragma once
 
 #include <string>
 
@@ -36,5 +35,3 @@ optimizer: )" + optimizer + "\n" + ensemble};
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_ENSEMBLE_ENSEMBLE_FIXTURE_H_

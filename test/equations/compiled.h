@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_COMPILED_H_
-#define MECHANISM_CODESIGN_TEST_EQUATIONS_COMPILED_H_
+#pragma once
 
 #include <string>
 
@@ -38,5 +37,3 @@ inline std::string let_go(const std::string& initial, const std::string& signal,
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_EQUATIONS_COMPILED_H_

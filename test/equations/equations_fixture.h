@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_EQUATIONS_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_EQUATIONS_EQUATIONS_FIXTURE_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -50,5 +49,3 @@ class EquationsFixture {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_EQUATIONS_EQUATIONS_FIXTURE_H_

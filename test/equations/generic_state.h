@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_GENERIC_STATE_H_
-#define MECHANISM_CODESIGN_TEST_EQUATIONS_GENERIC_STATE_H_
+#pragma once
 
 #include <cmath>
 
@@ -45,5 +44,3 @@ inline bool scramble(Compiled* c, double amount = 0.4) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_EQUATIONS_GENERIC_STATE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_JOINT_CASES_H_
-#define MECHANISM_CODESIGN_TEST_EQUATIONS_JOINT_CASES_H_
+#pragma once
 
 #include <ostream>
 #include <string>
@@ -118,5 +117,3 @@ inline std::vector<JointCase> all() {
 
 }  // namespace joint_cases
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_EQUATIONS_JOINT_CASES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_EQUATIONS_LOADED_ARM_H_
-#define MECHANISM_CODESIGN_TEST_EQUATIONS_LOADED_ARM_H_
+#pragma once
 
 #include <string>
 
@@ -27,5 +26,3 @@ inline std::string loaded_arm() {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_EQUATIONS_LOADED_ARM_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_EXCITATION_EXCITED_CASES_H_
-#define MECHANISM_CODESIGN_TEST_EXCITATION_EXCITED_CASES_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -116,5 +115,3 @@ inline double worst_along(const MotionLimits& limits, const DrivePath& path, Exc
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_EXCITATION_EXCITED_CASES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FORCES_BRISTLE_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_FORCES_BRISTLE_FIXTURE_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -57,5 +56,3 @@ void expect_parameter_derivatives(const LanesLaw& lanes_law, const ComplexLaw& c
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_FORCES_BRISTLE_FIXTURE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_INPUTS_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_INPUTS_H_
+#pragma once
 
 #include <map>
 #include <string>
@@ -27,5 +26,3 @@ std::vector<Seed> shipped_seeds();
 Input random_input(const std::vector<Seed>& seeds, Dice* dice);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_INPUTS_H_

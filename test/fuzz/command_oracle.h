@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_ORACLE_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_ORACLE_H_
+#pragma once
 
 #include <string>
 
@@ -15,5 +14,3 @@ namespace codesign::fuzz {
 std::string run_command(const Input& input, const Limits& limits);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_COMMAND_ORACLE_H_

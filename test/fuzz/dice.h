@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_DICE_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_DICE_H_
+#pragma once
 
 #include <cstdint>
 #include <random>
@@ -27,5 +26,3 @@ class Dice {
 };
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_DICE_H_

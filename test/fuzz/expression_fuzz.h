@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_EXPRESSION_FUZZ_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_EXPRESSION_FUZZ_H_
+#pragma once
 
 #include <string>
 
@@ -13,5 +12,3 @@ namespace codesign::fuzz {
 std::string try_expressions(int count, Dice* dice);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_EXPRESSION_FUZZ_H_

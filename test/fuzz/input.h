@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_INPUT_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_INPUT_H_
+#pragma once
 
 #include <map>
 #include <optional>
@@ -28,5 +27,3 @@ Input load_input(const std::string& path);
 void save_input(const std::string& path, const Input& input);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_INPUT_H_

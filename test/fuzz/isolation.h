@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_ISOLATION_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_ISOLATION_H_
+#pragma once
 
 #include <atomic>
 #include <functional>
@@ -28,5 +27,3 @@ using Body = std::function<std::string(const std::atomic<bool>& cancel)>;
 std::string run_isolated(const Body& body, const Limits& limits, std::optional<long> disk = std::nullopt);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_ISOLATION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_JOURNAL_FUZZ_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_JOURNAL_FUZZ_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -16,5 +15,3 @@ namespace codesign::fuzz {
 std::string run_resumed(const std::vector<Seed>& seeds, const Limits& limits, Dice* dice);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_JOURNAL_FUZZ_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_LANGUAGE_SEEDS_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_LANGUAGE_SEEDS_H_
+#pragma once
 
 #include <vector>
 
@@ -13,5 +12,3 @@ namespace codesign::fuzz {
 std::vector<Seed> language_seeds();
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_LANGUAGE_SEEDS_H_

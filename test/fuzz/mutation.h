@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_MUTATION_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_MUTATION_H_
+#pragma once
 
 #include <string>
 
@@ -18,5 +17,3 @@ std::string mutate_xml(const std::string& text, Dice* dice);
 std::string random_expression(const std::vector<std::string>& names, int depth, Dice* dice);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_MUTATION_H_

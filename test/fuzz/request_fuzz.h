@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_FUZZ_REQUEST_FUZZ_H_
-#define MECHANISM_CODESIGN_TEST_FUZZ_REQUEST_FUZZ_H_
+#pragma once
 
 #include <string>
 
@@ -15,5 +14,3 @@ namespace codesign::fuzz {
 std::string run_request(const std::vector<Seed>& seeds, const Limits& limits, Dice* dice);
 
 }  // namespace codesign::fuzz
-
-#endif  // MECHANISM_CODESIGN_TEST_FUZZ_REQUEST_FUZZ_H_

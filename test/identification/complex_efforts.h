@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_COMPLEX_EFFORTS_H_
-#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_COMPLEX_EFFORTS_H_
+#pragma once
 
 #include <Eigen/LU>
 #include <complex>
@@ -82,5 +81,3 @@ class ComplexEfforts {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_COMPLEX_EFFORTS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_MOTION_RIG_H_
-#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_MOTION_RIG_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -82,5 +81,3 @@ inline JointRecording record_pendulum(const MotionRig& rig) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_MOTION_RIG_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_RECORDED_MOTION_H_
-#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_RECORDED_MOTION_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -72,5 +71,3 @@ inline std::vector<MeasuredJoint> measured(const std::vector<std::string>& with_
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_RECORDED_MOTION_H_

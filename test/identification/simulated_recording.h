@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_SIMULATED_RECORDING_H_
-#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_SIMULATED_RECORDING_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -48,5 +47,3 @@ inline JointRecording record_run(const Problem& problem, const std::map<std::str
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_SIMULATED_RECORDING_H_

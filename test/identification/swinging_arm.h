@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_IDENTIFICATION_SWINGING_ARM_H_
-#define MECHANISM_CODESIGN_TEST_IDENTIFICATION_SWINGING_ARM_H_
+#pragma once
 
 #include <cmath>
 #include <string>
@@ -76,5 +75,3 @@ struct SwingingRig {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_IDENTIFICATION_SWINGING_ARM_H_

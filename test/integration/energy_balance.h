@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_ENERGY_BALANCE_H_
-#define MECHANISM_CODESIGN_TEST_INTEGRATION_ENERGY_BALANCE_H_
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -58,5 +57,3 @@ inline const char* const kTight = "{integrator: rosenbrock, method: rodas5p, rel
 inline const char* const kFriction = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_ENERGY_BALANCE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_EQUAL_STEPS_H_
-#define MECHANISM_CODESIGN_TEST_INTEGRATION_EQUAL_STEPS_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -23,5 +22,3 @@ inline void take_equal_steps(const CompiledSystem& system, double span, int coun
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_EQUAL_STEPS_H_

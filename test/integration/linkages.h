@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_LINKAGES_H_
-#define MECHANISM_CODESIGN_TEST_INTEGRATION_LINKAGES_H_
+#pragma once
 
 #include <cmath>
 #include <functional>
@@ -114,5 +113,3 @@ inline double reference_angle(const std::function<double(double)>& f, double the
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_LINKAGES_H_

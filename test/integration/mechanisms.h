@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_
-#define MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_
+#pragma once
 
 #include <regex>
 #include <string>
@@ -97,5 +96,3 @@ inline std::string motion_study(double duration, const std::string& initial, con
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_MECHANISMS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_ROUNDED_LINKAGES_H_
-#define MECHANISM_CODESIGN_TEST_INTEGRATION_ROUNDED_LINKAGES_H_
+#pragma once
 
 #include <string>
 
@@ -111,5 +110,3 @@ inline std::string study(const std::string& start, const std::string& signal, do
 }
 
 }  // namespace codesign::rounded
-
-#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_ROUNDED_LINKAGES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_INTEGRATION_SERVO_H_
-#define MECHANISM_CODESIGN_TEST_INTEGRATION_SERVO_H_
+#pragma once
 
 #include <memory>
 #include <string>
@@ -33,5 +32,3 @@ inline std::shared_ptr<const CompiledSystem> servo(const std::string& solver) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_INTEGRATION_SERVO_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_JOBS_EDITED_LINE_H_
-#define MECHANISM_CODESIGN_TEST_JOBS_EDITED_LINE_H_
+#pragma once
 
 #include <string>
 
@@ -19,5 +18,3 @@ std::string edited_line(const std::string& line, const Edit& edit) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_JOBS_EDITED_LINE_H_

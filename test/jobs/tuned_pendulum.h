@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_JOBS_TUNED_PENDULUM_H_
-#define MECHANISM_CODESIGN_TEST_JOBS_TUNED_PENDULUM_H_
+#pragma once
 
 #include <string>
 
@@ -23,5 +22,3 @@ inline Problem pendulum_on_hardware() {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_JOBS_TUNED_PENDULUM_H_

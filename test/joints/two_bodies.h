@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_JOINTS_TWO_BODIES_H_
-#define MECHANISM_CODESIGN_TEST_JOINTS_TWO_BODIES_H_
+#pragma once
 
 #include <cmath>
 
@@ -31,5 +30,3 @@ BodyKinematics<T> local_body(const VectorX<T>& q, const VectorX<T>& v, const Vec
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_JOINTS_TWO_BODIES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_RECORDINGS_SOME_RECORDING_H_
-#define MECHANISM_CODESIGN_TEST_RECORDINGS_SOME_RECORDING_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -67,5 +66,3 @@ inline void expect_word(const std::string& text, const std::string& words) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_RECORDINGS_SOME_RECORDING_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ROS_PENDULUM_H_
-#define MECHANISM_CODESIGN_TEST_ROS_PENDULUM_H_
+#pragma once
 
 #include <string>
 
@@ -44,5 +43,3 @@ optimizer: {algorithm: lbfgs, max_evaluations: 30}
 inline Problem pendulum() { return load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", kPendulumStudy}); }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_ROS_PENDULUM_H_

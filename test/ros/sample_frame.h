@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ROS_SAMPLE_FRAME_H_
-#define MECHANISM_CODESIGN_TEST_ROS_SAMPLE_FRAME_H_
+#pragma once
 
 #include "mechanism_codesign/frame.h"
 
@@ -45,5 +44,3 @@ inline Frame sample_frame(double time) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_ROS_SAMPLE_FRAME_H_

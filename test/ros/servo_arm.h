@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_ROS_SERVO_ARM_H_
-#define MECHANISM_CODESIGN_TEST_ROS_SERVO_ARM_H_
+#pragma once
 
 #include <string>
 
@@ -31,5 +30,3 @@ inline Problem servo_arm() {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_ROS_SERVO_ARM_H_

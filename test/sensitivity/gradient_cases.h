@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_SENSITIVITY_GRADIENT_CASES_H_
-#define MECHANISM_CODESIGN_TEST_SENSITIVITY_GRADIENT_CASES_H_
+#pragma once
 
 #include <functional>
 #include <string>
@@ -95,5 +94,3 @@ inline GradientRun run_gradient(GradientEngine* engine, const CompiledSystem& sy
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_SENSITIVITY_GRADIENT_CASES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_SENSITIVITY_SERVO_STEPS_H_
-#define MECHANISM_CODESIGN_TEST_SENSITIVITY_SERVO_STEPS_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -76,5 +75,3 @@ struct ServoSteps {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_SENSITIVITY_SERVO_STEPS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_SENSITIVITY_WATCHED_CASES_H_
-#define MECHANISM_CODESIGN_TEST_SENSITIVITY_WATCHED_CASES_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -34,5 +33,3 @@ inline GradientCase with_watched(GradientCase test) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_SENSITIVITY_WATCHED_CASES_H_

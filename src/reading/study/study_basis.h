@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_BASIS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_BASIS_H_
+#pragma once
 
 #include <string>
 
@@ -19,5 +18,3 @@ void declare_coefficients(const YamlValue& study_value, Study* study);
 BasisDescription read_basis(const std::string& controller, const YamlValue& value, const ParameterTable& table, double study_duration);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_BASIS_H_

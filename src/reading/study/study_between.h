@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_BETWEEN_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_BETWEEN_H_
+#pragma once
 
 #include <optional>
 
@@ -19,5 +18,3 @@ struct Between {
 Between read_between(const YamlValue& value, const ParameterTable& table);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_BETWEEN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_CONSTRAINTS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_CONSTRAINTS_H_
+#pragma once
 
 #include "description/study.h"
 #include "reading/yaml/yaml_reader.h"
@@ -16,5 +15,3 @@ bool bounds_a_peak(const YamlValue& item);
 void read_constraints(const YamlValue& study_value, Study* study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_CONSTRAINTS_H_

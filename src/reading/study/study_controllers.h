@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_CONTROLLERS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_CONTROLLERS_H_
+#pragma once
 
 #include "description/robot.h"
 #include "description/study.h"
@@ -15,5 +14,3 @@ void read_controllers(const YamlValue& study_value, const RobotDescription& robo
                       const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_CONTROLLERS_H_

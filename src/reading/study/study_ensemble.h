@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_
+#pragma once
 
 #include "description/named_file.h"
 #include "description/robot.h"
@@ -16,5 +15,3 @@ EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescr
                                   const FileLoader& files, const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_ENSEMBLE_H_

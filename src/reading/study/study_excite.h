@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_EXCITE_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_EXCITE_H_
+#pragma once
 
 #include "description/excitation.h"
 #include "description/robot.h"
@@ -12,5 +11,3 @@ namespace codesign {
 ExcitationDescription read_excitation(const YamlValue& excite, const RobotDescription& robot);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_EXCITE_H_

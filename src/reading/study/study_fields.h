@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_FIELDS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_FIELDS_H_
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -31,5 +30,3 @@ void read_whole(const YamlValue& parent, const std::string& key, int least, int 
 void read_sampler(const YamlValue& parent, SamplerKind* sampler, std::uint32_t* seed);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_FIELDS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_FITTED_NUMBER_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_FITTED_NUMBER_H_
+#pragma once
 
 #include "description/identification.h"
 #include "reading/yaml/yaml_reader.h"
@@ -13,5 +12,3 @@ namespace codesign {
 void read_fitted(const YamlValue& value, double lower, FittedNumber* number);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_FITTED_NUMBER_H_

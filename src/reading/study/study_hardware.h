@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_HARDWARE_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_HARDWARE_H_
+#pragma once
 
 #include "description/study.h"
 #include "reading/parameter_table.h"
@@ -14,5 +13,3 @@ namespace codesign {
 void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_HARDWARE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFIED_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFIED_H_
+#pragma once
 
 #include <set>
 #include <string>
@@ -22,5 +21,3 @@ std::vector<UncertainQuantity> read_identified(const YamlValue& from, const Stud
                                                const FileLoader& files, std::size_t first);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFIED_H_

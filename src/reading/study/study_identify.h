@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFY_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFY_H_
+#pragma once
 
 #include "description/identification.h"
 #include "description/robot.h"
@@ -18,5 +17,3 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
 double segment_of(const YamlValue& identify);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_IDENTIFY_H_

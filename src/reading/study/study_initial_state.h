@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_INITIAL_STATE_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_INITIAL_STATE_H_
+#pragma once
 
 #include "description/robot.h"
 #include "description/study.h"
@@ -13,5 +12,3 @@ namespace codesign {
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_INITIAL_STATE_H_

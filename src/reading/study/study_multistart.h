@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_MULTISTART_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_MULTISTART_H_
+#pragma once
 
 #include "description/study.h"
 #include "reading/yaml/yaml_reader.h"
@@ -11,5 +10,3 @@ namespace codesign {
 MultistartOptions read_multistart(const YamlValue& study_value, const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_MULTISTART_H_

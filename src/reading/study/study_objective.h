@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_OBJECTIVE_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_OBJECTIVE_H_
+#pragma once
 
 #include "description/robot.h"
 #include "description/study.h"
@@ -15,5 +14,3 @@ void read_objective(const YamlValue& study_value, const RobotDescription& robot,
                     const TrajectoryLoader& loader, Study* study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_OBJECTIVE_H_

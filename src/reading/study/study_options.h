@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_
+#pragma once
 
 #include "description/study.h"
 #include "reading/yaml/yaml_reader.h"
@@ -19,5 +18,3 @@ SolverOptions read_solver_options(const YamlValue& solver);
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_OPTIONS_H_

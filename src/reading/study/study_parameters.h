@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_
+#pragma once
 
 #include "description/robot.h"
 #include "description/study.h"
@@ -17,5 +16,3 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
 void read_bounds(const YamlValue& value, Parameter* parameter);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_PARAMETERS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_READER_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_READER_H_
+#pragma once
 
 #include "description/named_file.h"
 #include "description/robot.h"
@@ -17,5 +16,3 @@ namespace codesign {
 Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader = {}, const FileLoader& files = {});
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_REALIZATION_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_REALIZATION_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -22,5 +21,3 @@ void read_realization(const YamlValue& value, const ParameterTable& table, Contr
 void refuse_adjoint_of_sampled(const YamlValue& study_value, const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_REALIZATION_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_RECORDINGS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_RECORDINGS_H_
+#pragma once
 
 #include <vector>
 
@@ -15,5 +14,3 @@ namespace codesign {
 std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot, const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_RECORDINGS_H_

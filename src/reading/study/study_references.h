@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_
+#pragma once
 
 #include "description/reference.h"
 #include "reading/parameter_table.h"
@@ -13,5 +12,3 @@ namespace codesign {
 ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table, const TrajectoryLoader& loader);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_REFERENCES_H_

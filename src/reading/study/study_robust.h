@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_ROBUST_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_ROBUST_H_
+#pragma once
 
 #include "description/ensemble.h"
 #include "reading/yaml/yaml_reader.h"
@@ -15,5 +14,3 @@ RobustOptions read_robust(const YamlValue& robust, const EnsembleDescription& en
 RobustOptions default_robust(const EnsembleDescription& ensemble, const SourceLocation& where);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_ROBUST_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_RUNS_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_RUNS_H_
+#pragma once
 
 #include <functional>
 #include <vector>
@@ -18,5 +17,3 @@ using RunReader = std::function<Study(const YamlValue& study_value)>;
 std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study& study, const RunReader& read_run);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_RUNS_H_

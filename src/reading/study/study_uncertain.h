@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_UNCERTAIN_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_UNCERTAIN_H_
+#pragma once
 
 #include <vector>
 
@@ -19,5 +18,3 @@ std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const 
                                               const std::vector<RunDescription>& runs, const FileLoader& files);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_UNCERTAIN_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_VALUES_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_VALUES_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -32,5 +31,3 @@ QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_VALUES_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_STUDY_STUDY_WATCHED_H_
-#define MECHANISM_CODESIGN_READING_STUDY_STUDY_WATCHED_H_
+#pragma once
 
 #include "description/robot.h"
 #include "description/study.h"
@@ -19,5 +18,3 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot, c
 void refuse_adjoint_of_watched(const YamlValue& study_value, const Study& study);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_STUDY_STUDY_WATCHED_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_ANNOTATED_URDF_H_
-#define MECHANISM_CODESIGN_READING_URDF_ANNOTATED_URDF_H_
+#pragma once
 
 #include <vector>
 
@@ -16,5 +15,3 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
 RobotDescription read_robot(const XmlDocument& document);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_ANNOTATED_URDF_H_

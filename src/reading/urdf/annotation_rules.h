@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_ANNOTATION_RULES_H_
-#define MECHANISM_CODESIGN_READING_URDF_ANNOTATION_RULES_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -27,5 +26,3 @@ std::vector<std::string> annotation_elements();
 std::vector<std::string> places_of(const std::string& annotation);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_ANNOTATION_RULES_H_

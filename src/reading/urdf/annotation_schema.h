@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_ANNOTATION_SCHEMA_H_
-#define MECHANISM_CODESIGN_READING_URDF_ANNOTATION_SCHEMA_H_
+#pragma once
 
 #include "reading/xml/xml_document.h"
 
@@ -19,5 +18,3 @@ void check_namespace(const XmlDocument& document);
 void check_annotations(const XmlDocument& document);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_ANNOTATION_SCHEMA_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_DESIGN_WRITER_H_
-#define MECHANISM_CODESIGN_READING_URDF_DESIGN_WRITER_H_
+#pragma once
 
 #include <vector>
 
@@ -16,5 +15,3 @@ namespace codesign {
 void write_design(const RobotDescription& robot, const std::vector<double>& values, XmlDocument* document);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_DESIGN_WRITER_H_

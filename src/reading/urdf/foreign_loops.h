@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_FOREIGN_LOOPS_H_
-#define MECHANISM_CODESIGN_READING_URDF_FOREIGN_LOOPS_H_
+#pragma once
 
 #include "reading/urdf/read_context.h"
 
@@ -27,5 +26,3 @@ bool has_loop_between(const RobotDescription& robot, const std::string& a, const
 void warn_of_foreign_loops(const XmlElement& robot, const RobotDescription& description, Warnings* warnings);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_FOREIGN_LOOPS_H_

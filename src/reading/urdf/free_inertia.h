@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_FREE_INERTIA_H_
-#define MECHANISM_CODESIGN_READING_URDF_FREE_INERTIA_H_
+#pragma once
 
 #include "reading/xml/xml_document.h"
 
@@ -14,5 +13,3 @@ namespace codesign {
 void write_out_free_inertias(XmlDocument* document);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_FREE_INERTIA_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_
+#pragma once
 
 #include "description/robot.h"
 #include "reading/urdf/twin.h"
@@ -11,5 +10,3 @@ namespace codesign {
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ParameterTable& table);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_FRICTION_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_INERTIAL_CHECK_H_
-#define MECHANISM_CODESIGN_READING_URDF_INERTIAL_CHECK_H_
+#pragma once
 
 #include <string>
 
@@ -18,5 +17,3 @@ void check_agreement(const XmlElement& element, const InertialDescription& writt
                                      const std::string& message);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_INERTIAL_CHECK_H_

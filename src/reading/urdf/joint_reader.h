@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_JOINT_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_JOINT_READER_H_
+#pragma once
 
 #include "description/robot.h"
 #include "reading/urdf/read_context.h"
@@ -20,5 +19,3 @@ JointDescription read_loop(const XmlElement& element, const ReadContext& context
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_JOINT_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_LINK_SOLIDS_H_
-#define MECHANISM_CODESIGN_READING_URDF_LINK_SOLIDS_H_
+#pragma once
 
 #include <Eigen/Geometry>
 #include <string>
@@ -23,5 +22,3 @@ using LinkBoxes = std::vector<std::vector<SolidBox>>;
 LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_LINK_SOLIDS_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_MESH_FINDER_H_
-#define MECHANISM_CODESIGN_READING_URDF_MESH_FINDER_H_
+#pragma once
 
 #include <filesystem>
 #include <map>
@@ -23,5 +22,3 @@ class MeshFinder {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_MESH_FINDER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_OVERLAY_H_
-#define MECHANISM_CODESIGN_READING_URDF_OVERLAY_H_
+#pragma once
 
 #include "reading/xml/xml_document.h"
 
@@ -13,5 +12,3 @@ namespace codesign {
 void merge_overlay(const XmlDocument& overlay, XmlDocument* base);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_OVERLAY_H_

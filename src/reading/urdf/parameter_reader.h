@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_PARAMETER_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_PARAMETER_READER_H_
+#pragma once
 
 #include <vector>
 
@@ -13,5 +12,3 @@ namespace codesign {
 std::vector<Parameter> read_parameters(const XmlElement& robot);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_PARAMETER_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_PLAIN_NUMBERS_H_
-#define MECHANISM_CODESIGN_READING_URDF_PLAIN_NUMBERS_H_
+#pragma once
 
 #include <tinyxml2.h>
 
@@ -20,5 +19,3 @@ Eigen::Vector3d plain_vector(const tinyxml2::XMLElement* element, const char* at
 Eigen::Isometry3d plain_origin(const tinyxml2::XMLElement* element);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_PLAIN_NUMBERS_H_

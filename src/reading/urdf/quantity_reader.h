@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_QUANTITY_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_QUANTITY_READER_H_
+#pragma once
 
 #include <string>
 
@@ -32,5 +31,3 @@ double read_number(const XmlElement& element, const std::string& attribute, Rang
 double read_number_or(double fallback, const XmlElement& element, const std::string& attribute, Range range);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_QUANTITY_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_READ_CONTEXT_H_
-#define MECHANISM_CODESIGN_READING_URDF_READ_CONTEXT_H_
+#pragma once
 
 #include <string>
 #include <utility>
@@ -24,5 +23,3 @@ struct ReadContext {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_READ_CONTEXT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_SET_VALUES_H_
-#define MECHANISM_CODESIGN_READING_URDF_SET_VALUES_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -33,5 +32,3 @@ std::string write_set_overlay(const std::string& robot, const std::string& headi
                               const std::string& ending);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_SET_VALUES_H_

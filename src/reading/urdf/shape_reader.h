@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_SHAPE_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_SHAPE_READER_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -15,5 +14,3 @@ namespace codesign {
 std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_SHAPE_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_STICK_FIGURE_H_
-#define MECHANISM_CODESIGN_READING_URDF_STICK_FIGURE_H_
+#pragma once
 
 #include <string>
 
@@ -17,5 +16,3 @@ namespace codesign {
 std::string with_sticks(const std::string& urdf);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_STICK_FIGURE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_TRANSMISSION_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_TRANSMISSION_READER_H_
+#pragma once
 
 #include "description/robot.h"
 #include "reading/xml/xml_element.h"
@@ -14,5 +13,3 @@ namespace codesign {
 void read_transmissions(const XmlElement& element, RobotDescription* robot);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_TRANSMISSION_READER_H_

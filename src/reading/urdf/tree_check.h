@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_TREE_CHECK_H_
-#define MECHANISM_CODESIGN_READING_URDF_TREE_CHECK_H_
+#pragma once
 
 #include "description/robot.h"
 
@@ -26,5 +25,3 @@ void check_mimics(RobotDescription* robot);
 void check_friction(const RobotDescription& robot);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_TREE_CHECK_H_

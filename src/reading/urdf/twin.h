@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_TWIN_H_
-#define MECHANISM_CODESIGN_READING_URDF_TWIN_H_
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -27,5 +26,3 @@ std::vector<Quantity> read_quantities(const XmlElement& element, const std::stri
                                       const ParameterTable& table);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_TWIN_H_

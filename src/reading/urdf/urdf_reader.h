@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_URDF_READER_H_
-#define MECHANISM_CODESIGN_READING_URDF_URDF_READER_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -25,5 +24,3 @@ std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceTex
                              std::optional<FrictionModel> law = std::nullopt);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_URDF_READER_H_

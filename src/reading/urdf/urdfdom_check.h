@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_URDFDOM_CHECK_H_
-#define MECHANISM_CODESIGN_READING_URDF_URDFDOM_CHECK_H_
+#pragma once
 
 #include "reading/xml/xml_document.h"
 
@@ -11,5 +10,3 @@ namespace codesign {
 void check_with_urdfdom(const XmlDocument& document);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_URDFDOM_CHECK_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_VOCABULARY_H_
-#define MECHANISM_CODESIGN_READING_URDF_VOCABULARY_H_
+#pragma once
 
 #include <string>
 #include <vector>
@@ -25,5 +24,3 @@ const Vocabulary* find_vocabulary(const std::string& path);
 std::vector<std::string> elements_with(const std::string& child);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_VOCABULARY_H_

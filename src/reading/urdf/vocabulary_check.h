@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_URDF_VOCABULARY_CHECK_H_
-#define MECHANISM_CODESIGN_READING_URDF_VOCABULARY_CHECK_H_
+#pragma once
 
 #include "reading/xml/xml_document.h"
 
@@ -25,5 +24,3 @@ void refuse_text(const XmlDocument& overlay);
 Warnings cut_trailing_text(SourceText* source);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_URDF_VOCABULARY_CHECK_H_

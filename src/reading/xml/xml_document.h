@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_XML_XML_DOCUMENT_H_
-#define MECHANISM_CODESIGN_READING_XML_XML_DOCUMENT_H_
+#pragma once
 
 #include <tinyxml2.h>
 
@@ -52,5 +51,3 @@ class XmlDocument {
 };
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_XML_XML_DOCUMENT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_XML_XML_ELEMENT_H_
-#define MECHANISM_CODESIGN_READING_XML_XML_ELEMENT_H_
+#pragma once
 
 #include <optional>
 #include <string>
@@ -58,5 +57,3 @@ class XmlElement {
 tinyxml2::XMLElement* find_named(tinyxml2::XMLElement* parent, const char* tag, const std::string& name);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_XML_XML_ELEMENT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_READING_YAML_YAML_READER_H_
-#define MECHANISM_CODESIGN_READING_YAML_YAML_READER_H_
+#pragma once
 
 #include <yaml-cpp/yaml.h>
 
@@ -89,5 +88,3 @@ class YamlValue {
 std::optional<double> number_in(const std::string& text);
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_READING_YAML_YAML_READER_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_READING_STUDY_STUDY_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_READING_STUDY_STUDY_FIXTURE_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -57,5 +56,3 @@ inline void expect_fault(const std::string& text, const std::string& element, co
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_READING_STUDY_STUDY_FIXTURE_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_READING_URDF_INERTIAL_TEXT_H_
-#define MECHANISM_CODESIGN_TEST_READING_URDF_INERTIAL_TEXT_H_
+#pragma once
 
 #include <string>
 
@@ -31,5 +30,3 @@ inline std::string from_shape(const std::string& density, const std::string& mas
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_READING_URDF_INERTIAL_TEXT_H_

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#ifndef MECHANISM_CODESIGN_TEST_READING_URDF_URDF_FIXTURE_H_
-#define MECHANISM_CODESIGN_TEST_READING_URDF_URDF_FIXTURE_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -73,5 +72,3 @@ inline SourceText overlay_text(const std::string& body) {
 }
 
 }  // namespace codesign
-
-#endif  // MECHANISM_CODESIGN_TEST_READING_URDF_URDF_FIXTURE_H_
