@@ -41,13 +41,6 @@ option(CODESIGN_PRECOMPILED_HEADERS "Parse the headers of other libraries once f
 function(codesign_optimize target)
   target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math -fno-semantic-interposition)
   set(hot_options -O3 -fvisibility-inlines-hidden)
-  # The formulas are many small functions of small matrices: with GCC's own limits on inlining they become calls, and cost five to ten times more.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    foreach(limit inline-unit-growth=1000 large-function-growth=2000 large-function-insns=100000
-        large-stack-frame=100000 large-stack-frame-growth=100000 max-inline-insns-single=2000 max-inline-insns-auto=500)
-      list(APPEND hot_options --param=${limit})
-    endforeach()
-  endif()
   # Eigen aligns its types by the widest vectors it knows of. It is told of SSE only, so that whoever includes our headers agrees with the
   # library whatever they compile for; the compiler itself uses the wide ones. doc/decisions/0011-processor.md
   if(CODESIGN_NATIVE)
@@ -58,7 +51,7 @@ function(codesign_optimize target)
       list(APPEND hot_options -mmove-max=256 -mstore-max=256)
     endif()
   endif()
-  set(hot sparse/lu_schedule equations/formulas_double equations/derivative_products
+  set(hot sparse/lu_schedule equations/derivative_products
     integration/rosenbrock_step integration/applied_work integration/run_watch sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)

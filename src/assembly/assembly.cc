@@ -32,8 +32,8 @@ Assembly::Assembly(const CompiledSystem& system)
       own_design_(system.parameters()),
       matrix_(system) {
   const Topology& topology = system.topology();
-  for (int row : loops_.constraint_rows())
-    drops_.push_back(std::binary_search(system.sharing().dropped.begin(), system.sharing().dropped.end(), row));
+  const std::vector<int>& dropped = system.dropped_rows();
+  for (int row : loops_.constraint_rows()) drops_.push_back(std::binary_search(dropped.begin(), dropped.end(), row));
   const auto size = static_cast<std::size_t>(tree_.size);
   follows_.assign(size, false);
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
@@ -94,6 +94,7 @@ void Assembly::place(const std::vector<double>& parameters, Equations<double>* e
   set_turns(system_, tree_, theta_, state);
   link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_, &work_.motion.links);
   state_coordinates(system_, tree_, equations->constants(), work_.motion.links, theta_, theta_rate_, &state->q, &state->v);
+  set_signs(system_, equations->constants(), work_.motion.links, state);
 }
 
 void Assembly::take_loop_rows() {

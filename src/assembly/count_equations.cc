@@ -36,7 +36,7 @@ Counts count_absolute(const CompiledSystem& system, const std::vector<double>& p
 
 }  // namespace
 
-// A system in joint coordinates has no redundant constraints.
+// The paper's counts are those of absolute coordinates.
 Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
   const Layout& layout = system.layout();
   Counts counts;

@@ -136,18 +136,18 @@ std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorksp
   Redundancy redundancy = analyse_redundancy(system, &start->equations, start->assembly, start->parameters, start->state);
   if (redundancy.rows.empty()) return std::nullopt;
   append(warn_of_open_reactions(system, redundancy, start->state, signals_of(system.study()), &start->equations), warnings);
-  if (!must_drop(miss, redundancy)) redundancy.sharing = ReactionSharing();
+  if (!must_drop(miss, redundancy)) redundancy.sharing.dropped.clear();
   redundancy.sharing.compliance = compliance_of(start->equations);
   return redundancy;
 }
 
-/// The same study in absolute coordinates, for loops with redundant constraints: their reactions are shared among the rows of all joints,
-/// (23). @throws InputError if the study asks for joint coordinates.
+/// The same study in absolute coordinates, for couplings that imply each other: the reactions of all joints between them are shared, (23).
+/// @throws InputError if the study asks for joint coordinates.
 Study in_absolute_coordinates(const Study& study, bool is_chosen, const Redundancy& redundancy) {
   if (!is_chosen)
     throw InputError(
         {study.solver.coordinates_where, "solver.coordinates",
-         "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
+         "couplings with redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
          redundancy.rows.front().joint, "auto or absolute"});
   Study absolute = study;
   absolute.solver.coordinates = CoordinatesKind::kAbsolute;
@@ -155,16 +155,23 @@ Study in_absolute_coordinates(const Study& study, bool is_chosen, const Redundan
 }
 
 /// @param is_chosen whether the coordinates were chosen for the study, which then may have others.
-std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, bool is_chosen, Warnings* warnings) {
+/// @param known pairs whose reactions are shared, so that they have rows
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, bool is_chosen,
+                                                  const ReactionSharing& known, Warnings* warnings) {
   Warnings found;
-  const auto system = std::make_shared<const CompiledSystem>(robot, study);
+  const auto system = std::make_shared<const CompiledSystem>(robot, study, known);
   StartWorkspace start(*system, system->parameters());
   require_start(*system, start.assembly, start.solve_positions());
   append(start.assembly.warnings(), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
-  if (system->layout().has_forest()) {
+  if (const Layout& layout = system->layout(); layout.has_forest()) {
     const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly, start.parameters, start.state);
-    if (!in_loops.rows.empty()) return make_system(robot, in_absolute_coordinates(study, is_chosen, in_loops), false, warnings);
+    if (!in_loops.sharing.couplings.empty())
+      return make_system(robot, in_absolute_coordinates(study, is_chosen, in_loops), false, {}, warnings);
+    ReactionSharing loops;
+    loops.pairs = in_loops.sharing.pairs;
+    if (!std::all_of(loops.pairs.begin(), loops.pairs.end(), [&](int pair) { return layout.is_cut(pair); }))
+      return make_system(robot, study, is_chosen, loops, warnings);
   }
   const std::optional<Redundancy> redundancy = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;
@@ -188,9 +195,9 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   if (study.solver.coordinates == CoordinatesKind::kAuto) {
     Study chosen = study;
     chosen.solver.coordinates = System(robot, study).best_coordinates();
-    return make_system(robot, chosen, true, warnings);
+    return make_system(robot, chosen, true, {}, warnings);
   }
-  return make_system(robot, study, false, warnings);
+  return make_system(robot, study, false, {}, warnings);
 }
 
 }  // namespace codesign

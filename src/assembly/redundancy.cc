@@ -148,6 +148,13 @@ class Analysis {
   Analysis(const CompiledSystem& system, const Equations<double>& equations)
       : system_(system), layout_(system.layout()), equations_(equations) {}
 
+  /// @param row of a loop or a coupling
+  SharedRow place_of(int row) const {
+    if (row >= layout_.coupling_row(0)) return {-1, row - layout_.coupling_row(0), 0};
+    const int pair = pair_of(row);
+    return {pair, -1, row - layout_.pair_row[to_index(pair)]};
+  }
+
   ConstraintRow describe(int row) const {
     if (const int first = layout_.constraints() - layout_.norms(); row >= first) {
       int body = 0;
@@ -158,8 +165,7 @@ class Analysis {
       const Coupling& coupling = system_.topology().couplings[to_index(row - layout_.coupling_row(0))];
       return {coupling.name, 1, coupling.is_mimic ? "mimic" : "coupling"};
     }
-    std::size_t pair = layout_.pair_row.size() - 1;
-    while (layout_.pair_row[pair] > row) --pair;
+    const std::size_t pair = to_index(pair_of(row));
     const int within = row - layout_.pair_row[pair];
     return {system_.topology().pairs[pair].name, within + 1, pair_row_kind(pair, within)};
   }
@@ -187,6 +193,10 @@ class Analysis {
   }
 
  private:
+  int pair_of(int row) const {
+    return static_cast<int>(std::upper_bound(layout_.pair_row.begin(), layout_.pair_row.end(), row) - layout_.pair_row.begin()) - 1;
+  }
+
   std::string pair_row_kind(std::size_t pair, int within) const {
     const PairRows<double>& rows = equations_.rows(static_cast<int>(pair));
     if (rows.coincident && within < 3) return std::string("coincident points, ground ") + "xyz"[within];
@@ -198,20 +208,26 @@ class Analysis {
   const Equations<double>& equations_;
 };
 
-/// The constraint rows' forces and torques on the bodies, 6 x bodies by one column per row: Phi_q^T in translations and rotations, in which
-/// the rows of the unit Euler parameters vanish.
+/// The constraint rows' forces and torques on the free bodies, 6 x bodies by one column per row: Phi_q^T in translations and rotations, in
+/// which the rows of the unit Euler parameters vanish.
 SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi_q, const VectorX<double>& q,
                            const std::vector<int>& rows) {
+  const Layout& layout = system.layout();
+  std::vector<int> body_of(to_index(layout.n), -1);
+  for (int body = 0; body < layout.bodies; ++body)
+    if (layout.is_free(body)) std::fill_n(body_of.begin() + layout.column(body), kBodySize, body);
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = Phi_q;
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(by_rows, rows[k]); entry; ++entry) {
-      const int body = static_cast<int>(entry.col()) / kBodySize, local = static_cast<int>(entry.col()) % kBodySize;
+      const int column = static_cast<int>(entry.col()), body = body_of[to_index(column)];
+      if (body < 0) continue;
+      const int first = layout.column(body), local = column - first;
       if (local < 3) {
         entries.emplace_back(6 * body + local, static_cast<int>(k), entry.value());
         continue;
       }
-      const Eigen::Vector3d turn = 0.5 * ground_rate_matrix<double>(q.segment<4>(kBodySize * body + 3)).col(local - 3);
+      const Eigen::Vector3d turn = 0.5 * ground_rate_matrix<double>(q.segment<4>(first + 3)).col(local - 3);
       for (int c = 0; c < 3; ++c) entries.emplace_back(6 * body + 3 + c, static_cast<int>(k), entry.value() * turn[c]);
     }
   SparseMatrix result(6 * system.layout().bodies, static_cast<Eigen::Index>(rows.size()));
@@ -284,11 +300,12 @@ Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* e
   std::sort(redundant.begin(), redundant.end());
   const Analysis analysis(system, *equations);
   for (int row : redundant) result.rows.push_back(analysis.describe(row));
-  if (system.layout().has_forest()) return result;  // self-stresses are those of the rows of all joints
+  // Self-stresses are those of the rows of all joints of the loops.
+  const std::vector<int>& shared = result.sharing.pairs;
+  if (std::any_of(shared.begin(), shared.end(), [&](int pair) { return !system.layout().is_cut(pair); })) return result;
   find_undetermined(system, equations, state, analysis, redundant, result.sharing, &result);
   TestMotion(system, equations, loops, assembly.tree(), parameters).sift(assembly.theta(), &rows);
-  for (int row : rows) result.sharing.dropped.push_back(loops.constraint_rows()[to_index(row)]);
-  std::sort(result.sharing.dropped.begin(), result.sharing.dropped.end());
+  for (int row : rows) result.sharing.dropped.push_back(analysis.place_of(loops.constraint_rows()[to_index(row)]));
   return result;
 }
 

@@ -35,9 +35,9 @@ constexpr std::array<const char*, 3> kCoordinatesNames{"auto", "joint", "absolut
 /// The block `solver:` of a study; doc/study.md describes it.
 struct SolverOptions {
   IntegratorKind integrator = IntegratorKind::kRosenbrock;
-  CoordinatesKind coordinates = CoordinatesKind::kAbsolute;
+  CoordinatesKind coordinates = CoordinatesKind::kAuto;
   SourceLocation coordinates_where;                     ///< of the key `coordinates`, for messages
-  RosenbrockMethod method = RosenbrockMethod::kRodas4;  ///< kRosenbrock only
+  RosenbrockMethod method = RosenbrockMethod::kAuto;  ///< kRosenbrock only
   double relative_tolerance = 1e-6;                     ///< rtol of the error test, theory (15)
   double absolute_tolerance = 1e-7;                     ///< atol of the error test, in the units of q, v and s
   GradientMethod gradient = GradientMethod::kAuto;      ///< kRosenbrock only

@@ -29,6 +29,12 @@ T is_dropped(const StateView<T>& view, int row) {
 /// the functions below.
 template <class T>
 void load_sharing(const StateView<T>& view, Workspace<T>* workspace) {
+  for (int b = 0; b < view.layout.bodies; ++b) {
+    if (view.layout.is_free(b)) continue;
+    BodyKinematics<T>& carrier = workspace->displaced[static_cast<std::size_t>(b)];
+    carrier.r = view.body(b).r;
+    carrier.A = view.body(b).A;
+  }
   for (int b : view.system.sharing_layout().bodies) {
     const BodyKinematics<T>& from = view.kinematics[static_cast<std::size_t>(b)];
     BodyKinematics<T>& k = workspace->displaced[static_cast<std::size_t>(b)];

@@ -44,9 +44,9 @@ T link_term(const StateView<T>& view, const SignalReference& term) {
 /// One component of a link's quaternion in the root's axes: the body's p times a constant quaternion.
 template <class T>
 T orientation_term(const StateView<T>& view, const SignalReference& term) {
-  const BodyKinematics<T>& k = view.body(view.system.topology().link_body[static_cast<std::size_t>(term.link)]);
-  const Vector4<T> in_body = euler_parameters<T>(view.design.constants.links[static_cast<std::size_t>(term.link)].R);
-  return quaternion_product<T>(k.in_forest ? euler_parameters<T>(k.A) : k.p, in_body)[term.axis];
+  const auto link = static_cast<std::size_t>(term.link);
+  const Vector4<T> p = body_parameters(view.system, view.design.constants, *view.state, view.system.topology().link_body[link]);
+  return quaternion_product<T>(p, euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
 }
 
 /// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the child, -L of theory (13).

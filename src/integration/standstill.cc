@@ -24,29 +24,33 @@ bool may_be_singular(StatusCode code) {
          code == StatusCode::kEnergyError || code == StatusCode::kTooManySteps;
 }
 
-/// Largest distance of a body from the mean of all [m]; 1 if that is zero.
-double size_of(const VectorX<double>& q, int bodies) {
+/// Largest distance of a free body from the mean of all [m]; 1 if that is zero.
+double size_of(const VectorX<double>& q, const Layout& layout) {
+  std::vector<Eigen::Vector3d> places;
+  for (int b = 0; b < layout.bodies; ++b)
+    if (layout.is_free(b)) places.emplace_back(q.segment<3>(layout.column(b)));
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (int b = 0; b < bodies; ++b) middle += q.segment<3>(kBodySize * b) / bodies;
+  for (const Eigen::Vector3d& place : places) middle += place / static_cast<double>(places.size());
   double size = 0.0;
-  for (int b = 0; b < bodies; ++b) size = std::max(size, (q.segment<3>(kBodySize * b) - middle).norm());
+  for (const Eigen::Vector3d& place : places) size = std::max(size, (place - middle).norm());
   return size > 0.0 ? size : 1.0;
 }
 
 std::vector<int> enforced_rows(const CompiledSystem& system) {
-  const std::vector<int>& dropped = system.sharing().dropped;
+  const std::vector<int>& dropped = system.dropped_rows();
   std::vector<int> rows;
   for (int row = 0; row < system.layout().constraints(); ++row)
     if (!std::binary_search(dropped.begin(), dropped.end(), row)) rows.push_back(row);
   return rows;
 }
 
-/// Phi_q without units: columns of r multiplied by the mechanism's size, then all rows normalized.
+/// Phi_q without units: columns of r of free bodies multiplied by the mechanism's size, then all rows normalized.
 Eigen::MatrixXd scaled_jacobian(const CompiledSystem& system, const State<double>& state, Equations<double>* equations) {
   Eigen::MatrixXd rows = constraint_jacobian(system, equations, state);
-  const double size = size_of(state.q, system.layout().bodies);
-  for (Eigen::Index c = 0; c < rows.cols(); ++c)
-    if (c % kBodySize < 3) rows.col(c) *= size;
+  const Layout& layout = system.layout();
+  const double size = size_of(state.q, layout);
+  for (int b = 0; b < layout.bodies; ++b)
+    if (layout.is_free(b)) rows.middleCols(layout.column(b), 3) *= size;
   for (Eigen::Index r = 0; r < rows.rows(); ++r) rows.row(r).normalize();
   return rows;
 }
@@ -107,7 +111,6 @@ std::string cause(const CompiledSystem& system, const Eigen::MatrixXd& rows, boo
 
 Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
                         double step_size, const Statistics& statistics, Equations<double>* equations) {
-  // Only without a forest, since rows are shared and dropped there alone.
   if (!system.sharing().drops() || system.layout().n > kLargestAnalysed) return status;
   const bool slow = statistics.steps % kPaceWindow == 0 && system.study().duration - state.t > kNever * step_size;
   if (!(status.ok() ? slow : may_be_singular(status.code)) || !state.q.allFinite()) return status;

@@ -127,6 +127,21 @@ AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pa
   return m;
 }
 
+/// Euler parameters of body j's axes in those of body i: continuous in q, since they turn by half of each angle.
+template <class T>
+Vector4<T> joint_parameters(const PairConstants<T>& pair, const T* q) {
+  using std::cos;
+  using std::sin;
+  Vector4<T> p(T(1.0), T(0.0), T(0.0), T(0.0));
+  for (std::size_t k = 0; k < pair.steps.size(); ++k) {
+    if (!pair.steps[k].turns) continue;
+    const T half = T(0.5) * q[k], s = sin(half);
+    const Vector3<T>& u = pair.steps[k].axis;
+    p = quaternion_product<T>(p, Vector4<T>(cos(half), s * u[0], s * u[1], s * u[2]));
+  }
+  return quaternion_product<T>(p, euler_parameters<T>(pair.R_ij));
+}
+
 /// Carries the wrench that the pair transmits to body j back to its coordinates, and to body i.
 /// @param wrench about the centre of body j. @param rows receives the loads along the coordinates, one per step; overwritten.
 /// @returns the wrench about the centre of body i, in its axes.

@@ -22,7 +22,7 @@ struct Forest {
 int forest_coordinates(const Pair& pair);
 
 /// The forest of the URDF tree: every pair of tree joints whose coordinates are scalars. Ball joints and floating joints are cut, and so
-/// are all loops.
-Forest tree_forest(const Topology& topology);
+/// are all loops. @param cut per pair: whether it is cut although it could give coordinates
+Forest tree_forest(const Topology& topology, const std::vector<bool>& cut);
 
 }  // namespace codesign

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "joints/joint_sweep.h"
+#include "math/to_index.h"
 #include "system/system.h"
 
 namespace codesign {
@@ -50,6 +51,24 @@ void sweep_out(const System& system, const Constants<T>& constants, const Vector
     motion->body(b) = move_child(parent, constants.pairs[static_cast<std::size_t>(pair)], q + c, v + c, a + c,
                                  &motion->poses[static_cast<std::size_t>(b)]);
   }
+}
+
+/// Euler parameters of a body's axes, the product of those of its pairs from the free body or the ground on. They are continuous along a
+/// run, and of the sign that State::turns gives for it. @param body -1: the ground
+template <class T>
+Vector4<T> body_parameters(const System& system, const Constants<T>& constants, const State<T>& state, int body) {
+  const Layout& layout = system.layout();
+  Vector4<T> p(T(1.0), T(0.0), T(0.0), T(0.0));
+  if (body < 0) return p;
+  T sign(1.0);
+  if (!layout.is_free(body)) sign = T(state.turns[to_index(layout.sign_slot + body)]);
+  for (; body >= 0 && !layout.is_free(body);) {
+    const auto pair = to_index(layout.forest.pair_above[to_index(body)]);
+    p = quaternion_product<T>(joint_parameters(constants.pairs[pair], state.q.data() + layout.column(body)), p);
+    body = system.topology().pairs[pair].body_i;
+  }
+  if (body >= 0) p = quaternion_product<T>(state.q.template segment<4>(layout.column(body) + 3), p);
+  return sign * p;
 }
 
 /// The kinematics of a body of the forest as the elements read them.

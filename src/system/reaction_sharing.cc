@@ -4,18 +4,18 @@
 #include "math/to_index.h"
 
 namespace codesign {
-namespace {}  // namespace
-
-// Only rows of loops and couplings can be dropped: the rows of the tree's joints are independent of each other.
+// A body of the forest carries a loop that shares reactions: at most one for each set of loops. It may stand still, since a displacement
+// of all of them together loads nothing. Only rows of loops and couplings can be dropped: the rows of the tree's joints are independent of
+// each other.
 SharingLayout::SharingLayout(const ReactionSharing& sharing, const Topology& topology, const Layout& layout) {
   first = layout.n + layout.constraints();
   body_slot.assign(to_index(layout.bodies), -1);
   row_slot.assign(to_index(layout.constraints()), -1);
   miss_slot.assign(to_index(layout.constraints()), -1);
   if (!sharing.drops()) return;
-  const auto touch = [this](const Pair& pair) {
+  const auto touch = [&](const Pair& pair) {
     for (int body : {pair.body_i, pair.body_j})
-      if (body >= 0) body_slot[to_index(body)] = 0;
+      if (body >= 0 && layout.is_free(body)) body_slot[to_index(body)] = 0;
   };
   const auto take_row = [this](int row, bool can_be_dropped) {
     row_slot[to_index(row)] = rows++;

@@ -8,13 +8,19 @@
 
 namespace codesign {
 
+/// A row of Phi, whatever the coordinates of the system: of a pair or of a coupling.
+struct SharedRow {
+  int pair = -1, coupling = -1;  ///< one of them is -1
+  int within = 0;                ///< of the pair's rows
+};
+
 /// How redundant constraints are treated, doc/theory.md (23): which rows are dropped, and which pairs and couplings share the reactions in
 /// the solution of least norm. make_system() finds them; without redundancy everything is empty and zero.
 struct ReactionSharing {
-  double compliance = 0.0;     ///< epsilon [1/kg] in every row of a joint or coupling, Phi'' - epsilon lambda = 0
-  std::vector<int> pairs;      ///< pairs that share reactions, ascending
-  std::vector<int> couplings;  ///< couplings that share reactions, ascending
-  std::vector<int> dropped;    ///< dropped rows of Phi, among the loops and couplings above
+  double compliance = 0.0;         ///< epsilon [1/kg] in every row of a joint or coupling, Phi'' - epsilon lambda = 0
+  std::vector<int> pairs;          ///< pairs that share reactions, ascending; they have rows in all coordinates
+  std::vector<int> couplings;      ///< couplings that share reactions, ascending
+  std::vector<SharedRow> dropped;  ///< dropped rows, among the loops and couplings above
 
   ReactionSharing() = default;
   /// A compliance alone; no row is dropped.
@@ -28,7 +34,7 @@ struct ReactionSharing {
 /// it takes the violation of a dropped row). The equations of each have the same places in G. All members are empty or zero if no row is
 /// dropped.
 struct SharingLayout {
-  std::vector<int> bodies;     ///< bodies of the pairs and couplings that share, ascending
+  std::vector<int> bodies;     ///< free bodies of the pairs and couplings that share, ascending
   std::vector<int> body_slot;  ///< per body: its index in `bodies`; -1 if it is not among them
   std::vector<int> row_slot;   ///< per row of Phi: its index among the eta; -1 if it does not share
   std::vector<int> miss_slot;  ///< per row of Phi: its index among the mu; -1 if it cannot be dropped

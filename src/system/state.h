@@ -40,6 +40,7 @@ struct Layout {
 
   std::vector<int> turn_slot;         ///< per pair, its first entry of State::turns; one follows for each element of its chain
   int drop_slot = 0;                  ///< first entry of State::turns that is a flag of a row that can be dropped; theory (23)
+  int sign_slot = 0;                  ///< first entry of State::turns that is the sign of a body's Euler parameters, with a forest only
   std::vector<double> initial_turns;  ///< State::turns before a start is assembled
 
   int turn(int pair, int element) const { return turn_slot[static_cast<std::size_t>(pair)] + element; }
@@ -85,7 +86,8 @@ struct State {
   VectorX<T> s;     ///< extra states, Layout::states
   VectorX<T> z;     ///< accelerations, multipliers and rates of s, Layout::columns()
   /// Turn references: the position [rad] of a turning joint is reported in the whole turn nearest to its entry. They are followed by the
-  /// flags of redundant rows: 1 for a dropped row, 0 for an enforced one; theory (23). They have no derivative.
+  /// flags of redundant rows: 1 for a dropped row, 0 for an enforced one; theory (23), and with a forest by the signs, 1 or -1, with which
+  /// body_parameters() multiplies. They have no derivative.
   std::vector<TurnReference<T>> turns;
 
   /// Sets all vectors to zero with the sizes of a layout.

@@ -21,6 +21,13 @@ bool depends_on_reactions(const SignalTerm& term) {
   return is_reaction(term) || term.quantity == "normal_force" || term.quantity.find("friction") != std::string::npos;
 }
 
+/// The index of a joint; -1 if no joint has this name.
+int joint_named(const RobotDescription& robot, const std::string& name) {
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (robot.joints[k].name == name) return static_cast<int>(k);
+  return -1;
+}
+
 /// The number of pairs of coordinates that move the same body: the nonzeros of half the mass matrix in joint coordinates.
 int coupled_coordinates(const Topology& topology, const Forest& forest) {
   std::vector<int> above(topology.bodies.size(), 0);  // coordinates on the way to each body
@@ -58,51 +65,51 @@ std::vector<double> System::parameters() const { return start_parameters(study_)
 
 std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study_, rho); }
 
-// Drives prescribe motions of absolute coordinates, theory (28), and shared reactions are those of all rows, (23).
+// Drives prescribe motions of absolute coordinates, theory (28).
 void System::choose_forest() {
   if (study_.solver.coordinates != CoordinatesKind::kJoint || drives_ > 0) return;
-  InputFault fault;
-  fault.message = forest_obstacle(&fault);
-  if (!fault.message.empty()) {
-    fault.allowed = "solver.coordinates: auto or absolute";
-    throw InputError(fault);
-  }
-  layout_.forest = tree_forest(topology_);
+  if (const SignalDescription* signal = mechanism_friction())
+    throw InputError({study_.solver.coordinates_where, "solver.coordinates",
+                      "a controller that reads the friction of the whole mechanism: not available in joint coordinates", signal->text,
+                      "auto or absolute"});
+  layout_.forest = tree_forest(topology_, cut_pairs());
 }
 
 CoordinatesKind System::best_coordinates() const {
-  InputFault fault;
-  const bool is_possible = forest_obstacle(&fault).empty();
-  return is_possible && coupled_coordinates(topology_, tree_forest(topology_)) <= kMostCoupled ? CoordinatesKind::kJoint
-                                                                                               : CoordinatesKind::kAbsolute;
+  // In joint coordinates motions can be polynomials, which idas follows exactly in a few steps too long for its quadratures.
+  const bool is_possible = study_.solver.integrator != IntegratorKind::kIdas && !mechanism_friction();
+  return is_possible && coupled_coordinates(topology_, tree_forest(topology_, cut_pairs())) <= kMostCoupled ? CoordinatesKind::kJoint
+                                                                                                            : CoordinatesKind::kAbsolute;
 }
 
-/// What keeps the equations from joint coordinates; empty: nothing. @param fault receives its place and value.
-std::string System::forest_obstacle(InputFault* fault) const {
-  *fault = {study_.solver.coordinates_where, "solver.coordinates", "", "", ""};
-  if (sharing_.compliance != 0.0 || sharing_.drops())
-    return "the loops have redundant constraints, whose reactions are shared among all joints: not available in joint coordinates";
-  const auto refused = [&](const SignalDescription& signal, bool reactions) {
-    for (const SignalTerm& term : signal.terms) {
-      if (term.quantity == "orientation" || (reactions && depends_on_reactions(term))) {
-        *fault = {signal.where, "signal", "", signal.text, ""};
-        return true;
-      }
-    }
-    return false;
-  };
+/// The inputs of all controllers.
+std::vector<const SignalDescription*> System::controller_inputs() const {
+  std::vector<const SignalDescription*> inputs;
   for (const ControllerDescription& controller : study_.controllers) {
-    bool found = refused(controller.input, true);
-    for (const FeedbackTerm& term : controller.feedback) found = found || refused(term.signal, true);
-    if (found) return "a controller that reads reactions or friction, or an orientation: not available in joint coordinates";
+    inputs.push_back(&controller.input);
+    for (const FeedbackTerm& term : controller.feedback) inputs.push_back(&term.signal);
   }
-  constexpr const char* orientation = "a link's orientation as four Euler parameters: not available in joint coordinates";
-  for (const std::vector<ObjectiveTerm>* terms : {&study_.integral, &study_.terminal})
-    for (const ObjectiveTerm& term : *terms)
-      if (refused(term.signal, false)) return orientation;
-  for (const WatchedSignal& watched : study_.watched)
-    if (refused(watched.signal, false)) return orientation;
-  return {};
+  return inputs;
+}
+
+/// An input that reads friction of all joints, which would have to be known before the wrenches on which it depends; null if there is none.
+const SignalDescription* System::mechanism_friction() const {
+  for (const SignalDescription* input : controller_inputs())
+    for (const SignalTerm& term : input->terms)
+      if (depends_on_reactions(term) && joint_named(robot_, term.object) < 0) return input;
+  return nullptr;
+}
+
+/// Pairs that have rows in joint coordinates too: those that share reactions, (23), and those whose reactions a controller reads, which are
+/// then multipliers and known before the wrenches of the other joints, to which the controller contributes.
+std::vector<bool> System::cut_pairs() const {
+  std::vector<bool> cut(topology_.pairs.size(), false);
+  for (int pair : sharing_.pairs) cut[to_index(pair)] = true;
+  for (const SignalDescription* input : controller_inputs())
+    for (const SignalTerm& term : input->terms)
+      if (depends_on_reactions(term))
+        if (const int pair = topology_.joint_pair[to_index(joint_named(robot_, term.object))]; pair >= 0) cut[to_index(pair)] = true;
+  return cut;
 }
 
 void System::lay_out_bodies() {
@@ -277,7 +284,13 @@ void System::find_coordinates() {
   }
   layout_.drop_slot = static_cast<int>(layout_.initial_turns.size());
   layout_.initial_turns.resize(layout_.initial_turns.size() + static_cast<std::size_t>(sharing_layout_.misses), 0.0);
-  for (int row : sharing_.dropped) layout_.initial_turns[to_index(layout_.drop_slot + sharing_layout_.miss_slot[to_index(row)])] = 1.0;
+  for (const SharedRow& row : sharing_.dropped) {
+    dropped_rows_.push_back(row.pair >= 0 ? layout_.pair_row[to_index(row.pair)] + row.within : layout_.coupling_row(row.coupling));
+    layout_.initial_turns[to_index(layout_.drop_slot + sharing_layout_.miss_slot[to_index(dropped_rows_.back())])] = 1.0;
+  }
+  std::sort(dropped_rows_.begin(), dropped_rows_.end());
+  layout_.sign_slot = static_cast<int>(layout_.initial_turns.size());
+  if (layout_.has_forest()) layout_.initial_turns.resize(layout_.initial_turns.size() + topology_.bodies.size(), 1.0);
 }
 
 void System::refuse_load(int pair, int element) const {
@@ -318,12 +331,6 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
       throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
                         "an i gain, or the signal in the objective or in a later controller"});
     if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
-    if (term.kind == SignalKind::kLinkOrientation && layout_.has_forest())
-      if (const int body = topology_.link_body[static_cast<std::size_t>(term.link)]; body >= 0 && !layout_.is_free(body))
-        throw InputError(
-            {description.where, "signal",
-             "the sign of the Euler parameters of a body in joint coordinates is not defined, so that its orientation has none",
-             description.text, "solver.coordinates: absolute"});
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;

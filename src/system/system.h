@@ -95,6 +95,7 @@ class System {
   /// Redundant constraints, theory (23): how they are treated, the places of the unknowns, and epsilon [1/kg] (zero without redundancy).
   const ReactionSharing& sharing() const { return sharing_; }
   const SharingLayout& sharing_layout() const { return sharing_layout_; }
+  const std::vector<int>& dropped_rows() const { return dropped_rows_; }  ///< rows of Phi, ascending
   double compliance() const { return sharing_.compliance; }
 
   /// @throws InputError if a signal reads the coordinate of a joint in a folded chain that has no closed form, or the integral of a
@@ -108,7 +109,9 @@ class System {
 
  private:
   void choose_forest();
-  std::string forest_obstacle(InputFault* fault) const;
+  std::vector<const SignalDescription*> controller_inputs() const;
+  const SignalDescription* mechanism_friction() const;
+  std::vector<bool> cut_pairs() const;
   void lay_out();
   void lay_out_bodies();
   void resolve_controllers();
@@ -132,6 +135,7 @@ class System {
   Layout layout_;
   ReactionSharing sharing_;
   SharingLayout sharing_layout_;
+  std::vector<int> dropped_rows_;
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<LinkLoad> link_loads_;

@@ -8,6 +8,7 @@
 
 #include "codegen/number_types.h"
 #include "math/span.h"
+#include "system/forest_motion.h"
 
 namespace codesign {
 
@@ -182,6 +183,17 @@ void body_coordinates(const System& system, const Constants<T>& constants, const
   for (std::size_t b = 0; b < bodies.size(); ++b)
     place_body(links[static_cast<std::size_t>(bodies[b].base_link)], constants.bodies[b].centre, static_cast<Eigen::Index>(kBodySize * b),
                q, v);
+}
+
+void set_signs(const System& system, const Constants<double>& constants, const std::vector<LinkMotion<double>>& links,
+               State<double>* state) {
+  const Layout& layout = system.layout();
+  for (int body : layout.forest.order) {
+    const int base = system.topology().bodies[static_cast<std::size_t>(body)].base_link;
+    const Vector4<double> p = euler_parameters(links[static_cast<std::size_t>(base)].X.R);
+    double& sign = state->turns[static_cast<std::size_t>(layout.sign_slot + body)];
+    if (p.dot(body_parameters(system, constants, *state, body)) < 0.0) sign = -sign;
+  }
 }
 
 template <class T>

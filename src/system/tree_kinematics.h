@@ -75,6 +75,11 @@ template <class T>
 void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
                       VectorX<T>* v);
 
+/// Sets the signs in the turns of a state with a forest, so that the largest Euler parameter of each body is positive, as those of
+/// body_coordinates(). @param state q must be set.
+void set_signs(const System& system, const Constants<double>& constants, const std::vector<LinkMotion<double>>& links,
+               State<double>* state);
+
 /// Coordinates q and velocities v of a state (Layout::n entries each) at theta and theta_rate: those of body_coordinates() for free bodies,
 /// and those of the tree's joints themselves for bodies of the forest, theory (56). @param links the result of link_motions().
 template <class T>

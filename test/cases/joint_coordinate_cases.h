@@ -47,6 +47,26 @@ inline std::string annotation(const std::string& model, const std::string& geome
          "' mu_static='0.12' mu_dynamic='0.1' transition_velocity='0.05' viscous='0.01' preload='2' " + geometry + "/>";
 }
 
+/// A parallelogram that hangs on a hinged base, with what an annotation adds to one of its hinges: three rows of its loop are redundant.
+inline std::string carried_ring(const std::string& friction) {
+  const auto hinge = [](const std::string& name, const std::string& parent, const std::string& child, const std::string& at,
+                        const std::string& more) {
+    return joint_cases::tree(name, "continuous", parent, child, "0 1 0", "<origin xyz='" + at + "'/>" + more);
+  };
+  return on_hinge(joint_cases::tree("joint", "revolute", "base", "tip", "1 0 0.5", joint_cases::kOrigin) + joint_cases::body("left") +
+                  joint_cases::body("right") + joint_cases::body("coupler") + hinge("left_hinge", "tip", "left", "0 0 0", friction) +
+                  hinge("right_hinge", "tip", "right", "0.5 0 0", "") + hinge("left_pin", "left", "coupler", "0 0 -0.4", "") +
+                  "<loop name='right_pin' type='continuous'><predecessor link='right'><origin xyz='0 0 -0.4'/></predecessor>"
+                  "<successor link='coupler'><origin xyz='0.5 0 0'/></successor><axis xyz='0 1 0'/></loop>");
+}
+
+/// Loops whose reactions are shared by all their joints: with a compliance alone, and with rows that are dropped.
+inline std::vector<CoordinatesCase> rings() {
+  const std::string start = "initial_state: {root: {velocity: 1.0}, left_hinge: {position: 0.4, velocity: 1.0}}\n";
+  return {{"ring", carried_ring(""), start},
+          {"ring_with_friction", carried_ring(annotation("brown_mcphee", "joint_length='0.1' pin_radius='0.03'")), start}};
+}
+
 /// All joints with friction under each law; in a chain the first joint has the annotation.
 inline std::vector<CoordinatesCase> frictions() {
   using joint_cases::chain;
@@ -102,10 +122,15 @@ inline std::vector<CoordinatesCase> loads() {
   const std::string sampled =
       "controllers:\n"
       "  a: {type: pid, input: shoulder/position, output: shoulder, setpoint: 0.2, gains: {p: 3.0, i: 1.0, d: 0.5}, sample_time: 0.01}\n";
+  const std::string compliant =
+      "controllers:\n"
+      "  a: {type: state_feedback, output: shoulder, feedback: [{signal: elbow/reaction_force/x + elbow/friction, gain: 0.02}]}\n"
+      "  b: {type: pid, input: shoulder/normal_force, output: elbow, setpoint: 1.0, gains: {p: 0.05}}\n";
   const std::string limits = "limits: {effort: true, position: true, stiffness: 1.0e3, width: 1.0e-2}\n";
   return {{"loaded_arm", loaded_arm(), servo + forces, false},
           {"loaded_arm_within_limits", loaded_arm(), servo + forces + limits, false},
           {"loaded_arm_sampled", loaded_arm(), sampled, false},
+          {"fed_back_reactions", double_pendulum(pin_friction()), "initial_state: {elbow: {position: 1.2}}\n" + compliant, false},
           {"computed_torque", loaded_arm(), torque, false},
           {"crane", crane(), "initial_state: {turn: {velocity: 1.0}, ball_x: {position: 0.3}}\n" + gravity, false},
           {"puck", puck(), "initial_state: {hinge: {position: 0.4}}\n", false},

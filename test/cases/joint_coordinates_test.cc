@@ -8,6 +8,7 @@
 
 #include "cases/joint_coordinate_cases.h"
 #include "cases/shipped.h"
+#include "integration/linkages.h"
 
 namespace codesign {
 namespace {
@@ -29,6 +30,8 @@ std::vector<SignalDescription> signals_of(const RobotDescription& robot, const T
   for (const Body& body : topology.bodies)
     for (const char* quantity : {"position", "velocity", "angular_velocity"})
       for (const char* axis : {"x", "y", "z"}) texts.push_back(body.name + "/" + quantity + "/" + axis);
+  for (const Body& body : topology.bodies)
+    for (const char* axis : {"w", "x", "y", "z"}) texts.push_back(body.name + "/orientation/" + axis);
   std::vector<SignalDescription> signals;
   for (const std::string& text : texts) signals.push_back(parse_signal(text, {"test", 0}, "signal"));
   return signals;
@@ -91,12 +94,14 @@ struct Formulation {
   std::shared_ptr<const CompiledSystem> system;
 };
 
-/// A study whose objective reads motions, reactions and powers.
+/// A study whose objective reads energies and an orientation.
 std::string study_of(const CoordinatesCase& c) {
-  const std::string body = c.urdf.find("name='tip'") != std::string::npos ? "tip" : "";
+  const std::string link = read_urdf({"test.urdf", c.urdf}).links.back().name;
   std::string text = "duration: " + std::to_string(kDuration) + "\n" + c.study;
   if (c.has_parameters) text += "parameters: {size: {tune: true}, mass: {tune: true}}\n";
-  return text + "objective: {integral: [{signal: mechanism/kinetic_energy}, {signal: mechanism/potential_energy, weight: 0.1}]}\n";
+  return text +
+         "objective: {integral: [{signal: mechanism/kinetic_energy}, {signal: mechanism/potential_energy, weight: 0.1}, {signal: " + link +
+         "/orientation/x, weight: 0.3}]}\n";
 }
 
 class JointCoordinates : public ::testing::TestWithParam<CoordinatesCase> {
@@ -146,6 +151,7 @@ TEST_P(JointCoordinates, ObjectiveAndGradientAreThoseOfAbsoluteCoordinates) {
 const auto name_of = [](const ::testing::TestParamInfo<CoordinatesCase>& instance) { return instance.param.name; };
 
 INSTANTIATE_TEST_SUITE_P(Types, JointCoordinates, ::testing::ValuesIn(joint_coordinates::types()), name_of);
+INSTANTIATE_TEST_SUITE_P(Rings, JointCoordinates, ::testing::ValuesIn(joint_coordinates::rings()), name_of);
 INSTANTIATE_TEST_SUITE_P(Frictions, JointCoordinates, ::testing::ValuesIn(joint_coordinates::frictions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Loads, JointCoordinates, ::testing::ValuesIn(joint_coordinates::loads()), name_of);
 
@@ -266,13 +272,25 @@ void expect_refused(const std::string& urdf, const std::string& study, const std
 }
 
 TEST(JointCoordinates, WhatTheyCannotDoIsRefusedWithAReasonAndAutoFallsBack) {
-  expect_refused(four_bar(), "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\n", "redundant constraints");
-  expect_refused(double_pendulum(), "duration: 1.0\nobjective: {integral: [{signal: lower/orientation/x}]}\n", "orientation");
-  expect_refused(
-      double_pendulum(),
-      "duration: 1.0\ncontrollers: {hold: {type: pid, input: shoulder/reaction_force/x, output: elbow, setpoint: 0.0, gains: {p: "
-      "1.0}}}\nobjective: {integral: [{signal: lower/position/x}]}\n",
-      "a controller that reads reactions");
+  expect_refused(double_pendulum(pin_friction()),
+                 "duration: 1.0\ncontrollers: {hold: {type: pid, input: mechanism/friction_power, output: elbow, setpoint: 0.0, gains: {p: "
+                 "1.0}}}\nobjective: {integral: [{signal: lower/position/x}]}\n",
+                 "a controller that reads the friction of the whole mechanism");
+  expect_refused(four_bar_with("<coupling name='gear'><predecessor link='left'/><successor link='right'/><ratio value='1'/></coupling>"),
+                 "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\n", "couplings with redundant constraints");
+}
+
+TEST(JointCoordinates, RedundantLoopsAndReactionsThatControllersReadKeepRows) {
+  const std::string objective = "objective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: joint}\n";
+  const auto system = system_of(double_pendulum(),
+                                "duration: 1.0\ncontrollers: {hold: {type: pid, input: shoulder/reaction_force/x, output: elbow, setpoint: "
+                                "0.0, gains: {p: 1.0}}}\n" +
+                                    objective);
+  EXPECT_TRUE(system->layout().is_cut(0));
+  EXPECT_FALSE(system->layout().is_cut(1));
+  EXPECT_FALSE(system_of(four_bar(), "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\nsolver: {coordinates: joint}\n")
+                   ->layout()
+                   .has_forest());
 }
 
 TEST(JointCoordinates, AutoKeepsLongChainsInAbsoluteCoordinates) {

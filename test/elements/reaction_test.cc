@@ -34,7 +34,7 @@ ReactionCase reaction_arm() {
 ReactionCase redundant_ring() {
   ReactionSharing sharing(1e-6);
   sharing.pairs = {0, 1, 2, 3};
-  sharing.dropped = {16, 18, 19};
+  sharing.dropped = {{3, -1, 1}, {3, -1, 3}, {3, -1, 4}};
   const char* const start = "initial_state: {left_hinge: {position: 0.4, velocity: 1.0}, right_hinge: {guess: 0.4}}\n";
   return {"ring", four_bar(pin_friction()), start, sharing};
 }

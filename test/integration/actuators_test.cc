@@ -119,7 +119,7 @@ TEST(Rotor, EnergyAndMomentumAreConserved) {
     for (int body = 0; body < 2; ++body) {
       const BodyConstants<double>& c = equations.constants().bodies[static_cast<std::size_t>(body)];
       const BodyKinematics<double>& k = equations.formulas().body(body);
-      sum += c.mass * k.r.cross(k.rd) + k.A * (c.J * (2.0 * body_rate(k.p, k.pd)));
+      sum += c.mass * k.r.cross(k.rd) + k.A * (c.J * body_omega(k));
     }
     const Rotor& rotor = system->rotors()[0];
     const auto& d = equations.constants().pairs[static_cast<std::size_t>(rotor.pair)].dynamics[0];

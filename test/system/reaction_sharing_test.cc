@@ -25,7 +25,7 @@ TEST(ReactionSharing, EachUnknownHasItsPlace) {
   for (std::size_t k = 0; k < plain.system.topology().pairs.size(); ++k) {
     const Pair& pair = plain.system.topology().pairs[k];
     if (pair.name != "bob_hinge") sharing.pairs.push_back(static_cast<int>(k));
-    if (pair.is_loop) sharing.dropped = {plain.system.layout().pair_row[k] + 1};
+    if (pair.is_loop) sharing.dropped = {{static_cast<int>(k), -1, 1}};
   }
   const Compiled c(hung, let_go("{}", "bob_hinge/velocity"), sharing);
   const Layout& layout = c.system.layout();
