@@ -341,7 +341,7 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     equations->residual(*state, &residual_, &g);
     const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
-    equations->linearize(*state, &derivatives_);
+    equations->linearize_rates(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
     matrix_.lu().solve(residual_);
@@ -354,8 +354,10 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
           std::string("no accelerations and reactions satisfy the equations of motion with friction") + place};
 }
 
-void Assembly::differentiate_rates(State<double>* rates) const {
+void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations, State<double>* rates) {
   VectorX<double> change;
+  // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are there already in the other case.
+  if (linearizes_apart(system_.study().solver)) equations->linearize(at, &derivatives_);
   rates->z.setZero(system_.layout().columns());
   directional_derivative(system_, derivatives_, *rates, &change);
   rates->z = -(change + derivatives_.time).head(rates->z.size());

@@ -33,7 +33,7 @@ VectorX<Traced> vector(const std::vector<Traced>& x) {
 }
 
 std::size_t count_functions(const System& system, EquationPart part) {
-  if (part == EquationPart::kMotion) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
+  if (part == EquationPart::kMotion || part == EquationPart::kLinearized) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
   if (part == EquationPart::kSignals) return static_cast<std::size_t>(watched_function(system.watched().size()));
   return static_cast<std::size_t>(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
 }
@@ -60,7 +60,8 @@ EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& pat
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
   take_guards(0, &none);
-  if (part == EquationPart::kMotion) record_motion(patterns, &equations);
+  const bool is_motion = part == EquationPart::kMotion, apart = linearizes_apart(system.study().solver);
+  if (is_motion || part == EquationPart::kLinearized) record_motion(patterns, is_motion && apart, &equations);
   if (part == EquationPart::kSignals) record_signals(system, &equations);
   if (part == EquationPart::kStart) record_start(system, &equations);
   if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
@@ -76,7 +77,7 @@ void EquationCode::record(EquationFunction function, const Compute& compute) {
   take_outputs(function, results);
 }
 
-void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations) {
+void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rates_only, RecordedEquations* equations) {
   record(EquationFunction::kResidual, [&] {
     equations->record_residual();
     return std::vector<VectorX<Traced>>{equations->G, VectorX<Traced>::Constant(1, equations->g)};
@@ -86,13 +87,30 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedE
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
     return errors;
   });
-  const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, equations);
-  take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
+  const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, rates_only, equations);
+  if (!rates_only) take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
   take_outputs(EquationFunction::kRates, {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
   at(EquationFunction::kRates).has_derivatives = false;
   // The derivatives decide nothing: they hold where the residual holds.
   for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates})
     at(function).guards = at(EquationFunction::kResidual).guards;
+  find_affine(d.rate);
+}
+
+void EquationCode::find_affine(const std::vector<Traced>& G_z) {
+  const Recording& recording = values_.recording;
+  std::vector<bool> depends(to_index(recording.size()));
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (node.operation == Operation::kLeaf)
+      depends[to_index(n)] = node.a == Arrays::kZ;
+    else if (node.operation != Operation::kLiteral)
+      depends[to_index(n)] = depends[to_index(node.a)] || (node.b >= 0 && depends[to_index(node.b)]);
+  }
+  const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
+  const std::vector<Recording::Guard>& guards = at(EquationFunction::kRates).guards;
+  is_affine_ = std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
+               std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
 }
 
 void EquationCode::record_signals(const System& system, RecordedEquations* equations) {

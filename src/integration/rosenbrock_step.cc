@@ -148,7 +148,8 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
 }
 
 // Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z unless friction depends on reactions.
-// Complex numbers converge one part after the other and need G_z anew.
+// Then one iteration gives z to rounding in joint coordinates without loops, where G_z is a mass matrix; with multipliers a second one
+// refines it. Complex numbers converge one part after the other and need G_z anew.
 template <class T>
 bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
   constexpr bool kIsReal = std::is_same_v<T, double>;
@@ -167,6 +168,7 @@ bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
     at->z += z_;
     const double size = largest(z_) / (1.0 + largest(at->z));
     if (!std::isfinite(size)) return false;
+    if (kIsReal && k == 0 && layout_.m == 0 && equations_.is_affine()) return std::isfinite(value_of(*g));
     if (k >= kLeast && (size <= kConverged || (size <= rounding && size > 0.25 * previous))) return std::isfinite(value_of(*g));
     refresh = !kIsReal || size > 0.25 * previous;
     previous = size;
