@@ -336,12 +336,13 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
+  const bool apart = linearizes_apart(system_.study().solver);
   for (int iteration = 0; iteration < 100; ++iteration) {
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
-    equations->residual(*state, &residual_, &g);
+    apart ? equations->rates(*state, &residual_, &g, &derivatives_) : equations->residual(*state, &residual_, &g);
     const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
-    equations->linearize_rates(*state, &derivatives_);
+    if (!apart) equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
     matrix_.lu().solve(residual_);

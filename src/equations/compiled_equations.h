@@ -49,7 +49,7 @@ class CompiledEquations {
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
-  /// Whether G is affine in z in the variant that served last.
+  /// Whether G is affine in z, and g free of it, in the variant that served last.
   bool is_affine() const;
 
   /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
@@ -133,13 +133,13 @@ class CompiledEquations {
   std::vector<T> parameters_;
   bool interpreted_ = false;
   std::unique_ptr<CompiledEquations> linearized_;  ///< of kLinearization, if it is recorded apart and was called
-  std::vector<Variant> variants_;        ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;              ///< the variant that served last
-  std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
-  std::vector<T> entries_;               ///< workspace of signal() and track_turns()
-  VectorX<T> s_;                         ///< workspace of sample()
-  std::vector<T> nodes_;                 ///< workspace of fill_numbers(): values of the recording's nodes
-  LineVector slots_, rows_;              ///< workspace of the code
+  std::vector<Variant> variants_;                  ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;                        ///< the variant that served last
+  std::vector<std::size_t> multiplied_;            ///< variants with products since set_design(), in the order of their first one
+  std::vector<T> entries_;                         ///< workspace of signal() and track_turns()
+  VectorX<T> s_;                                   ///< workspace of sample()
+  std::vector<T> nodes_;                           ///< workspace of fill_numbers(): values of the recording's nodes
+  LineVector slots_, rows_;                        ///< workspace of the code
 };
 
 }  // namespace codesign

@@ -94,10 +94,10 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rate
   // The derivatives decide nothing: they hold where the residual holds.
   for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates})
     at(function).guards = at(EquationFunction::kResidual).guards;
-  find_affine(d.rate);
+  find_affine(d.rate, equations->g);
 }
 
-void EquationCode::find_affine(const std::vector<Traced>& G_z) {
+void EquationCode::find_affine(const std::vector<Traced>& G_z, const Traced& g) {
   const Recording& recording = values_.recording;
   std::vector<bool> depends(to_index(recording.size()));
   for (int n = 0; n < recording.size(); ++n) {
@@ -109,8 +109,9 @@ void EquationCode::find_affine(const std::vector<Traced>& G_z) {
   }
   const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
   const std::vector<Recording::Guard>& guards = at(EquationFunction::kRates).guards;
-  is_affine_ = std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
-               std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
+  is_affine_ =
+      is_free(g.node()) && std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
+      std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
 }
 
 void EquationCode::record_signals(const System& system, RecordedEquations* equations) {

@@ -98,7 +98,7 @@ class EquationCode {
   const TransposedCode& transposed() const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
-  /// Whether G is affine in z: neither G_z nor a decision of kRates depends on z.
+  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates does.
   bool is_affine() const { return is_affine_; }
   /// The outcomes of all decisions in turn, of which a variant is known.
   const std::vector<bool>& outcomes() const { return outcomes_; }
@@ -116,7 +116,7 @@ class EquationCode {
   /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
   /// design_guards_.
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
-  void find_affine(const std::vector<Traced>& G_z);
+  void find_affine(const std::vector<Traced>& G_z, const Traced& g);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
