@@ -313,8 +313,11 @@ void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g, Lin
 }
 
 template <class T>
-bool CompiledEquations<T>::is_affine() const {
-  return variants_[current_].code->is_affine();
+bool CompiledEquations<T>::accelerations(State<T>* state, T* g) {
+  if (variants_.empty()) adopt();
+  if (!variants_[current_].code->has_accelerations()) return false;
+  run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, {}, {}});
+  return variants_[current_].code->has_accelerations();
 }
 
 template <class T>

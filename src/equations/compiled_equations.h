@@ -49,8 +49,8 @@ class CompiledEquations {
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
-  /// Whether G is affine in z, and g free of it, in the variant that served last.
-  bool is_affine() const;
+  /// Sets z to the solution of G = 0, and g. @return false if the variant that serves has no kAccelerations; then z stays.
+  bool accelerations(State<T>* state, T* g);
 
   /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
   T signal(EquationFunction function, const State<T>& state);

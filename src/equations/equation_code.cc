@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "codegen/traced.h"
+#include "equations/mass_solution.h"
 #include "equations/recorded_equations.h"
 #include "equations/transposed_code.h"
 #include "math/to_index.h"
@@ -91,13 +92,29 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rate
   if (!rates_only) take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
   take_outputs(EquationFunction::kRates, {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
   at(EquationFunction::kRates).has_derivatives = false;
+  at(EquationFunction::kAccelerations).has_derivatives = false;
   // The derivatives decide nothing: they hold where the residual holds.
-  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates})
+  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates, EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
-  find_affine(d.rate, equations->g);
+  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g)) record_accelerations(patterns.rate, d.rate, equations);
 }
 
-void EquationCode::find_affine(const std::vector<Traced>& G_z, const Traced& g) {
+bool EquationCode::has_accelerations() const { return !at(EquationFunction::kAccelerations).outputs.empty(); }
+
+// G at z = 0 is short: it holds no accelerations.
+void EquationCode::record_accelerations(const Sparsity& pattern, const std::vector<Traced>& G_z, RecordedEquations* equations) {
+  constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take longer to make than most runs
+  if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, values_.recording, pattern, G_z)) return;
+  VectorX<Traced>& z = equations->state.z;
+  const VectorX<Traced> trial = z;
+  z.setConstant(Traced(0.0));
+  equations->record_residual();
+  z = trial;
+  take_outputs(EquationFunction::kAccelerations,
+               {record_mass_solution(pattern, G_z, -equations->G), VectorX<Traced>::Constant(1, equations->g)});
+}
+
+bool EquationCode::is_affine(const std::vector<Traced>& G_z, const Traced& g) const {
   const Recording& recording = values_.recording;
   std::vector<bool> depends(to_index(recording.size()));
   for (int n = 0; n < recording.size(); ++n) {
@@ -109,9 +126,8 @@ void EquationCode::find_affine(const std::vector<Traced>& G_z, const Traced& g) 
   }
   const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
   const std::vector<Recording::Guard>& guards = at(EquationFunction::kRates).guards;
-  is_affine_ =
-      is_free(g.node()) && std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
-      std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
+  return is_free(g.node()) && std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
+         std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
 }
 
 void EquationCode::record_signals(const System& system, RecordedEquations* equations) {

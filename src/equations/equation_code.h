@@ -98,8 +98,9 @@ class EquationCode {
   const TransposedCode& transposed() const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
-  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates does.
-  bool is_affine() const { return is_affine_; }
+  /// Whether kAccelerations is there: for the explicit pair, in joint coordinates without loops, if G is affine in z, g free of it,
+  /// and G_z a mass matrix.
+  bool has_accelerations() const;
   /// The outcomes of all decisions in turn, of which a variant is known.
   const std::vector<bool>& outcomes() const { return outcomes_; }
 
@@ -116,7 +117,9 @@ class EquationCode {
   /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
   /// design_guards_.
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
-  void find_affine(const std::vector<Traced>& G_z, const Traced& g);
+  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates does.
+  bool is_affine(const std::vector<Traced>& G_z, const Traced& g) const;
+  void record_accelerations(const Sparsity& pattern, const std::vector<Traced>& G_z, RecordedEquations* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
@@ -126,7 +129,6 @@ class EquationCode {
 
   const System& system_;
   bool long_ = false;  ///< too long for machine code
-  bool is_affine_ = false;
   NumberedRecording values_;
   std::vector<RecordedFunction> functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;

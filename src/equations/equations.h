@@ -41,8 +41,8 @@ class Equations {
   void linearize(const State<T>& state, Linearization<T>* derivatives) { compiled_.linearize(state, derivatives); }
   /// The residual with the part G_z of its derivatives alone, as a solve for z = (a, lambda, sigma) needs them.
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) { compiled_.rates(state, G, g, derivatives); }
-  /// Whether G is affine in z, and g free of it, where rates() was evaluated last: one solve with G_z then gives z.
-  bool is_affine() const { return compiled_.is_affine(); }
+  /// Sets z to the solution of G = 0, and g, where one expression gives them. @return false elsewhere; then z stays as it is.
+  bool accelerations(State<T>* state, T* g) { return compiled_.accelerations(state, g); }
   /// G_z in `derivatives`, for solves without the other parts; they are overwritten too unless the linearization is recorded apart.
   void linearize_rates(const State<T>& state, Linearization<T>* derivatives);
   /// Constraint values Phi(q) and rates Phi_q v, both resized to Layout::m. The state's z is not used.

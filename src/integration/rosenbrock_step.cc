@@ -84,7 +84,7 @@ void RosenbrockStep<T>::choose_pivots(double h) {
   stage_matrix_.forget();
   stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
   projection_matrix_.forget();
-  projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+  if (layout_.m > 0) projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
 }
 
 template <class T>
@@ -148,11 +148,12 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
 }
 
 // Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z unless friction depends on reactions.
-// Then one iteration gives z to rounding in joint coordinates without loops, where G_z is a mass matrix; with multipliers a second one
-// refines it. Complex numbers converge one part after the other and need G_z anew.
+// Complex numbers converge one part after the other and need G_z anew.
 template <class T>
 bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
   constexpr bool kIsReal = std::is_same_v<T, double>;
+  if constexpr (kIsReal)
+    if (equations_.accelerations(at, g)) return std::isfinite(at->z.sum() + *g);
   constexpr int kMost = 30, kLeast = kIsReal ? 1 : 3;
   constexpr double kConverged = 1e-14;
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
@@ -168,7 +169,6 @@ bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
     at->z += z_;
     const double size = largest(z_) / (1.0 + largest(at->z));
     if (!std::isfinite(size)) return false;
-    if (kIsReal && k == 0 && layout_.m == 0 && equations_.is_affine()) return std::isfinite(value_of(*g));
     if (k >= kLeast && (size <= kConverged || (size <= rounding && size > 0.25 * previous))) return std::isfinite(value_of(*g));
     refresh = !kIsReal || size > 0.25 * previous;
     previous = size;
