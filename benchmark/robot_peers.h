@@ -20,7 +20,7 @@ struct RobotMotion {
 /// By the articulated-body algorithm and the pair of Dormand and Prince.
 RobotMotion run_plain(const Robot& robot, double tolerance);
 
-/// By Simbody: its Runge-Kutta-Merson method, or CPODES where the motion is stiff. No value where the program is built without Simbody.
+/// By Simbody's Runge-Kutta-Merson method. No value where the motion is stiff, or the program is built without Simbody.
 std::optional<RobotMotion> run_simbody_robot(const Robot& robot, double accuracy);
 
 }  // namespace codesign

@@ -115,7 +115,7 @@ constexpr Goal kGoals[] = {{"UR5", 3.0, 5.0, 1.0, 5.0},
                            {"Panda", kNone, kNone, kNone, 5.0},
                            {"Atlas", 30.0, 25.0, 1.5, 5.0},
                            {"Valkyrie", 18.0, 25.0, 1.5, 5.0},
-                           {"Talos, dry friction", 15.0, 25.0, kNone, 5.0}};
+                           {"Talos, dry friction", 15.0, 25.0, kNone, kNone}};
 
 class Measurement {
  public:

@@ -56,11 +56,10 @@ SimTK::MobilizedBody add_link(const RobotLink& link, SimTK::MobilizedBody& paren
   return SimTK::MobilizedBody::Pin(parent, inboard, body_of(link), outboard);
 }
 
-template <class Integrator>
 RobotMotion run(const SimTK::MultibodySystem& system, const std::vector<SimTK::MobilizedBody>& bodies, const SimTK::State& start,
                 const Robot& robot, double accuracy) {
   RobotMotion motion;
-  Integrator integrator(system);
+  SimTK::RungeKuttaMersonIntegrator integrator(system);
   integrator.setAccuracy(accuracy);
   integrator.setAllowInterpolation(false);
   integrator.initialize(start);
@@ -76,7 +75,9 @@ RobotMotion run(const SimTK::MultibodySystem& system, const std::vector<SimTK::M
 
 }  // namespace
 
+// Stiff motions need its CPODES, whose functions have the names of those of SUNDIALS, which this program is linked with.
 std::optional<RobotMotion> run_simbody_robot(const Robot& robot, double accuracy) {
+  if (robot.is_stiff()) return std::nullopt;
   SimTK::MultibodySystem system;
   system.setUseUniformBackground(true);
   SimTK::SimbodyMatterSubsystem matter(system);
@@ -92,8 +93,7 @@ std::optional<RobotMotion> run_simbody_robot(const Robot& robot, double accuracy
   }
   SimTK::State start = system.realizeTopology();
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].setOneQ(start, SimTK::MobilizerQIndex(0), robot.links[k].position);
-  return robot.is_stiff() ? run<SimTK::CPodesIntegrator>(system, bodies, start, robot, accuracy)
-                          : run<SimTK::RungeKuttaMersonIntegrator>(system, bodies, start, robot, accuracy);
+  return run(system, bodies, start, robot, accuracy);
 }
 
 }  // namespace codesign
