@@ -27,12 +27,13 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
                            {"ensembles", measure_ensembles},
                            {"identification", measure_identification},
                            {"ranks", measure_ranks},
+                           {"robots", measure_robots},
                            {"simbody", measure_simbody}};
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
     "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, stops, scaling, setup, "
-    "ensembles, identification, ranks, simbody; all by default.\n";
+    "ensembles, identification, ranks, robots, simbody; all by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {
   Table table{"summary", "What the package sets out to reach, and what was measured", {"figure", "measured", "target", "reached"}, {}};

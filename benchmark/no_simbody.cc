@@ -2,9 +2,12 @@
 #include <cstdio>
 
 #include "benchmark/report.h"
+#include "benchmark/robot_peers.h"
 
 namespace codesign {
 
 void measure_simbody(Report*) { std::fprintf(stderr, "Simbody is not installed (tools/setup --benchmark): its table is left out\n"); }
+
+std::optional<RobotMotion> run_simbody_robot(const Robot&, double) { return std::nullopt; }
 
 }  // namespace codesign

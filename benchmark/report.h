@@ -38,6 +38,7 @@ void measure_ensembles(Report* report);
 void measure_lanes(Report* report);
 void measure_identification(Report* report);
 void measure_ranks(Report* report);
+void measure_robots(Report* report);
 void measure_simbody(Report* report);
 
 }  // namespace codesign

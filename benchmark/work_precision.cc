@@ -75,8 +75,20 @@ double seconds_to(double error, const Sweep& sweep) {
   return seconds;
 }
 
-std::vector<Sweep> race(const std::string& name, const std::string& what, bool with_gradient, const std::vector<Contestant>& contestants,
-                        const std::vector<double>& tolerances, Report* report) {
+AtError interpolate(double error, const Sweep& sweep) {
+  const auto values = [](const Measured& run) { return AtError{run.seconds, static_cast<double>(run.outcome.steps), run.tolerance}; };
+  if (!(sweep.back().outcome.error <= error)) return {};
+  std::size_t k = sweep.size() - 1;
+  while (k > 0 && sweep[k - 1].outcome.error <= error) --k;
+  const AtError tight = values(sweep[k]);
+  if (k == 0 || !(sweep[k - 1].outcome.error > error)) return tight;
+  const AtError loose = values(sweep[k - 1]);
+  const double share = std::log(error / sweep[k].outcome.error) / std::log(sweep[k - 1].outcome.error / sweep[k].outcome.error);
+  const auto between = [share](double from, double to) { return from * std::pow(to / from, share); };
+  return {between(tight.seconds, loose.seconds), between(tight.steps, loose.steps), between(tight.tolerance, loose.tolerance)};
+}
+
+std::vector<Sweep> run_sweeps(const std::vector<Contestant>& contestants, const std::vector<double>& tolerances, bool with_gradient) {
   std::vector<Sweep> sweeps(contestants.size());
   std::vector<Job> jobs;
   for (std::size_t c = 0; c < contestants.size(); ++c) {
@@ -90,6 +102,12 @@ std::vector<Sweep> race(const std::string& name, const std::string& what, bool w
   std::size_t next = 0;
   for (Sweep& sweep : sweeps)
     for (Measured& run : sweep) run.seconds = seconds[next++];
+  return sweeps;
+}
+
+std::vector<Sweep> race(const std::string& name, const std::string& what, bool with_gradient, const std::vector<Contestant>& contestants,
+                        const std::vector<double>& tolerances, Report* report) {
+  std::vector<Sweep> sweeps = run_sweeps(contestants, tolerances, with_gradient);
   add_runs(name, what + ": CPU time, steps, relative error", contestants, sweeps, report);
   add_accuracies(name + "_at_accuracy", what + ": CPU time at a given accuracy, and its ratio to the first row", contestants, sweeps,
                  report);

@@ -49,7 +49,19 @@ using Sweep = std::vector<Measured>;
 /// an error of at most `error`. NaN if there is none.
 double seconds_to(double error, const Sweep& sweep);
 
-/// Runs all contestants at all tolerances, given from loose to tight, in random order. Adds a table `name` of all runs, and a table
+/// What a solver needs for an error, interpolated between two tolerances along straight lines between logarithms.
+struct AtError {
+  double seconds = std::numeric_limits<double>::quiet_NaN(), steps = seconds, tolerance = seconds;
+};
+
+/// At the loosest tolerance such that all tighter ones have an error of at most `error`, or between it and the next looser one; NaN if
+/// there is none.
+AtError interpolate(double error, const Sweep& sweep);
+
+/// Runs all contestants at all tolerances, given from loose to tight, in random order.
+std::vector<Sweep> run_sweeps(const std::vector<Contestant>& contestants, const std::vector<double>& tolerances, bool with_gradient);
+
+/// run_sweeps(). Adds a table `name` of all runs, and a table
 /// `name`_at_accuracy of the time that each contestant needs for a given accuracy.
 std::vector<Sweep> race(const std::string& name, const std::string& what, bool with_gradient, const std::vector<Contestant>& contestants,
                         const std::vector<double>& tolerances, Report* report);

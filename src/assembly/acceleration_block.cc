@@ -7,7 +7,7 @@ std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& sys
                                                        const State<double>& state, int first, int count) {
   Linearization<double> d;
   d.resize(system.patterns());
-  equations->linearize(state, &d);
+  equations->linearize_rates(state, &d);
   const Sparsity& G_z = system.patterns().rate;
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < count; ++row)

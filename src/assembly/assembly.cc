@@ -337,12 +337,13 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
+  const bool apart = linearizes_apart(system_.study().solver);
   for (int iteration = 0; iteration < 100; ++iteration) {
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
-    equations->residual(*state, &residual_, &g);
+    apart ? equations->rates(*state, &residual_, &g, &derivatives_) : equations->residual(*state, &residual_, &g);
     const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
-    equations->linearize(*state, &derivatives_);
+    if (!apart) equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
       return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
     matrix_.lu().solve(residual_);
@@ -355,8 +356,10 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
           std::string("no accelerations and reactions satisfy the equations of motion with friction") + place};
 }
 
-void Assembly::differentiate_rates(State<double>* rates) const {
+void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations, State<double>* rates) {
   VectorX<double> change;
+  // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are there already in the other case.
+  if (linearizes_apart(system_.study().solver)) equations->linearize(at, &derivatives_);
   rates->z.setZero(system_.layout().columns());
   directional_derivative(system_, derivatives_, *rates, &change);
   rates->z = -(change + derivatives_.time).head(rates->z.size());

@@ -103,8 +103,9 @@ class Assembly {
     ExtensionWorkspace<T> workspace;
     extend_rates(z, equations, &workspace, state);
   }
-  /// The time derivative of state->z at the last solve_rates(), where q, v and s change as `rates` says [per s]; written to rates->z.
-  void differentiate_rates(State<double>* rates) const;
+  /// The time derivative of z at the solution of the last solve_rates(), where q, v and s change as `rates` says [per s]; written to
+  /// rates->z. @param at that solution.
+  void differentiate_rates(const State<double>& at, Equations<double>* equations, State<double>* rates);
   /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled. nullptr: no cancellation.
   void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
   /// The largest closure error of a loop or coupling at the last positions; after a failure, at the nearest positions that were tried.

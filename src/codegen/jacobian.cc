@@ -19,14 +19,14 @@ class Elimination {
   Elimination(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs)
       : recording_(recording), size_(recording->size()), in_(to_index(size_) + outputs.size()), out_(in_.size()), is_leaf_(in_.size()) {
     for (const JacobianInput& input : inputs) is_leaf_[to_index(input.leaf)] = true;
-    for (std::size_t k = 0; k < outputs.size(); ++k) connect(outputs[k], size_ + static_cast<int>(k), Traced(1.0));
+    find_dependent();
+    for (std::size_t k = 0; k < outputs.size(); ++k)
+      if (depends_[to_index(outputs[k])]) connect(outputs[k], size_ + static_cast<int>(k), Traced(1.0));
     // From the outputs back: nodes that no output needs get no edges.
     for (int n = size_ - 1; n >= 0; --n)
       if (!out_[to_index(n)].empty() && !is_leaf_[to_index(n)])
-        for (const Partial& partial : partials_of(recording_, n)) connect(partial.node, n, folded(recording_, partial.factor));
-    // From the leaves on: what depends on none of them has no derivative.
-    for (int n = 0; n < size_; ++n)
-      if (in_[to_index(n)].empty() && !is_leaf_[to_index(n)]) remove(n);
+        for (const Partial& partial : partials_of(recording_, n))
+          if (depends_[to_index(partial.node)]) connect(partial.node, n, folded(recording_, partial.factor));
   }
 
   void run(EliminationOrder order) {
@@ -45,6 +45,16 @@ class Elimination {
   }
 
  private:
+  /// What depends on no leaf has no derivative.
+  void find_dependent() {
+    depends_ = is_leaf_;
+    for (int n = 0; n < size_; ++n) {
+      const Recording::Node& node = recording_->node(n);
+      if (node.operation == Operation::kLeaf || node.operation == Operation::kLiteral || node.operation == Operation::kRound) continue;
+      if (depends_[to_index(node.a)] || (node.b >= 0 && depends_[to_index(node.b)])) depends_[to_index(n)] = true;
+    }
+  }
+
   void connect(int from, int to, const Traced& value) {
     std::vector<Partial>& edges = in_[to_index(to)];
     const auto known = edge_from(from, &edges);
@@ -112,6 +122,7 @@ class Elimination {
   std::vector<std::vector<Partial>> in_;  ///< per vertex: its operands with the partial derivatives
   std::vector<std::vector<int>> out_;     ///< per vertex: its users
   std::vector<bool> is_leaf_;
+  std::vector<bool> depends_;  ///< per node: whether it is a leaf or depends on one
 };
 
 }  // namespace

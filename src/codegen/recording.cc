@@ -46,8 +46,7 @@ int Recording::operate(Operation operation, int a, int b) {
   constexpr int kBits = 29;
   const std::uint64_t key = (static_cast<std::uint64_t>(operation) << (2 * kBits)) | (static_cast<std::uint64_t>(a + 1) << kBits) |
                             static_cast<std::uint64_t>(b + 1);
-  const auto [known, is_new] = operations_.try_emplace(key, size());
-  if (!is_new) return known->second;
+  if (const auto [known, is_new] = operations_.find_or_add(key, size()); !is_new) return known;
   return append({operation, a, b, 0.0, node(a).varies || (b >= 0 && node(b).varies)});
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "codegen/node_table.h"
 #include "codegen/source_id.h"
 
 namespace codesign {
@@ -36,10 +37,7 @@ enum class Operation : std::uint8_t {
 /// operands gets no second node.
 class Recording {
  public:
-  Recording() {
-    nodes_.reserve(kUsualNodes);
-    operations_.reserve(kUsualNodes);
-  }
+  Recording() { nodes_.reserve(kUsualNodes); }
 
   struct Node {
     Operation operation;
@@ -109,7 +107,7 @@ class Recording {
   std::function<bool(unsigned)> turned_;
   std::vector<unsigned> places_;
   bool refused_ = false;
-  std::unordered_map<std::uint64_t, int> operations_;  ///< the node of each operation recorded so far, by operation and operands
+  NodeTable operations_;  ///< the node of each operation recorded so far, by operation and operands
   std::map<std::pair<int, int>, int> leaves_;
   std::unordered_map<std::uint64_t, int> literals_;  ///< by their bits
 };

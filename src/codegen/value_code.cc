@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "math/to_index.h"
 #endif
@@ -26,23 +27,27 @@ using Kind = ValueProgram::Kind;
 class Uses {
  public:
   Uses() = default;
-  Uses(const ValueProgram& program, int nodes) : positions_(to_index(nodes)), next_(to_index(nodes), 0) {
+  Uses(const ValueProgram& program, int nodes) : next_(to_index(nodes) + 1), last_(next_.size()) {
+    for (const Instruction& i : program.instructions)
+      for (int n : {i.a, i.b, i.c})
+        if (n >= 0) ++last_[to_index(n)];
+    std::partial_sum(last_.begin(), last_.end(), last_.begin());
+    std::copy(last_.begin(), last_.end() - 1, next_.begin() + 1);
+    positions_.resize(last_.back());
+    std::vector<std::size_t> end = next_;
     for (std::size_t k = 0; k < program.instructions.size(); ++k)
       for (int n : {program.instructions[k].a, program.instructions[k].b, program.instructions[k].c})
-        if (n >= 0) positions_[to_index(n)].push_back(static_cast<int>(k));
+        if (n >= 0) positions_[end[to_index(n)]++] = static_cast<int>(k);
   }
 
   /// The next instruction that reads the node, after those passed.
-  int next(int node) const {
-    const std::vector<int>& positions = positions_[to_index(node)];
-    return next_[to_index(node)] < positions.size() ? positions[next_[to_index(node)]] : std::numeric_limits<int>::max();
-  }
-  bool is_read_again(int node) const { return next_[to_index(node)] < positions_[to_index(node)].size(); }
+  int next(int node) const { return is_read_again(node) ? positions_[next_[to_index(node)]] : std::numeric_limits<int>::max(); }
+  bool is_read_again(int node) const { return next_[to_index(node)] < last_[to_index(node)]; }
   void pass(int node) { ++next_[to_index(node)]; }
 
  private:
-  std::vector<std::vector<int>> positions_;
-  std::vector<std::size_t> next_;
+  std::vector<int> positions_;            ///< of all nodes, one after the other
+  std::vector<std::size_t> next_, last_;  ///< per node: where its next position is, and where its positions end
 };
 
 class Code final : public ValueCode, private MachineCode {

@@ -69,6 +69,31 @@ void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   for (Variant& variant : variants_) variant.ready = false;
   multiplied_.clear();
   current_ = 0;
+  if (linearized_) linearized_->set_design(parameters);
+}
+
+template <class T>
+void CompiledEquations<T>::allow(bool machine_code) {
+  interpreted_ = !machine_code;
+  if (linearized_) linearized_->allow(machine_code);
+}
+
+template <class T>
+void CompiledEquations<T>::forget() {
+  current_ = 0;
+  if (linearized_) linearized_->forget();
+}
+
+template <class T>
+CompiledEquations<T>& CompiledEquations<T>::holder(EquationFunction function) {
+  const bool here = part_ != EquationPart::kMotion || function != EquationFunction::kLinearization;
+  if (here || !linearizes_apart(system_.study().solver)) return *this;
+  if (!linearized_) {
+    linearized_ = std::make_unique<CompiledEquations>(system_, EquationPart::kLinearized);
+    linearized_->allow(!interpreted_);
+    linearized_->set_design(parameters_);
+  }
+  return *linearized_;
 }
 
 template <class T>
@@ -229,7 +254,7 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
                     [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   if constexpr (kLanesOf < T >> 0) {
     const auto first = [](In<double> array) { return array.data(); };
-    evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+    holder(function).evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
       std::transform(std::begin(values), std::end(values), arrays.begin(), first);
       if (const int failed = run_values(code, arrays); failed >= 0) return failed;
       std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
@@ -244,6 +269,10 @@ template <class T>
 void CompiledEquations<T>::add_transposed(EquationFunction function, const State<T>& state, const In<double> (&weights)[4],
                                           Out<double> adjoint) {
   if constexpr (std::is_same_v<T, double>) {
+    if (CompiledEquations& other = holder(function); &other != this) {
+      other.add_transposed(function, state, weights, adjoint);
+      return;
+    }
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     const auto first = [](In<double> array) { return array.data(); };
     evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
@@ -262,6 +291,7 @@ template <class T>
 void CompiledEquations<T>::add_gradient(Out<double> gradient) {
   if constexpr (std::is_same_v<T, double>)
     for (std::size_t k : multiplied_) variants_[k].products->add_to(variants_[k].numbers, gradient);
+  if (linearized_) linearized_->add_gradient(gradient);
 }
 
 template <class T>
@@ -272,13 +302,22 @@ void CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) 
 
 template <class T>
 void CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
-  run(EquationFunction::kLinearization, state, {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
+  holder(EquationFunction::kLinearization)
+      .run(EquationFunction::kLinearization, state, {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
 }
 
 template <class T>
 void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) {
   G->resize(system_.layout().columns());
   run(EquationFunction::kRates, state, {*G, {g, 1}, derivatives->rate, {}});
+}
+
+template <class T>
+bool CompiledEquations<T>::accelerations(State<T>* state, T* g) {
+  if (variants_.empty()) adopt();
+  if (!variants_[current_].code->has_accelerations()) return false;
+  run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, {}, {}});
+  return variants_[current_].code->has_accelerations();
 }
 
 template <class T>

@@ -40,15 +40,17 @@ class CompiledEquations {
   void set_design(const std::vector<T>& parameters);
   const std::vector<T>& parameters() const { return parameters_; }
   /// With false machine code is neither made nor used: a few evaluations take less time than making it.
-  void allow(bool machine_code) { interpreted_ = !machine_code; }
+  void allow(bool machine_code);
   /// Begins again with the first variant.
-  void forget() { current_ = 0; }
+  void forget();
 
   /// The functions of Equations of the same name.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+  /// Sets z to the solution of G = 0, and g. @return false if the variant that serves has no kAccelerations; then z stays.
+  bool accelerations(State<T>* state, T* g);
 
   /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
   T signal(EquationFunction function, const State<T>& state);
@@ -103,6 +105,8 @@ class CompiledEquations {
     const std::vector<double>& turns;
   };
 
+  /// Where a function is recorded: here, or in a part of its own.
+  CompiledEquations& holder(EquationFunction function);
   void take_design(Variant* variant);
   /// Prepares a variant for transposed products.
   void take_products(Variant* variant);
@@ -128,13 +132,14 @@ class CompiledEquations {
   EquationPart part_;
   std::vector<T> parameters_;
   bool interpreted_ = false;
-  std::vector<Variant> variants_;        ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;              ///< the variant that served last
-  std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
-  std::vector<T> entries_;               ///< workspace of signal() and track_turns()
-  VectorX<T> s_;                         ///< workspace of sample()
-  std::vector<T> nodes_;                 ///< workspace of fill_numbers(): values of the recording's nodes
-  LineVector slots_, rows_;              ///< workspace of the code
+  std::unique_ptr<CompiledEquations> linearized_;  ///< of kLinearization, if it is recorded apart and was called
+  std::vector<Variant> variants_;                  ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;                        ///< the variant that served last
+  std::vector<std::size_t> multiplied_;            ///< variants with products since set_design(), in the order of their first one
+  std::vector<T> entries_;                         ///< workspace of signal() and track_turns()
+  VectorX<T> s_;                                   ///< workspace of sample()
+  std::vector<T> nodes_;                           ///< workspace of fill_numbers(): values of the recording's nodes
+  LineVector slots_, rows_;                        ///< workspace of the code
 };
 
 }  // namespace codesign

@@ -11,7 +11,8 @@ namespace codesign {
 CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
     : System(robot, study, std::move(sharing), drives),
       patterns_(record_patterns(*this)),
-      variants_{std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>()} {}
+      variants_{std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(),
+                std::make_unique<EquationVariants>()} {}
 
 CompiledSystem::~CompiledSystem() = default;
 

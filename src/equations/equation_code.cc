@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "codegen/traced.h"
+#include "equations/mass_solution.h"
 #include "equations/recorded_equations.h"
 #include "equations/transposed_code.h"
 #include "math/to_index.h"
@@ -33,7 +34,7 @@ VectorX<Traced> vector(const std::vector<Traced>& x) {
 }
 
 std::size_t count_functions(const System& system, EquationPart part) {
-  if (part == EquationPart::kMotion) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
+  if (part == EquationPart::kMotion || part == EquationPart::kLinearized) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
   if (part == EquationPart::kSignals) return static_cast<std::size_t>(watched_function(system.watched().size()));
   return static_cast<std::size_t>(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
 }
@@ -60,7 +61,8 @@ EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& pat
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
   take_guards(0, &none);
-  if (part == EquationPart::kMotion) record_motion(patterns, &equations);
+  const bool is_motion = part == EquationPart::kMotion, apart = linearizes_apart(system.study().solver);
+  if (is_motion || part == EquationPart::kLinearized) record_motion(patterns, is_motion && apart, &equations);
   if (part == EquationPart::kSignals) record_signals(system, &equations);
   if (part == EquationPart::kStart) record_start(system, &equations);
   if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
@@ -76,7 +78,7 @@ void EquationCode::record(EquationFunction function, const Compute& compute) {
   take_outputs(function, results);
 }
 
-void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations) {
+void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rates_only, RecordedEquations* equations) {
   record(EquationFunction::kResidual, [&] {
     equations->record_residual();
     return std::vector<VectorX<Traced>>{equations->G, VectorX<Traced>::Constant(1, equations->g)};
@@ -86,13 +88,46 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, RecordedE
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
     return errors;
   });
-  const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, equations);
-  take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
+  const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, rates_only, equations);
+  if (!rates_only) take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
   take_outputs(EquationFunction::kRates, {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
   at(EquationFunction::kRates).has_derivatives = false;
+  at(EquationFunction::kAccelerations).has_derivatives = false;
   // The derivatives decide nothing: they hold where the residual holds.
-  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates})
+  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates, EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
+  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g)) record_accelerations(patterns.rate, d.rate, equations);
+}
+
+bool EquationCode::has_accelerations() const { return !at(EquationFunction::kAccelerations).outputs.empty(); }
+
+// G at z = 0 is short: it holds no accelerations.
+void EquationCode::record_accelerations(const Sparsity& pattern, const std::vector<Traced>& G_z, RecordedEquations* equations) {
+  constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take longer to make than most runs
+  if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, values_.recording, pattern, G_z)) return;
+  VectorX<Traced>& z = equations->state.z;
+  const VectorX<Traced> trial = z;
+  z.setConstant(Traced(0.0));
+  equations->record_residual();
+  z = trial;
+  take_outputs(EquationFunction::kAccelerations,
+               {record_mass_solution(pattern, G_z, -equations->G), VectorX<Traced>::Constant(1, equations->g)});
+}
+
+bool EquationCode::is_affine(const std::vector<Traced>& G_z, const Traced& g) const {
+  const Recording& recording = values_.recording;
+  std::vector<bool> depends(to_index(recording.size()));
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (node.operation == Operation::kLeaf)
+      depends[to_index(n)] = node.a == Arrays::kZ;
+    else if (node.operation != Operation::kLiteral)
+      depends[to_index(n)] = depends[to_index(node.a)] || (node.b >= 0 && depends[to_index(node.b)]);
+  }
+  const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
+  const std::vector<Recording::Guard>& guards = at(EquationFunction::kRates).guards;
+  return is_free(g.node()) && std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
+         std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
 }
 
 void EquationCode::record_signals(const System& system, RecordedEquations* equations) {

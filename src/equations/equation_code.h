@@ -98,13 +98,17 @@ class EquationCode {
   const TransposedCode& transposed() const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
+  /// Whether kAccelerations is there: for the explicit pair, in joint coordinates without loops, if G is affine in z, g free of it,
+  /// and G_z a mass matrix.
+  bool has_accelerations() const;
   /// The outcomes of all decisions in turn, of which a variant is known.
   const std::vector<bool>& outcomes() const { return outcomes_; }
 
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[static_cast<std::size_t>(function)]; }
   const RecordedFunction& at(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)]; }
-  void record_motion(const ByVariable<Sparsity>& patterns, RecordedEquations* equations);
+  /// @param rates_only leaves kLinearization empty.
+  void record_motion(const ByVariable<Sparsity>& patterns, bool rates_only, RecordedEquations* equations);
   void record_signals(const System& system, RecordedEquations* equations);
   void record_start(const System& system, RecordedEquations* equations);
   /// Records one function whose results `compute` returns.
@@ -113,6 +117,9 @@ class EquationCode {
   /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
   /// design_guards_.
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
+  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates does.
+  bool is_affine(const std::vector<Traced>& G_z, const Traced& g) const;
+  void record_accelerations(const Sparsity& pattern, const std::vector<Traced>& G_z, RecordedEquations* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;

@@ -3,15 +3,26 @@
 
 #include <cstddef>
 
+#include "description/solver_options.h"
+
 namespace codesign {
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,   ///< kResidual, kLinearization, kConstraintErrors, kRates
-  kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
-  kStart     ///< kPlacement, kTurns and the controllers' functions
+  kMotion,      ///< kResidual, kConstraintErrors, kRates, and kLinearization unless linearizes_apart()
+  kSignals,     ///< kTerminal, the residuals of the objective and the watched signals
+  kStart,       ///< kPlacement, kTurns and the controllers' functions
+  kLinearized,  ///< the functions of kMotion, all of them
+  kEnd          ///< number of parts
 };
-constexpr std::size_t kEquationParts = 3;
+constexpr auto kEquationParts = static_cast<std::size_t>(EquationPart::kEnd);
+
+/// Whether kLinearization has a recording of its own, which is made when it is first needed: the explicit pair does without it, and it is
+/// longer than all others together.
+constexpr bool linearizes_apart(const SolverOptions& solver) {
+  return solver.integrator == IntegratorKind::kRosenbrock &&
+         (solver.method == RosenbrockMethod::kDopri5 || solver.method == RosenbrockMethod::kAuto);
+}
 
 /// The recorded functions of Equations, numbered in each part; each enumerator lists the arrays of results, in order.
 enum class EquationFunction : std::size_t {
@@ -19,6 +30,7 @@ enum class EquationFunction : std::size_t {
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
   kRates,             ///< G, g, G_z; values only
+  kAccelerations,     ///< z with G = 0, g; values only, and only where one expression gives them: EquationCode::has_accelerations()
   kMotionEnd,         ///< number of functions of the part
 
   kTerminal = 0,       ///< w

@@ -9,6 +9,13 @@ namespace codesign {
 // With double, these few values per step come from the formulas: to record them, and to make their code, would take longer than most runs.
 
 template <class T>
+void Equations<T>::linearize_rates(const State<T>& state, Linearization<T>* derivatives) {
+  if (!linearizes_apart(system_.study().solver)) return linearize(state, derivatives);
+  T g(0.0);
+  rates(state, &residual_, &g, derivatives);
+}
+
+template <class T>
 T Equations<T>::terminal(const State<T>& state) {
   if constexpr (kIsReal)
     return formulas_.terminal(state);
@@ -71,6 +78,7 @@ void Equations<T>::jump(const std::vector<ControlEvent>& events, State<T>* state
 }
 
 #define CODESIGN_INSTANTIATE(T)                                                       \
+  template void Equations<T>::linearize_rates(const State<T>&, Linearization<T>*);    \
   template T Equations<T>::terminal(const State<T>&);                                 \
   template T Equations<T>::watched(std::size_t, const State<T>&);                     \
   template void Equations<T>::residuals(ObjectivePart, const State<T>&, VectorX<T>*); \

@@ -41,6 +41,10 @@ class Equations {
   void linearize(const State<T>& state, Linearization<T>* derivatives) { compiled_.linearize(state, derivatives); }
   /// The residual with the part G_z of its derivatives alone, as a solve for z = (a, lambda, sigma) needs them.
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) { compiled_.rates(state, G, g, derivatives); }
+  /// Sets z to the solution of G = 0, and g, where one expression gives them. @return false elsewhere; then z stays as it is.
+  bool accelerations(State<T>* state, T* g) { return compiled_.accelerations(state, g); }
+  /// G_z in `derivatives`, for solves without the other parts; they are overwritten too unless the linearization is recorded apart.
+  void linearize_rates(const State<T>& state, Linearization<T>* derivatives);
   /// Constraint values Phi(q) and rates Phi_q v, both resized to Layout::m. The state's z is not used.
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
     compiled_.constraint_errors(state, Phi, Phi_rate);
@@ -86,6 +90,7 @@ class Equations {
   const CompiledSystem& system_;
   std::conditional_t<kIsReal, Formulas<double>, NoFormulas> formulas_;
   CompiledEquations<T> compiled_, signals_, start_;
+  VectorX<T> residual_;  ///< workspace of linearize_rates()
 };
 
 }  // namespace codesign

@@ -80,7 +80,10 @@ IterationMatrix::IterationMatrix(IterationMatrix&&) noexcept = default;
 IterationMatrix& IterationMatrix::operator=(IterationMatrix&&) noexcept = default;
 
 bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
-  if (const StraightLine* const code = code_->get([this] { return sums(pattern_); }, 1)) {
+  // G_z alone is a copy, which needs no code.
+  if (c_v == 0.0 && c_q == 0.0 && c_s == 0.0) {
+    add_up(d, c_v, c_q, c_s);
+  } else if (const StraightLine* const code = code_->get([this] { return sums(pattern_); }, 1)) {
     const double coefficients[] = {-c_v, -c_q, -c_s};
     code->run({values_.data(), d.position.data(), d.velocity.data(), d.rate.data(), coefficients});
   } else {

@@ -2,8 +2,10 @@
 #include "equations/record_patterns.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <iterator>
+#include <unordered_map>
 #include <utility>
 
 #include "equations/equation_code.h"
@@ -22,23 +24,51 @@ ColumnSet merged(const ColumnSet& x, const ColumnSet& y) {
   return both;
 }
 
-/// Per node: the columns of (q, s), v and z side by side that it depends on.
-std::vector<ColumnSet> dependencies(const Recording& recording, const Layout& layout) {
-  std::vector<ColumnSet> columns(to_index(recording.size()));
+/// The columns of (q, s), v and z side by side that each node depends on. Most nodes share their sets with others.
+class Dependencies {
+ public:
+  Dependencies(const Recording& recording, const Layout& layout);
+
+  const ColumnSet& of(int node) const { return sets_[to_index(set_of_[to_index(node)])]; }
+
+ private:
+  static constexpr int kEmpty = 0;
+
+  int add(ColumnSet set) {
+    sets_.push_back(std::move(set));
+    return static_cast<int>(sets_.size()) - 1;
+  }
+  int unite(int x, int y) {
+    if (x > y) std::swap(x, y);
+    if (x == y || x == kEmpty) return y;
+    const auto [known, is_new] = united_.try_emplace((static_cast<std::uint64_t>(x) << 32U) | static_cast<std::uint64_t>(y), kEmpty);
+    if (is_new) {
+      ColumnSet both = merged(sets_[to_index(x)], sets_[to_index(y)]);
+      const bool is_x = both.size() == sets_[to_index(x)].size(), is_y = both.size() == sets_[to_index(y)].size();
+      known->second = is_x ? x : is_y ? y : add(std::move(both));
+    }
+    return known->second;
+  }
+
+  std::vector<ColumnSet> sets_;
+  std::vector<int> set_of_;  ///< per node: index among sets_
+  std::unordered_map<std::uint64_t, int> united_;
+};
+
+Dependencies::Dependencies(const Recording& recording, const Layout& layout) : sets_(1), set_of_(to_index(recording.size()), kEmpty) {
   const int positions = layout.positions();
   for (int n = 0; n < recording.size(); ++n) {
     const Recording::Node& node = recording.node(n);
-    ColumnSet& of = columns[to_index(n)];
+    int& set = set_of_[to_index(n)];
     if (node.operation == Operation::kLeaf) {
-      if (node.a == Arrays::kQ) of = {node.b};
-      if (node.a == Arrays::kS) of = {layout.n + node.b};
-      if (node.a == Arrays::kV) of = {positions + node.b};
-      if (node.a == Arrays::kZ) of = {positions + layout.n + node.b};
+      if (node.a == Arrays::kQ) set = add({node.b});
+      if (node.a == Arrays::kS) set = add({layout.n + node.b});
+      if (node.a == Arrays::kV) set = add({positions + node.b});
+      if (node.a == Arrays::kZ) set = add({positions + layout.n + node.b});
     } else if (node.varies && node.operation != Operation::kRound) {
-      of = node.b < 0 ? columns[to_index(node.a)] : merged(columns[to_index(node.a)], columns[to_index(node.b)]);
+      set = node.b < 0 ? set_of_[to_index(node.a)] : unite(set_of_[to_index(node.a)], set_of_[to_index(node.b)]);
     }
   }
-  return columns;
 }
 
 using Turned = std::function<bool(unsigned)>;
@@ -49,9 +79,9 @@ std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<
   recording.turn(std::move(turned));
   RecordedEquations equations(system, &recording);
   equations.record_residual();
-  const std::vector<ColumnSet> columns = dependencies(recording, system.layout());
+  const Dependencies dependencies(recording, system.layout());
   const auto add = [&](std::size_t row, const Traced& value) {
-    if (!value.is_literal()) (*rows)[row] = merged((*rows)[row], columns[to_index(value.node())]);
+    if (!value.is_literal()) (*rows)[row] = merged((*rows)[row], dependencies.of(value.node()));
   };
   for (Eigen::Index row = 0; row < equations.G.size(); ++row) add(static_cast<std::size_t>(row), equations.G[row]);
   add(rows->size() - 1, equations.g);

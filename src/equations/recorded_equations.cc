@@ -28,11 +28,12 @@ struct Columns {
   int time() const { return positions + velocities + rates; }
 };
 
-std::vector<JacobianInput> inputs_of(Recording* recording, const Columns& columns) {
+/// @param rates_only whether z is the only variable.
+std::vector<JacobianInput> inputs_of(Recording* recording, const Columns& columns, bool rates_only = false) {
   std::vector<JacobianInput> inputs;
   for (int n = 0, size = recording->size(); n < size; ++n) {
     const Recording::Node node = recording->node(n);
-    if (node.operation != Operation::kLeaf) continue;
+    if (node.operation != Operation::kLeaf || (rates_only && node.a != Arrays::kZ)) continue;
     if (node.a == Arrays::kQ) inputs.push_back({n, node.b, 1.0});
     if (node.a == Arrays::kS) inputs.push_back({n, columns.velocities + node.b, 1.0});
     if (node.a == Arrays::kV) inputs.push_back({n, columns.velocity() + node.b, 1.0});
@@ -87,7 +88,8 @@ std::vector<JacobianEntry> derive_gradients(const System& system, const std::vec
   return derive_jacobian(recording, outputs, inputs_of(recording, {layout.positions(), layout.n, layout.columns()}), order);
 }
 
-Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, RecordedEquations* recorded) {
+Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, bool rates_only,
+                                           RecordedEquations* recorded) {
   Recording* const recording = recorded->recording;
   const Columns columns{patterns.position.columns, patterns.velocity.columns, patterns.rate.columns};
   std::vector<int> outputs;
@@ -95,7 +97,7 @@ Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
   outputs.push_back(recorded->g.node_in(recording));
   Linearization<Traced> derivatives;
   derivatives.resize(patterns);
-  for (const JacobianEntry& entry : derive_jacobian(recording, outputs, inputs_of(recording, columns), order)) {
+  for (const JacobianEntry& entry : derive_jacobian(recording, outputs, inputs_of(recording, columns, rates_only), order)) {
     if (entry.column < columns.velocity())
       put(patterns.position, entry.row, entry.column, entry.value, &derivatives.position);
     else if (entry.column < columns.rate())

@@ -35,9 +35,11 @@ std::vector<JacobianEntry> derive_gradients(const System& system, const std::vec
                                             Recording* recording);
 
 /// G_q and G_s, G_v, G_z and G_t, and in one more row the same derivatives of g, derived from the recorded residual alone; theory (14).
-/// @param patterns of the result, of record_assembly(). @param order of the elimination. @param recorded nodes are appended to its
+/// @param patterns of the result, of record_patterns(). @param order of the elimination. @param rates_only derives G_z alone; the other
+/// entries are zero. @param recorded nodes are appended to its
 /// recording.
 /// @throws std::logic_error for a derivative that is not in the patterns.
-Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, RecordedEquations* recorded);
+Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, bool rates_only,
+                                           RecordedEquations* recorded);
 
 }  // namespace codesign

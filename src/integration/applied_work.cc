@@ -112,9 +112,10 @@ double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& moti
   const State<double>& to = step.state();
   double psi = 0.0;
   step.interpolate(0.5, &middle_, &psi);
-  const double begun = power_;
+  const double begun = power_, middle = motion.power(middle_.q, middle_.v, middle_.z);
+  // The end last: the checks that follow ask for the motion there.
   power_ = motion.power(to.q, to.v, to.z);
-  return step.step_size() / 6.0 * (begun + 4.0 * motion.power(middle_.q, middle_.v, middle_.z) + power_);
+  return step.step_size() / 6.0 * (begun + 4.0 * middle + power_);
 }
 
 }  // namespace codesign

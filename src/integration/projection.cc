@@ -23,7 +23,7 @@ bool Projection::apply(Equations<double>* equations, State<double>* state) {
   if (layout_.m == 0) return std::isfinite(state->q.sum() + state->v.sum());
   matrix_.forget();
   for (int round = 0; round < kRounds; ++round) {
-    equations->linearize(*state, &derivatives_);
+    equations->linearize_rates(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
     equations->constraint_errors(*state, &Phi_, &Phi_rate_);
     correct(Phi_, &state->q);

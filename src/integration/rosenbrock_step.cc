@@ -84,7 +84,7 @@ void RosenbrockStep<T>::choose_pivots(double h) {
   stage_matrix_.forget();
   stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
   projection_matrix_.forget();
-  projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+  if (layout_.m > 0) projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
 }
 
 template <class T>
@@ -152,6 +152,8 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
 template <class T>
 bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
   constexpr bool kIsReal = std::is_same_v<T, double>;
+  if constexpr (kIsReal)
+    if (equations_.accelerations(at, g)) return std::isfinite(at->z.sum() + *g);
   constexpr int kMost = 30, kLeast = kIsReal ? 1 : 3;
   constexpr double kConverged = 1e-14;
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.

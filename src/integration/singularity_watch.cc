@@ -45,7 +45,7 @@ void SingularityWatch::start(bool enabled, const State<double>& initial) {
 double SingularityWatch::stiffness(Equations<double>* equations) {
   const Layout& layout = system_.layout();
   if (!matrix_) matrix_ = std::make_unique<IterationMatrix>(system_);
-  equations->linearize(between_, &derivatives_);
+  equations->linearize_rates(between_, &derivatives_);
   if (!matrix_->factor(derivatives_, 0.0, 0.0, 0.0)) return 0.0;
   response_.setZero(layout.columns());
   for (int row = 0; row < layout.m; ++row) response_[layout.n + row] = std::sin(1.0 + 7.0 * row);

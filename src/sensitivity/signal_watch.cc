@@ -82,7 +82,7 @@ SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
   result.time = time;
   if (!status_.ok() || !go_to(k, time)) return result;
   integrator_->interpolate_rates(time, &rates_);
-  if (curves_[k].reads_rates) integrator_->assembly().differentiate_rates(&rates_);
+  if (curves_[k].reads_rates) integrator_->assembly().differentiate_rates(state_, &integrator_->equations(), &rates_);
   result.value = integrator_->equations().watched_gradient(k, state_, &sparse_);
   result.slope = sparse_.time;
   const Layout& layout = system_.layout();

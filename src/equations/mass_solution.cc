@@ -1,0 +1,75 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "equations/mass_solution.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "codegen/operate.h"
+#include "description/expression.h"
+#include "math/to_index.h"
+
+namespace codesign {
+namespace {
+
+using TracedMatrix = Eigen::Matrix<Traced, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// The values of all nodes at a state without any pattern.
+std::vector<double> values_of(const System& system, const Recording& recording) {
+  std::vector<double> values(to_index(recording.size()));
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    double& value = values[to_index(n)];
+    if (node.operation == Operation::kLiteral)
+      value = node.literal;
+    else if (node.operation != Operation::kLeaf)
+      value = operate<double>(node.operation, values[to_index(node.a)], node.b < 0 ? 0.0 : values[to_index(node.b)]);
+    else if (node.a != Recording::kSupplied)
+      value = std::sin(1.0 + 7.0 * node.b + 3.0 * node.a);
+    else if (node.b >= 0)
+      value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), system.parameters());
+  }
+  return values;
+}
+
+}  // namespace
+
+bool is_mass_matrix(const System& system, const Recording& recording, const Sparsity& pattern, const std::vector<Traced>& entries) {
+  constexpr double kRounding = 1e-11;
+  const std::vector<double> values = values_of(system, recording);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(pattern.columns, pattern.columns);
+  for (int row = 0; row < pattern.columns; ++row)
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
+      const Traced& entry = entries[to_index(e)];
+      A(row, pattern.column(e)) = entry.is_literal() ? entry.value() : values[to_index(entry.node())];
+    }
+  const Eigen::VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
+  A = scale.asDiagonal() * A * scale.asDiagonal();
+  return A.allFinite() && (A - A.transpose()).cwiseAbs().maxCoeff() < kRounding && A.llt().info() == Eigen::Success;
+}
+
+VectorX<Traced> record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries, const VectorX<Traced>& b) {
+  const Eigen::Index size = pattern.columns;
+  TracedMatrix A = TracedMatrix::Constant(size, size, Traced(0.0));
+  for (int row = 0; row < size; ++row)
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) A(row, pattern.column(e)) = entries[to_index(e)];
+  VectorX<Traced> x = b, inverse(size);
+  for (Eigen::Index k = size - 1; k >= 0; --k) {
+    inverse[k] = Traced(1.0) / A(k, k);
+    for (Eigen::Index i = 0; i < k; ++i) {
+      if (A(k, i).is(0.0)) continue;
+      const Traced factor = A(k, i) * inverse[k];
+      for (Eigen::Index j = 0; j <= i; ++j)
+        if (!A(k, j).is(0.0)) A(i, j) -= factor * A(k, j);
+      x[i] -= factor * x[k];
+    }
+  }
+  for (Eigen::Index k = 0; k < size; ++k) {
+    for (Eigen::Index j = 0; j < k; ++j)
+      if (!A(k, j).is(0.0)) x[k] -= A(k, j) * x[j];
+    x[k] *= inverse[k];
+  }
+  return x;
+}
+
+}  // namespace codesign

@@ -1,0 +1,22 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "codegen/traced.h"
+#include "math/scalar.h"
+#include "sparse/sparsity.h"
+#include "system/system.h"
+
+namespace codesign {
+
+/// Whether a recorded square matrix is symmetric and positive definite, judged at one generic state and the system's own design.
+/// @param pattern its entries; a last row, of the integrand, is left out.
+bool is_mass_matrix(const System& system, const Recording& recording, const Sparsity& pattern, const std::vector<Traced>& entries);
+
+/// Records x with A x = b for a symmetric positive definite matrix, which needs no choice of pivots, as A = L^T D L (Featherstone, Rigid
+/// Body Dynamics Algorithms, 2008, section 6.5): from the last unknown to the first, so that the branches of a tree do not fill in where
+/// parents precede their children. Entries above the diagonal are not read.
+VectorX<Traced> record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries, const VectorX<Traced>& b);
+
+}  // namespace codesign
