@@ -55,7 +55,7 @@ void refuse_friction_states(const CompiledSystem& system) {
   const JointDescription& joint = system.robot().joints[to_index(index)];
   throw InputError({joint.friction->where, joint.element() + " <codesign:friction>",
                     "the friction law has states, which the motion at one instant does not determine",
-                    kFrictionModelNames[static_cast<std::size_t>(joint.friction->model)],
+                    joint.friction->model->name,
                     "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
 }
 
