@@ -6,10 +6,7 @@
 namespace codesign {
 
 const Laws& standard_laws() {
-  static const Laws laws{{kBrownMcPheeLaw, kGonthierLaw, kLuGreLaw},
-                         {kFixedJoint, kRevoluteJoint, kContinuousJoint, kPrismaticJoint, kPlanarJoint, kFloatingJoint, kSphericalJoint,
-                          kUniversalJoint, kCylindricalJoint, kDistanceJoint, kTableJoint, kTranslationalJoint},
-                         {kBasisLaw, kComputedTorqueLaw, kPdGravityLaw, kPidLaw, kStateFeedbackLaw}};
+  static const Laws laws{friction_laws(), joint_laws(), control_laws()};
   return laws;
 }
 

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "forces/control_law.h"
 
+#include <iterator>
+
 #include "codegen/traced.h"
 
 namespace codesign {
@@ -29,11 +31,20 @@ T as_given(const ControlValues<T>& x) {
 using I = ControlInput;
 using L = ControlLoad;
 
+// name, output, input, gains, reads_rate, load, is_pid
+constexpr ControlLaw kControlTable[] = {
+    {"basis", {as_given, as_given}, I::kShape},
+    {"computed_torque", {computed_torque, computed_torque}, I::kOwnPosition, "pd", true, L::kDemanded},
+    {"pd_gravity", {pd_gravity, pd_gravity}, I::kOwnPosition, "pd", true, L::kAtRest},
+    {"pid", {pid, pid}, I::kSignal, "pid", true, L::kNone, true},
+    {"state_feedback", {as_given, as_given}, I::kFeedback},
+};
+
 }  // namespace
 
-const ControlLaw kPidLaw{"pid", {pid, pid}, I::kSignal, "pid", true, L::kNone, true},
-    kPdGravityLaw{"pd_gravity", {pd_gravity, pd_gravity}, I::kOwnPosition, "pd", true, L::kAtRest},
-    kComputedTorqueLaw{"computed_torque", {computed_torque, computed_torque}, I::kOwnPosition, "pd", true, L::kDemanded},
-    kStateFeedbackLaw{"state_feedback", {as_given, as_given}, I::kFeedback}, kBasisLaw{"basis", {as_given, as_given}, I::kShape};
+const ControllerKind ControllerKind::kBasis{kControlTable[0]}, ControllerKind::kComputedTorque{kControlTable[1]},
+    ControllerKind::kPdGravity{kControlTable[2]}, ControllerKind::kPid{kControlTable[3]}, ControllerKind::kStateFeedback{kControlTable[4]};
+
+std::vector<ControllerKind> control_laws() { return std::vector<ControllerKind>(std::begin(kControlTable), std::end(kControlTable)); }
 
 }  // namespace codesign

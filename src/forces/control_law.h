@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <vector>
 
 #include "codegen/law.h"
 #include "forces/pid.h"
@@ -40,7 +41,7 @@ enum class ControlLoad {
   kDemanded  ///< the load at the accelerations setpoint'' + pid() that all controllers of this kind demand, (C6)
 };
 
-/// A control law, one row of the table of controllers: its name, what it reads, and one function of values; doc/theory.md (C3)-(C8).
+/// A control law, one row of the table in control_law.cc: its name, what it reads, and one function of values; doc/theory.md (C3)-(C8).
 struct ControlLaw {
   const char* name;  ///< the value of the controller's `type`
   Law<ControlFunction> output;
@@ -55,8 +56,6 @@ struct ControlLaw {
   bool has_gain(char letter) const { return std::strchr(gains, letter) != nullptr; }
 };
 
-extern const ControlLaw kPidLaw, kPdGravityLaw, kComputedTorqueLaw, kStateFeedbackLaw, kBasisLaw;
-
 /// The law of a controller.
 class ControllerKind : public RowReference<ControlLaw> {
  public:
@@ -67,8 +66,8 @@ class ControllerKind : public RowReference<ControlLaw> {
       kStateFeedback,                ///< feedforward - sum gain (signal - reference)
       kBasis;                        ///< a shaped input, a function of time only
 };
-inline constexpr ControllerKind ControllerKind::kPid{kPidLaw}, ControllerKind::kPdGravity{kPdGravityLaw},
-    ControllerKind::kComputedTorque{kComputedTorqueLaw}, ControllerKind::kStateFeedback{kStateFeedbackLaw},
-    ControllerKind::kBasis{kBasisLaw};
+
+/// The library's control laws, by name.
+std::vector<ControllerKind> control_laws();
 
 }  // namespace codesign

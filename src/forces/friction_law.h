@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <cmath>
+#include <vector>
 
 #include "codegen/law.h"
 #include "forces/bristle.h"
@@ -21,8 +22,8 @@ using FrictionPerSpeed = T (*)(const T& square, const T& mu_static, const T& mu_
 template <class T>
 using BristleFunction = Bristle<T> (*)(const Vector3<T>& u, const BristleState<T>& state, const FrictionNumbers<T>& c);
 
-/// A friction law, one row of the table kFrictionLaws: its name, and one function of values. A law without states has `curve`, a law with
-/// states `bristle`.
+/// A friction law, one row of the table in friction_law.cc: its name, and one function of values. A law without states has `curve`, a law
+/// with states `bristle`.
 struct FrictionLaw {
   const char* name;   ///< the value of `<codesign:friction model>`
   const char* title;  ///< its name in sentences
@@ -41,16 +42,15 @@ struct FrictionLaw {
   }
 };
 
-extern const FrictionLaw kBrownMcPheeLaw, kGonthierLaw, kLuGreLaw;
-
 /// The friction law of a joint.
 class FrictionModel : public RowReference<FrictionLaw> {
  public:
   using RowReference::RowReference;
   static const FrictionModel kBrownMcPhee, kGonthier, kLuGre;
 };
-inline constexpr FrictionModel FrictionModel::kBrownMcPhee{kBrownMcPheeLaw}, FrictionModel::kGonthier{kGonthierLaw},
-    FrictionModel::kLuGre{kLuGreLaw};
+
+/// The library's friction laws.
+std::vector<FrictionModel> friction_laws();
 
 /// S(|u|)/|u| [s/m] of a law without states as a function of u.u [m^2/s^2].
 template <class T>

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "codegen/law.h"
 #include "joints/joint_type.h"
 #include "joints/pair_constants.h"
@@ -31,8 +33,8 @@ struct BearingLaw {
   bool joint_length = false, joint_width = false, pin_radius = false;
 };
 
-/// A joint, one row of the table of joints: its names, the properties of the pair of bodies that it makes, and its functions of values.
-/// Body i is on the parent's side, body j on the child's; z is the joint axis.
+/// A joint, one row of the table in joint_law.cc: its names, the properties of the pair of bodies that it makes, and its functions of
+/// values. Body i is on the parent's side, body j on the child's; z is the joint axis.
 struct JointLaw {
   const char* of_joints;   ///< value of `<joint type>`; null: no joint of the tree has this type
   const char* of_loops;    ///< value of `<loop type>`; null: no loop has it
@@ -52,9 +54,6 @@ struct JointLaw {
   constexpr bool is_plane() const { return slips_of_the_point == 2; }
 };
 
-extern const JointLaw kFixedJoint, kRevoluteJoint, kContinuousJoint, kPrismaticJoint, kPlanarJoint, kFloatingJoint, kSphericalJoint,
-    kUniversalJoint, kCylindricalJoint, kDistanceJoint, kTableJoint, kTranslationalJoint;
-
 /// The kind of a pair: the relative motion that it allows.
 class PairKind : public RowReference<JointLaw> {
  public:
@@ -71,13 +70,12 @@ class PairKind : public RowReference<JointLaw> {
       kDistance,                 ///< two points at a constant distance
       kFree;                     ///< any motion
 };
-inline constexpr PairKind PairKind::kFixed{kFixedJoint}, PairKind::kRevolute{kRevoluteJoint}, PairKind::kPrismatic{kPrismaticJoint},
-    PairKind::kCylindrical{kCylindricalJoint}, PairKind::kUniversal{kUniversalJoint}, PairKind::kSpherical{kSphericalJoint},
-    PairKind::kTable{kTableJoint}, PairKind::kPlanar{kPlanarJoint}, PairKind::kTranslational{kTranslationalJoint},
-    PairKind::kDistance{kDistanceJoint}, PairKind::kFree{kFloatingJoint};
 
-/// The kind of pair that a row makes: a continuous joint is a revolute one without limits.
-inline PairKind pair_of(const JointLaw& joint) { return &joint == &kContinuousJoint ? PairKind::kRevolute : PairKind(joint); }
+/// The library's joints.
+std::vector<RowReference<JointLaw>> joint_laws();
+
+/// The kind of pair that a joint makes: a continuous joint is a revolute one without limits.
+inline PairKind pair_of(const JointLaw& joint) { return joint.type == JointType::kContinuous ? PairKind::kRevolute : PairKind(joint); }
 
 /// Whether friction in such a pair is isotropic, one law for all directions of slip, doc/theory.md (13a), instead of one law per
 /// coordinate, (13).

@@ -8,12 +8,8 @@
 namespace codesign {
 namespace {
 
-const JointLaw* const kAllJoints[] = {&kFixedJoint,       &kRevoluteJoint, &kContinuousJoint, &kPrismaticJoint,
-                                      &kPlanarJoint,      &kFloatingJoint, &kSphericalJoint,  &kUniversalJoint,
-                                      &kCylindricalJoint, &kDistanceJoint, &kTableJoint,      &kTranslationalJoint};
-
 TEST(JointLaw, CountsTheRowsThatPairsHave) {
-  for (const JointLaw* joint : kAllJoints) {
+  for (const RowReference<JointLaw>& joint : joint_laws()) {
     const PairRows<double> rows = pair_rows(PairKind(*joint), PairConstants<double>());
     EXPECT_EQ(rows.size(), joint->rows) << static_cast<int>(joint->type);
     EXPECT_EQ(rows.coincident, joint->force_rows() == 3) << static_cast<int>(joint->type);
@@ -22,8 +18,9 @@ TEST(JointLaw, CountsTheRowsThatPairsHave) {
 }
 
 TEST(JointLaw, AContinuousJointMakesARevolutePair) {
-  for (const JointLaw* joint : kAllJoints)
-    EXPECT_EQ(pair_of(*joint), joint == &kContinuousJoint ? PairKind::kRevolute : PairKind(*joint)) << static_cast<int>(joint->type);
+  for (const RowReference<JointLaw>& joint : joint_laws())
+    EXPECT_EQ(pair_of(*joint), joint->type == JointType::kContinuous ? PairKind::kRevolute : PairKind(*joint))
+        << static_cast<int>(joint->type);
 }
 
 TEST(JointLaw, IsotropicSlipHasACoordinatePerFreedomThatSlips) {
