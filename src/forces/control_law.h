@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "codegen/law.h"
+#include "forces/law.h"
 #include "forces/pid.h"
 
 namespace codesign {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "codegen/law.h"
 #include "forces/bristle.h"
 #include "forces/friction_numbers.h"
+#include "forces/law.h"
 
 namespace codesign {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "codegen/law.h"
+#include "forces/law.h"
 #include "joints/joint_type.h"
 #include "joints/pair_constants.h"
 
