@@ -31,13 +31,13 @@ T as_given(const ControlValues<T>& x) {
 using I = ControlInput;
 using L = ControlLoad;
 
-// name, output, input, gains, reads_rate, load, is_pid
+// name, output, gains, input, load, reads_rate, is_pid
 constexpr ControlLaw kControlTable[] = {
-    {"basis", {as_given, as_given}, I::kShape},
-    {"computed_torque", {computed_torque, computed_torque}, I::kOwnPosition, "pd", true, L::kDemanded},
-    {"pd_gravity", {pd_gravity, pd_gravity}, I::kOwnPosition, "pd", true, L::kAtRest},
-    {"pid", {pid, pid}, I::kSignal, "pid", true, L::kNone, true},
-    {"state_feedback", {as_given, as_given}, I::kFeedback},
+    {"basis", {as_given, as_given}, "", I::kShape},
+    {"computed_torque", {computed_torque, computed_torque}, "pd", I::kOwnPosition, L::kDemanded, true},
+    {"pd_gravity", {pd_gravity, pd_gravity}, "pd", I::kOwnPosition, L::kAtRest, true},
+    {"pid", {pid, pid}, "pid", I::kSignal, L::kNone, true, true},
+    {"state_feedback", {as_given, as_given}, "", I::kFeedback},
 };
 
 }  // namespace

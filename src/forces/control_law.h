@@ -45,11 +45,11 @@ enum class ControlLoad {
 struct ControlLaw {
   const char* name;  ///< the value of the controller's `type`
   Law<ControlFunction> output;
+  const char* gains = "";  ///< the letters of the gains that the study may give
   ControlInput input = ControlInput::kSignal;
-  const char* gains = "";   ///< the letters of the gains that the study may give
-  bool reads_rate = false;  ///< whether it reads the rate of the error, if there is a gain d
   ControlLoad load = ControlLoad::kNone;
-  bool is_pid = false;  ///< whether the output is pid(), which a robot may also sample, clamp and filter, (50)-(52)
+  bool reads_rate = false;  ///< whether it reads the rate of the error, if there is a gain d
+  bool is_pid = false;      ///< whether the output is pid(), which a robot may also sample, clamp and filter, (50)-(52)
 
   /// Whether the law compares an input with a setpoint.
   bool has_error() const { return input == ControlInput::kSignal || input == ControlInput::kOwnPosition; }

@@ -36,7 +36,7 @@ T soft_p(const ControlValues<T>& x) {
   using std::tanh;
   return x.gains.p * tanh(x.gains.d * x.error);
 }
-const ControlLaw kSoftP{"soft_p", {soft_p, soft_p}, ControlInput::kSignal, "pd"};
+const ControlLaw kSoftP{"soft_p", {soft_p, soft_p}, "pd"};
 
 Laws own_laws() {
   Laws laws = standard_laws();
