@@ -55,7 +55,7 @@ struct ControllerDescription {
   SignalDescription input;             ///< only if kind->has_error()
   ReferenceDescription setpoint;       ///< only if kind->has_error()
   std::string output;                  ///< the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
-  Quantity p, i, d;                    ///< gains; only if kind->has_gain()
+  Quantity p, i, d;                    ///< gains; only those that kind->gains names
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis

@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstring>
 #include <vector>
 
 #include "forces/law.h"
@@ -53,7 +52,6 @@ struct ControlLaw {
 
   /// Whether the law compares an input with a setpoint.
   bool has_error() const { return input == ControlInput::kSignal || input == ControlInput::kOwnPosition; }
-  bool has_gain(char letter) const { return std::strchr(gains, letter) != nullptr; }
 };
 
 /// The law of a controller.
