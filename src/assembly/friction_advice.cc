@@ -66,7 +66,7 @@ class Search {
       const std::vector<int>& chosen = redundancy.chosen_joints;
       if (std::find(chosen.begin(), chosen.end(), pairs[p].friction_joint) == chosen.end()) continue;
       const int first = system_.layout().pair_row[p], end = system_.layout().pair_end(static_cast<int>(p));
-      const bool plane = traits_of(pairs[p].kind).bearing == BearingLaw::kPlane;
+      const bool plane = pairs[p].kind->is_plane();
       for (int row = first; row < (plane ? first + 1 : end); ++row) rows.push_back(row);
     }
     friction_.resize(static_cast<Eigen::Index>(rows.size()), basis_.cols());
@@ -149,9 +149,8 @@ Eigen::VectorXd stiffness_weights(const CompiledSystem& system, std::mt19937* ge
   const Layout& layout = system.layout();
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(layout.constraints());
   for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
-    const ForceRows rows = traits_of(system.topology().pairs[p].kind).force;
+    const int force = system.topology().pairs[p].kind->force_rows();
     const int first = layout.pair_row[p], end = layout.pair_end(static_cast<int>(p));
-    const int force = rows == ForceRows::kAll ? 3 : rows == ForceRows::kAcross ? 2 : rows == ForceRows::kAlong ? 1 : 0;
     const double of_force = weight(), of_torque = weight();
     for (int row = first; row < end; ++row) weights[row] = row < first + force ? of_force : of_torque;
   }

@@ -9,7 +9,7 @@ namespace codesign::cli {
 
 int urdf(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments);
-  std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters());
+  std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters(), std::nullopt, problem.robot().laws);
   if (arguments.sticks) text = with_sticks(text);
   if (!arguments.json) console.out << text;
   Json object;

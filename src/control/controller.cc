@@ -60,7 +60,7 @@ class Resolver {
     const ControllerDescription& description = study_.controllers[k];
     Controller& controller = controllers_[k];
     controller.kind = description.kind;
-    if (has_error(description.kind)) controller.input = readable(description.input, k, ".input");
+    if (description.kind->has_error()) controller.input = readable(description.input, k, ".input");
     for (const FeedbackTerm& term : description.feedback) controller.feedback.push_back(readable(term.signal, k, ".feedback"));
     if (description.output.empty()) return;
     const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
@@ -74,11 +74,11 @@ class Resolver {
 
   void provide_rate(std::size_t k) {
     const ControllerDescription& description = study_.controllers[k];
-    if (!has_error(description.kind)) return;
+    if (!description.kind->has_error()) return;
     // A sampled or filtered PID needs only the error.
     const ControlRealization& realization = description.realization;
-    const bool by_error = description.kind == ControllerKind::kPid && (realization.is_sampled() || realization.derivative_filter);
-    bool wanted = !description.d.is_zero() && !by_error;
+    const bool by_error = description.kind->is_pid && (realization.is_sampled() || realization.derivative_filter);
+    bool wanted = description.kind->reads_rate && !description.d.is_zero() && !by_error;
     for (const Controller& other : controllers_)
       wanted = wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
     if (!wanted) return;
@@ -104,7 +104,7 @@ class Resolver {
   void place_states(std::size_t k, int* states) {
     const ControlRealization& realization = study_.controllers[k].realization;
     ControllerStates& places = controllers_[k].states;
-    const bool sampled = realization.is_sampled(), pid = controllers_[k].kind == ControllerKind::kPid;
+    const bool sampled = realization.is_sampled(), pid = controllers_[k].kind->is_pid;
     if (sampled || realization.derivative_filter) refuse_rates(k);
     if (realization.derivative_filter) places.filter = (*states)++;
     if (sampled && pid && !study_.controllers[k].d.is_zero()) places.last = (*states)++;
@@ -163,10 +163,10 @@ class Resolver {
     const auto is_free = [](const Signal& signal) {
       return std::all_of(signal.begin(), signal.end(), [](const SignalReference& term) { return term.controller < 0; });
     };
-    if (controller.kind == ControllerKind::kPid) {
+    if (controller.kind->is_pid) {
       const bool twice = !description.d.is_zero() && !description.realization.derivative_filter;
       if (!is_free(controller.input) || !add(controller.input) || (twice && !add(Signal(rates.front())))) return;
-    } else if (controller.kind == ControllerKind::kStateFeedback) {
+    } else if (controller.kind->input == ControlInput::kFeedback) {
       for (const Signal& signal : controller.feedback)
         if (!is_free(signal) || !add(signal)) return;
     } else {
@@ -187,17 +187,17 @@ class Resolver {
 
   void grow_tree(std::size_t k) {
     Controller& controller = controllers_[k];
-    const bool torque = controller.kind == ControllerKind::kComputedTorque;
-    if (!torque && controller.kind != ControllerKind::kPdGravity) return;
+    const bool torque = controller.kind->load == ControlLoad::kDemanded;
+    if (controller.kind->load == ControlLoad::kNone) return;
     controller.tree = driven_tree(topology_, controller.pair, torque, study_.controllers[k].where, element(k) + ".output");
     if (!torque) return;
     for (std::size_t other = 0; other < k; ++other)
-      if (controllers_[other].kind == ControllerKind::kComputedTorque && controllers_[other].pair == controller.pair)
+      if (controllers_[other].kind->load == ControlLoad::kDemanded && controllers_[other].pair == controller.pair)
         throw InputError({study_.controllers[k].where, element(k) + ".output", "a joint can have only one computed torque",
                           study_.controllers[k].output, "a joint that " + study_.controllers[other].name + " does not drive"});
     for (DrivenTree::Node& node : controller.tree.nodes)
       for (std::size_t other = 0; other < controllers_.size(); ++other)
-        if (controllers_[other].kind == ControllerKind::kComputedTorque && controllers_[other].pair == node.pair)
+        if (controllers_[other].kind->load == ControlLoad::kDemanded && controllers_[other].pair == node.pair)
           node.controller = static_cast<int>(other);
     for (DrivenTree::Node& node : controller.tree.nodes) node.rotor = node.moved && has_rotor(node.pair);
   }

@@ -17,10 +17,10 @@ struct ControllerStates {
   int lag = -1;     ///< the effort after the lag of the drive
 };
 
-/// A controller with its names resolved to indices; ControllerKind lists the laws.
+/// A controller with its names resolved to indices; ControlLaw describes the laws.
 struct Controller {
   ControllerKind kind = ControllerKind::kPid;
-  Signal input, input_rate;      ///< only if has_error(kind); input_rate is empty if it is not needed
+  Signal input, input_rate;      ///< only if kind->has_error(); input_rate is empty if it is not needed
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
   int pair = -1, element = -1;   ///< the driven coordinate: index in Topology::pairs and in the pair's chain
   int state = -1;                ///< index of its integral among the extra states, or -1
@@ -28,7 +28,7 @@ struct Controller {
   /// The rates of signals that the rate of the output needs, theory (54): the rates of `input` and of `input_rate`, or of `feedback`.
   std::vector<Signal> output_rate;
   bool has_output_rate = false;
-  DrivenTree tree;  ///< kPdGravity and kComputedTorque only
+  DrivenTree tree;  ///< only of laws with a ControlLoad
 };
 
 /// Resolves all controllers of a study, in its order.

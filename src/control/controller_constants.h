@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "control/pid.h"
 #include "control/reference.h"
 #include "control/shaped_input.h"
 #include "description/study.h"
+#include "forces/pid.h"
 
 namespace codesign {
 
@@ -44,7 +44,7 @@ void controller_constants(const ControllerDescription& description, const std::v
   if (realization.derivative_filter) c.derivative_filter = realization.derivative_filter->at(parameters);
   if (realization.output_limit) c.output_limit = realization.output_limit->at(parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
-  if (description.kind == ControllerKind::kBasis) c.shape.set(description.basis, parameters);
+  if (description.kind->input == ControlInput::kShape) c.shape.set(description.basis, parameters);
 }
 template <class T>
 ControllerConstants<T> controller_constants(const ControllerDescription& description, const std::vector<T>& parameters) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "control/clamp.h"
-#include "control/pid.h"
+#include "forces/pid.h"
 
 namespace codesign {
 

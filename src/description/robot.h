@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "description/friction.h"
-#include "description/joint_type.h"
+#include "description/laws.h"
 #include "description/quantity.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
@@ -83,6 +83,7 @@ struct ActuatorDescription {
 struct JointDescription {
   std::string name;
   JointType type = JointType::kFixed;
+  std::optional<PairKind> own_kind;  ///< kOther: the row that the file names
   bool is_loop = false;
   int parent = -1, child = -1;                ///< indices into RobotDescription::links; of a loop: predecessor, successor
   PoseDescription origin;                     ///< joint frame at zero position in the parent's link frame
@@ -103,6 +104,9 @@ struct JointDescription {
   /// The element for messages: `<joint name="crank_joint">` or `<loop name="close">`.
   std::string element() const { return (is_loop ? "<loop name=\"" : "<joint name=\"") + name + "\">"; }
 };
+
+/// The kind of pair that a single joint or loop makes.
+PairKind kind_of(const JointDescription& joint);
 
 /// Whether `<limit lower upper>` bounds the joint's position. On a continuous joint URDF ignores both.
 inline bool has_stops(const JointDescription& joint) {
@@ -136,8 +140,9 @@ struct RobotDescription {
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
   std::vector<CouplingDescription> couplings;
   std::vector<SpringDamperDescription> spring_dampers;
-  std::string file;   ///< the file it was read from, for messages
-  Warnings warnings;  ///< from reading the files, in the order of the files
+  Laws laws = standard_laws();  ///< those that its files and its study may name
+  std::string file;             ///< the file it was read from, for messages
+  Warnings warnings;            ///< from reading the files, in the order of the files
 };
 
 }  // namespace codesign

@@ -19,6 +19,7 @@
 #include "description/signal.h"
 #include "description/solver_options.h"
 #include "description/watched_signal.h"
+#include "forces/control_law.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimizer_options.h"
 #include "mechanism_codesign/parameter.h"
@@ -40,18 +41,6 @@ struct InitialJointState {
   SourceLocation where;
 };
 
-/// The laws of control; doc/theory.md (C3)-(C8).
-enum class ControllerKind {
-  kPid,             ///< p e + i int e dt + d de/dt, with e = setpoint - input
-  kPdGravity,       ///< p e + d de/dt + the load that holds the joint against gravity
-  kComputedTorque,  ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
-  kStateFeedback,   ///< feedforward - sum gain (signal - reference)
-  kBasis            ///< a shaped input, a function of time only
-};
-
-/// Whether a control law compares an input with a setpoint.
-constexpr bool has_error(ControllerKind kind) { return kind != ControllerKind::kStateFeedback && kind != ControllerKind::kBasis; }
-
 /// One term gain * (signal - reference) of state feedback; theory (C7).
 struct FeedbackTerm {
   SignalDescription signal;
@@ -63,10 +52,10 @@ struct FeedbackTerm {
 struct ControllerDescription {
   std::string name;
   ControllerKind kind = ControllerKind::kPid;
-  SignalDescription input;             ///< only if has_error(kind)
-  ReferenceDescription setpoint;       ///< only if has_error(kind)
+  SignalDescription input;             ///< only if kind->has_error()
+  ReferenceDescription setpoint;       ///< only if kind->has_error()
   std::string output;                  ///< the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
-  Quantity p, i, d;                    ///< gains; only if has_error(kind), i of kPid only
+  Quantity p, i, d;                    ///< gains; only those that kind->gains names
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis

@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "elements/rigid_body.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 
@@ -9,6 +8,14 @@ namespace codesign {
 
 // The rows of one free body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the
 // constraint row (p^T p - 1)/2 = 0 with its multiplier.
+
+/// Inertia forces of (9), on the left of G: m r'' on the rows of r [N], and 4 G^T J G p'' + 8 G'^T J G p' on the rows of p [N m].
+template <class T>
+void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vector3<T>* on_r, Vector4<T>* on_p) {
+  const Vector3<T> y = 4.0 * (body.J * body_rate(k.p, k.pdd)), w = 8.0 * (body.J * body_rate(k.p, k.pd));
+  *on_r = body.mass * k.rdd;
+  *on_p = body_rate_transposed(k.p, y) + body_rate_transposed(k.pd, w);
+}
 
 /// Adds m (r'' - g) + f to the rows of r [N] and 4 G^T J G p'' + 8 G'^T J G p' + K(W) p + lambda p to the rows of p [N m], theory (7), (9).
 /// Does nothing for a body of the forest. Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace`

@@ -13,11 +13,10 @@ namespace codesign {
 /// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the pin radius for a turn, 1 for a slide).
 template <class T>
 ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact) {
-  const auto p = static_cast<std::size_t>(contact.pair);
+  const auto p = to_index(contact.pair);
   const Pair& pair = view.system.topology().pairs[p];
   if (contact.element < 0) return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i), view.body(pair.body_j));
-  const bool turning =
-      view.design.constants.pairs[p].coordinates[static_cast<std::size_t>(contact.element)].kind == CoordinateConstants<T>::Kind::kTurn;
+  const bool turning = view.design.constants.pairs[p].coordinates[to_index(contact.element)].kind == CoordinateConstants<T>::Kind::kTurn;
   ContactSlip<T> slip;
   slip.motion[0] = view.coordinate(contact.pair, contact.element, CoordinateDetail::kRate);
   slip.arm[0] = turning ? view.design.constants.pairs[p].friction.pin_radius : T(1.0);
@@ -30,7 +29,7 @@ ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& cont
 /// with the socket, body i.
 template <class T>
 int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
-  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(contact.pair)];
+  const Pair& pair = view.pair(contact.pair);
   return contact.element < 0 && pair.kind == PairKind::kSpherical ? pair.body_i : -1;
 }
 
@@ -47,8 +46,7 @@ Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact)
 template <class T>
 void bristle_residual(const StateView<T>& view, const BristleContact& contact, VectorX<T>* G) {
   const ContactSlip<T> slip = bristle_slip(view, contact);
-  const Bristle<T> law =
-      bristle_law<T>(contact, slip.u, view.state->s, view.design.constants.pairs[static_cast<std::size_t>(contact.pair)].friction);
+  const Bristle<T> law = bristle_law<T>(contact, slip.u, view.state->s, view.constants(contact.pair).friction);
   const Vector3<T> rate = law.rate + bristle_turn(view, contact);
   const auto set = [&](int s, const T& value) { (*G)[view.layout.state_column(s)] = view.state->z[view.layout.state_column(s)] - value; };
   for (int k = 0; k < contact.size; ++k) set(contact.first + k, rate[k]);

@@ -9,6 +9,14 @@
 
 namespace codesign {
 
+/// The friction of one joint coordinate at one instant, for observers; theory (13).
+template <class T>
+struct FrictionState {
+  T velocity{0.0};  ///< rate of the coordinate, child relative to parent [m/s or rad/s]
+  T normal{0.0};    ///< normal force N [N]; zero for `<dynamics friction>`
+  T load{0.0};      ///< L, positive against the motion, viscous part included [N or N m]; the child feels -L
+};
+
 /// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory (13a). Vectors have one entry per slip
 /// coordinate; entries beyond `size` are zero.
 template <class T>
@@ -58,29 +66,6 @@ ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T
     slip.u[e] = slip.arm[e] * slip.motion[k].rate;
   }
   return slip;
-}
-
-/// Friction loads of a pair with isotropic friction, theory (13a): L = arm sigma N u plus the viscous part, or
-/// L = arm mu N for a law with states, theory (13e), (13f).
-/// @param normal the normal force. @param bristle the pair's law with states, or null. @param s all extra states.
-template <class T>
-ContactFriction<T> contact_friction(PairKind kind, const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                                    const T& normal, const BristleContact* bristle, const VectorX<T>& s) {
-  const ContactSlip<T> slip = contact_slip(pair, i, j);
-  const FrictionConstants<T>& f = pair.friction;
-  ContactFriction<T> contact;
-  contact.motion = slip.motion;
-  contact.normal = normal;
-  contact.size = pair.slip.coordinates.size();
-  contact.reported = static_cast<std::size_t>(traits_of(kind).slips_of_the_point);
-  // The friction per slip direction, without the arm [N].
-  const Vector3<T> load = bristle ? Vector3<T>(normal * bristle_law<T>(*bristle, slip.u, s, f).mu)
-                                  : isotropic_friction<T, 3>(slip.u, normal, f.mu_static, f.mu_dynamic, f.transition_velocity);
-  for (std::size_t k = 0; k < contact.size; ++k) {
-    const auto e = static_cast<Eigen::Index>(k);
-    contact.load[e] = slip.arm[e] * load[e] + pair.slip.viscous[k] * contact.motion[k].rate;
-  }
-  return contact;
 }
 
 }  // namespace codesign

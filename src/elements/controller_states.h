@@ -15,16 +15,16 @@ T integral_rate(const StateView<T>& view, int controller) {
   if (realization.is_sampled()) return T(0.0);
   const T error = controller_error(view, controller);
   if (!realization.antiwindup) return error;
-  const ControllerConstants<T>& k = view.design.controllers[static_cast<std::size_t>(controller)];
-  const int s = view.system.controllers()[static_cast<std::size_t>(controller)].state;
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
+  const int s = view.controller(controller).state;
   return clamped_integral_rate(error, view.state->s[s], k.pid.i, k.i_clamp);
 }
 
 /// f' = (u - f) / tau of the effort after the drive's lag, (53).
 template <class T>
 T lag_rate(const StateView<T>& view, int controller) {
-  const int f = view.system.controllers()[static_cast<std::size_t>(controller)].states.lag;
-  const T per_tau = T(1.0) / view.design.controllers[static_cast<std::size_t>(controller)].time_constant;
+  const int f = view.controller(controller).states.lag;
+  const T per_tau = T(1.0) / view.controller_numbers(controller).time_constant;
   return per_tau * (controller_output(view, controller) - view.state->s[f]);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "control/clamp.h"
-#include "control/pid.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "forces/saturation.h"
@@ -19,49 +18,47 @@ T signal_value(const StateView<T>& view, const Signal& signal);
 /// The error e = r - x of a controller, setpoint minus input, in the unit of its input; zero for laws without an error.
 template <class T>
 T controller_error(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  if (!has_error(view.system.controllers()[c].kind)) return T(0.0);
-  return view.design.controllers[c].setpoint.at(view.state->t).value - signal_value(view, view.system.controllers()[c].input);
+  if (!view.controller(controller).kind->has_error()) return T(0.0);
+  return view.controller_numbers(controller).setpoint.at(view.state->t).value - signal_value(view, view.controller(controller).input);
 }
 
 /// e' = r' - x' of (C3); x' is the signal's exact derivative.
 template <class T>
 T controller_error_rate(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  return view.design.controllers[c].setpoint.at(view.state->t).rate - signal_value(view, view.system.controllers()[c].input_rate);
+  return view.controller_numbers(controller).setpoint.at(view.state->t).rate - signal_value(view, view.controller(controller).input_rate);
 }
 
 /// How a robot runs a controller.
 template <class T>
 const ControlRealization& realization_of(const StateView<T>& view, int controller) {
-  return view.system.study().controllers[static_cast<std::size_t>(controller)].realization;
+  return view.system.study().controllers[to_index(controller)].realization;
 }
 
 /// The rate of the filtered error, (e - x) / tau of (50).
 template <class T>
 T filtered_error_rate(const StateView<T>& view, int controller) {
-  const int x = view.system.controllers()[static_cast<std::size_t>(controller)].states.filter;
-  const T per_tau = T(1.0) / view.design.controllers[static_cast<std::size_t>(controller)].derivative_filter;
-  return per_tau * (controller_error(view, controller) - view.state->s[x]);
+  const T per_tau = T(1.0) / view.controller_numbers(controller).derivative_filter;
+  return per_tau * (controller_error(view, controller) - view.state->s[view.controller(controller).states.filter]);
 }
 
-/// u = k_p e + k_i s + k_d e' of (C3), also the feedback part of (C5) and (C6). i_clamp saturates k_i s if it bounds this term and not the
-/// integral itself, (50).
+/// Gains, error, integral and rate of (C3), (C5), (C6). i_clamp saturates k_i s if it bounds this term and not the integral itself, (50).
 template <class T>
-T pid_output(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  const Controller& resolved = view.system.controllers()[c];
-  const ControllerConstants<T>& k = view.design.controllers[c];
+ControlValues<T> error_values(const StateView<T>& view, int controller) {
+  const Controller& resolved = view.controller(controller);
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
   const ControlRealization& realization = realization_of(view, controller);
-  const T error = controller_error(view, controller), integral = resolved.state >= 0 ? T(view.state->s[resolved.state]) : T(0.0);
-  T error_rate(0.0);
+  ControlValues<T> x;
+  x.gains = k.pid;
+  x.error = controller_error(view, controller);
+  if (resolved.state >= 0) x.integral = view.state->s[resolved.state];
   if (resolved.states.filter >= 0)
-    error_rate = filtered_error_rate(view, controller);
+    x.error_rate = filtered_error_rate(view, controller);
   else if (!resolved.input_rate.empty())
-    error_rate = controller_error_rate(view, controller);
-  if (realization.i_clamp && !realization.antiwindup && resolved.state >= 0)
-    return k.pid.output(error, T(0.0), error_rate) + saturate(T(k.pid.i * integral), k.i_clamp).value;
-  return k.pid.output(error, integral, error_rate);
+    x.error_rate = controller_error_rate(view, controller);
+  if (!realization.i_clamp || realization.antiwindup || resolved.state < 0) return x;
+  x.clamped = saturate(T(k.pid.i * x.integral), k.i_clamp).value;
+  x.integral = T(0.0);
+  return x;
 }
 
 /// The load tau_k of (C4) [N or N m] along the coordinate that the controller drives.
@@ -69,25 +66,24 @@ T pid_output(const StateView<T>& view, int controller) {
 /// ControlMemory::rates before.
 template <class T>
 T inverse_dynamics_load(const StateView<T>& view, int controller, In<T> accelerations) {
-  const auto c = static_cast<std::size_t>(controller);
   // ControlMemory has room for the largest tree.
-  const auto nodes = static_cast<std::ptrdiff_t>(view.system.controllers()[c].tree.nodes.size());
-  return view.control.inverse_dynamics[c].load(view.design.constants, view.kinematics, view.design.gravity, accelerations,
-                                               In<T>(view.control.rates).first(nodes));
+  const auto nodes = static_cast<std::ptrdiff_t>(view.controller(controller).tree.nodes.size());
+  return view.control.inverse_dynamics[to_index(controller)].load(view.design.constants, view.kinematics, view.design.gravity,
+                                                                  accelerations, In<T>(view.control.rates).first(nodes));
 }
 
 /// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller demands of its joint.
 template <class T>
 T wanted_acceleration(const StateView<T>& view, int controller) {
-  const T acceleration = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t).acceleration;
-  return acceleration + pid_output(view, controller);
+  const T acceleration = view.controller_numbers(controller).setpoint.at(view.state->t).acceleration;
+  return acceleration + error_values(view, controller).pid();
 }
 
 /// u_k = tau_k(alpha) of (C6). The controllers of this kind form one law: alpha holds the accelerations that all of them demand, and zero
 /// for joints without a demand.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller) {
-  const std::vector<DrivenTree::Node>& nodes = view.system.controllers()[static_cast<std::size_t>(controller)].tree.nodes;
+  const std::vector<DrivenTree::Node>& nodes = view.controller(controller).tree.nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     view.control.accelerations[k] = nodes[k].controller < 0 ? T(0.0) : wanted_acceleration(view, nodes[k].controller);
     if (nodes[k].rotor) view.control.rates[k] = view.coordinate(nodes[k].pair, 0, CoordinateDetail::kRate).rate;
@@ -95,51 +91,49 @@ T computed_torque(const StateView<T>& view, int controller) {
   return inverse_dynamics_load(view, controller, In<T>(view.control.accelerations).first(static_cast<std::ptrdiff_t>(nodes.size())));
 }
 
-/// u = u_0(t) - sum of K_i (x_i - r_i(t)), theory (C7).
+/// u_0(t) - sum of K_i (x_i - r_i(t)), theory (C7).
 template <class T>
 T state_feedback(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  const ControllerConstants<T>& k = view.design.controllers[c];
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
   T output = k.feedforward.at(view.state->t).value;
   for (std::size_t term = 0; term < k.gains.size(); ++term)
-    output +=
-        k.gains[term] * (k.references[term].at(view.state->t).value - signal_value(view, view.system.controllers()[c].feedback[term]));
+    output += k.gains[term] * (k.references[term].at(view.state->t).value - signal_value(view, view.controller(controller).feedback[term]));
   return output;
+}
+
+/// The values that the law of a controller reads.
+template <class T>
+ControlValues<T> control_values(const StateView<T>& view, int controller) {
+  const ControlLaw& law = *view.controller(controller).kind;
+  ControlValues<T> x;
+  if (law.has_error() && law.load != ControlLoad::kDemanded) x = error_values(view, controller);
+  if (law.load == ControlLoad::kAtRest) x.load = inverse_dynamics_load(view, controller, {});
+  if (law.load == ControlLoad::kDemanded) x.load = computed_torque(view, controller);
+  if (law.input == ControlInput::kFeedback) x.given = state_feedback(view, controller);
+  if (law.input == ControlInput::kShape) x.given = view.controller_numbers(controller).shape.at(view.state->t).value;
+  return x;
 }
 
 /// The output of a continuous control law [unit of the output], before any limit.
 template <class T>
 T law_output(const StateView<T>& view, int controller) {
-  switch (view.system.controllers()[static_cast<std::size_t>(controller)].kind) {
-    case ControllerKind::kPid:
-      return pid_output(view, controller);
-    case ControllerKind::kPdGravity:
-      return pid_output(view, controller) + inverse_dynamics_load(view, controller, {});
-    case ControllerKind::kComputedTorque:
-      return computed_torque(view, controller);
-    case ControllerKind::kStateFeedback:
-      return state_feedback(view, controller);
-    case ControllerKind::kBasis:
-      break;
-  }
-  return view.design.controllers[static_cast<std::size_t>(controller)].shape.at(view.state->t).value;  // u(t) of (C8)
+  return view.controller(controller).kind->output.template of<T>(control_values(view, controller));
 }
 
 /// The output u of a controller [N or N m], positive along the coordinate that it drives, before the actuator's limit (13c): of a sampled
 /// controller the held output, else the output of the law within output_limit, (50).
 template <class T>
 T controller_output(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  const int held = view.system.controllers()[c].states.held;
+  const int held = view.controller(controller).states.held;
   if (held >= 0) return view.state->s[held];
   const T output = law_output(view, controller);
-  return realization_of(view, controller).output_limit ? saturate(output, view.design.controllers[c].output_limit).value : output;
+  return realization_of(view, controller).output_limit ? saturate(output, view.controller_numbers(controller).output_limit).value : output;
 }
 
 /// The effort of the drive: the effort after its lag, (53), else the output itself.
 template <class T>
 T drive_effort(const StateView<T>& view, int controller) {
-  const int lag = view.system.controllers()[static_cast<std::size_t>(controller)].states.lag;
+  const int lag = view.controller(controller).states.lag;
   return lag < 0 ? controller_output(view, controller) : T(view.state->s[lag]);
 }
 

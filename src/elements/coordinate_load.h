@@ -22,13 +22,13 @@ void add_load_on_bodies(const StateView<T>& view, Workspace<T>* workspace, int p
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = view.column(pair, local); c >= 0) (*G)[c] += J[local] * load;
   if (!view.layout.has_forest()) return;
-  const Pair& p = view.system.topology().pairs[static_cast<std::size_t>(pair)];
+  const Pair& p = view.pair(pair);
   for (Side side : {Side::kI, Side::kJ}) {
     const int body = side == Side::kI ? p.body_i : p.body_j;
     if (body < 0 || view.layout.is_free(body)) continue;
     const Wrench<T> wrench = load_on_side(view.body(body), side, J, load);
-    workspace->own[static_cast<std::size_t>(body)].force += wrench.force;
-    workspace->own[static_cast<std::size_t>(body)].moment += wrench.moment;
+    workspace->own[to_index(body)].force += wrench.force;
+    workspace->own[to_index(body)].moment += wrench.moment;
   }
 }
 
@@ -50,12 +50,12 @@ void add_slip_load(const StateView<T>& view, Workspace<T>* workspace, int pair, 
     add_load_on_bodies(view, workspace, pair, J, load, G);
     return;
   }
-  const auto p = static_cast<std::size_t>(pair);
+  const auto p = to_index(pair);
   const int body = view.layout.forest.body_below[p], c = view.layout.column(body);
   const PairConstants<T>& constants = view.design.constants.pairs[p];
   std::array<T, 6> rows;
-  carry_back(load_on_side(view.body(body), Side::kJ, J, load), constants, view.motion.poses[static_cast<std::size_t>(body)],
-             view.state->q.data() + c, rows.data());
+  carry_back(load_on_side(view.body(body), Side::kJ, J, load), constants, view.motion.poses[to_index(body)], view.state->q.data() + c,
+             rows.data());
   for (std::size_t k = 0; k < constants.steps.size(); ++k) (*G)[c + static_cast<int>(k)] += rows[k];
 }
 

@@ -55,8 +55,8 @@ void set_constant_loads(const System& system, Design<T>* design) {
   for (const LoadDescription& load : system.study().loads) design->efforts.push_back(load.effort.at(parameters));
   design->wrenches.clear();
   for (const LinkLoad& on_link : system.link_loads()) {
-    const LoadDescription& load = system.study().loads[static_cast<std::size_t>(on_link.load)];
-    const LinkConstants<T>& link = design->constants.links[static_cast<std::size_t>(on_link.link)];
+    const LoadDescription& load = system.study().loads[to_index(on_link.load)];
+    const LinkConstants<T>& link = design->constants.links[to_index(on_link.link)];
     const auto vector = [&parameters](const QuantityVector& q) {
       return Vector3<T>(q[0].at(parameters), q[1].at(parameters), q[2].at(parameters));
     };
@@ -72,7 +72,7 @@ void set_constant_loads(const System& system, Design<T>* design) {
 template <class T>
 void Design<T>::set(const System& system, const std::vector<T>& values) {
   parameters = values;
-  for (int k = 0; k < 3; ++k) gravity[k] = T(system.study().gravity[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k) gravity[k] = T(system.study().gravity[to_index(k)]);
   evaluate_constants(system.robot(), system.topology(), parameters, &mass_workspace, &constants);
   set_constant_loads(system, this);
   rows.resize(constants.pairs.size());

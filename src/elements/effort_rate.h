@@ -11,19 +11,17 @@ namespace codesign {
 /// r' - x' or r'' - x'', the k-th derivative of the error of a PID, k = 1 or 2.
 template <class T>
 T error_derivative(const StateView<T>& view, int controller, int k) {
-  const auto c = static_cast<std::size_t>(controller);
-  const ReferenceMotion<T> setpoint = view.design.controllers[c].setpoint.at(view.state->t);
-  const Signal& signal = view.system.controllers()[c].output_rate[static_cast<std::size_t>(k - 1)];
+  const ReferenceMotion<T> setpoint = view.controller_numbers(controller).setpoint.at(view.state->t);
+  const Signal& signal = view.controller(controller).output_rate[to_index(k - 1)];
   return (k == 1 ? setpoint.rate : setpoint.acceleration) - signal_value(view, signal);
 }
 
 /// The rate of the integral term of a PID.
 template <class T>
 T integral_term_rate(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  const ControllerConstants<T>& k = view.design.controllers[c];
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
   const ControlRealization& realization = realization_of(view, controller);
-  const int s = view.system.controllers()[c].state;
+  const int s = view.controller(controller).state;
   if (s < 0) return T(0.0);
   const T rate = k.pid.i * integral_rate(view, controller);
   if (!realization.i_clamp || realization.antiwindup) return rate;
@@ -33,34 +31,31 @@ T integral_term_rate(const StateView<T>& view, int controller) {
 /// k_d times the rate of e', or of the filtered e'.
 template <class T>
 T derivative_term_rate(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  const ControllerConstants<T>& k = view.design.controllers[c];
-  if (view.system.study().controllers[c].d.is_zero()) return T(0.0);
-  if (view.system.controllers()[c].states.filter < 0) return k.pid.d * error_derivative(view, controller, 2);
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
+  if (view.system.study().controllers[to_index(controller)].d.is_zero()) return T(0.0);
+  if (view.controller(controller).states.filter < 0) return k.pid.d * error_derivative(view, controller, 2);
   return k.pid.d / k.derivative_filter * (error_derivative(view, controller, 1) - filtered_error_rate(view, controller));
 }
 
 /// The rate of the output by the law of a continuous controller; Controller::has_output_rate must be true.
 template <class T>
 T law_rate(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  const ControllerConstants<T>& k = view.design.controllers[c];
-  if (view.system.controllers()[c].kind == ControllerKind::kPid)
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
+  if (view.controller(controller).kind->is_pid)
     return k.pid.p * error_derivative(view, controller, 1) + integral_term_rate(view, controller) + derivative_term_rate(view, controller);
   T sum = k.feedforward.at(view.state->t).rate;
   for (std::size_t term = 0; term < k.gains.size(); ++term)
-    sum += k.gains[term] * (k.references[term].at(view.state->t).rate - signal_value(view, view.system.controllers()[c].output_rate[term]));
+    sum += k.gains[term] * (k.references[term].at(view.state->t).rate - signal_value(view, view.controller(controller).output_rate[term]));
   return sum;
 }
 
 /// The rate of drive_effort().
 template <class T>
 T drive_effort_rate(const StateView<T>& view, int controller) {
-  const auto c = static_cast<std::size_t>(controller);
-  if (view.system.controllers()[c].states.lag >= 0) return lag_rate(view, controller);
+  if (view.controller(controller).states.lag >= 0) return lag_rate(view, controller);
   const T rate = law_rate(view, controller);
   if (!realization_of(view, controller).output_limit) return rate;
-  return saturate(law_output(view, controller), view.design.controllers[c].output_limit).slope * rate;
+  return saturate(law_output(view, controller), view.controller_numbers(controller).output_limit).slope * rate;
 }
 
 /// The rate of applied_effort() [N m/s or N/s].
@@ -70,7 +65,7 @@ T applied_effort_rate(const StateView<T>& view, const JointLoad& load) {
   for (int controller : load.controllers) rate += drive_effort_rate(view, controller);
   if (!load.saturated) return rate;
   for (int controller : load.controllers) demand += drive_effort(view, controller);
-  const T& limit = view.design.constants.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
+  const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).slope * rate;
 }
 

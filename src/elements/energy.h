@@ -13,8 +13,7 @@ namespace codesign {
 /// The elastic energy of the torsion spring and of the stops of one joint coordinate, k (theta - theta_0)^2/2 and the integral of k delta.
 template <class T>
 T joint_energy(const StateView<T>& view, const JointLoad& load) {
-  const JointDynamicsConstants<T>& d =
-      view.design.constants.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)];
+  const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
   const T position = view.coordinate_value(load.pair, load.element);
   T energy(0.0);
   if (load.spring) {
@@ -35,7 +34,7 @@ T kinetic_energy(const StateView<T>& view) {
   T energy(0.0);
   for (int b = 0; b < view.layout.bodies; ++b) {
     const BodyKinematics<T>& k = view.body(b);
-    const BodyConstants<T>& constants = view.design.constants.bodies[static_cast<std::size_t>(b)];
+    const BodyConstants<T>& constants = view.design.constants.bodies[to_index(b)];
     const Vector3<T> omega = body_omega(k);
     energy += T(0.5) * (constants.mass * dot<T>(k.rd, k.rd) + dot<T>(omega, constants.J * omega));
   }
@@ -48,7 +47,7 @@ template <class T>
 T potential_energy(const StateView<T>& view) {
   T energy(0.0);
   for (int b = 0; b < view.layout.bodies; ++b) {
-    const T& mass = view.design.constants.bodies[static_cast<std::size_t>(b)].mass;
+    const T& mass = view.design.constants.bodies[to_index(b)].mass;
     energy -= mass * dot<T>(view.design.gravity, view.body(b).r);
   }
   for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) energy += spring_energy_at(view, k);

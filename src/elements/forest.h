@@ -27,7 +27,7 @@ void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* 
   for (std::size_t k = 0; k < view.design.rows.size(); ++k) pair_residual(view, workspace, k, G);
   for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) add_spring_load(view, workspace, k, spring_at(view, k));
   for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, workspace, k);
-  for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, workspace, static_cast<std::size_t>(b), G);
+  for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, workspace, to_index(b), G);
   for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) link_load_residual(view, workspace, k, G);
   for (const Rotor& rotor : system.rotors()) rotor_residual(view, workspace, rotor, G);
   for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) coupling_residual(view, workspace, k, G);
@@ -41,7 +41,7 @@ void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* 
 /// and the loads in the workspace, which are on the left of G.
 template <class T>
 Wrench<T> own_wrench(const StateView<T>& view, const Workspace<T>& workspace, int body) {
-  const auto b = static_cast<std::size_t>(body);
+  const auto b = to_index(body);
   const BodyConstants<T>& c = view.design.constants.bodies[b];
   const AxesMotion<T>& m = view.motion.bodies[b];
   const BodyLoad<T>& load = workspace.loads[b];
@@ -61,7 +61,7 @@ void sweep_back(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G
   for (Wrench<T>& wrench : transmitted) wrench = {};
   for (std::size_t k = layout.forest.order.size(); k-- > 0;) {
     const int body = layout.forest.order[k], c = layout.column(body);
-    const auto b = static_cast<std::size_t>(body), pair = static_cast<std::size_t>(layout.forest.pair_above[b]);
+    const auto b = to_index(body), pair = to_index(layout.forest.pair_above[b]);
     const PairConstants<T>& constants = view.design.constants.pairs[pair];
     const Wrench<T> own = own_wrench(view, *workspace, body);
     transmitted[b].force += own.force;
@@ -71,12 +71,12 @@ void sweep_back(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G
     for (std::size_t step = 0; step < constants.steps.size(); ++step) (*G)[c + static_cast<int>(step)] += rows[step];
     const int parent = view.system.topology().pairs[pair].body_i;
     if (parent < 0) continue;
-    transmitted[static_cast<std::size_t>(parent)].force += below.force;
-    transmitted[static_cast<std::size_t>(parent)].moment += below.moment;
+    transmitted[to_index(parent)].force += below.force;
+    transmitted[to_index(parent)].moment += below.moment;
   }
   for (int body = 0; body < layout.bodies && layout.has_forest(); ++body) {
     if (!layout.is_free(body)) continue;
-    const Wrench<T>& wrench = transmitted[static_cast<std::size_t>(body)];
+    const Wrench<T>& wrench = transmitted[to_index(body)];
     const int c = layout.column(body);
     G->template segment<3>(c) += view.body(body).A * wrench.force;
     G->template segment<4>(c + 3) += T(2.0) * body_rate_transposed(view.body(body).p, wrench.moment);
@@ -102,7 +102,7 @@ const Wrench<T>& transmitted_wrench(const StateView<T>& view, int body) {
     load_bodies(view, &memory.workspace, &memory.unused);
     sweep_back(view, &memory.workspace, &memory.unused);
   }
-  return memory.workspace.transmitted[static_cast<std::size_t>(body)];
+  return memory.workspace.transmitted[to_index(body)];
 }
 
 }  // namespace codesign

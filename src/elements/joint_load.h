@@ -4,10 +4,10 @@
 #include "elements/controllers.h"
 #include "elements/coordinate_load.h"
 #include "elements/joint_friction.h"
-#include "elements/joint_stop_load.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"
 #include "forces/brown_mcphee.h"
+#include "forces/joint_stop.h"
 #include "forces/saturation.h"
 
 namespace codesign {
@@ -19,7 +19,7 @@ namespace codesign {
 template <class T>
 T constant_effort(const StateView<T>& view, const JointLoad& load) {
   T sum(0.0);
-  for (int k : load.constant) sum += view.design.efforts[static_cast<std::size_t>(k)];
+  for (int k : load.constant) sum += view.design.efforts[to_index(k)];
   return sum;
 }
 
@@ -28,8 +28,7 @@ T constant_effort(const StateView<T>& view, const JointLoad& load) {
 template <class T>
 T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const T& rate) {
   constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
-  const JointDynamicsConstants<T>& d =
-      view.design.constants.pairs[static_cast<std::size_t>(pair)].dynamics[static_cast<std::size_t>(element)];
+  const JointDynamicsConstants<T>& d = view.dynamics(pair, element);
   T value(0.0);
   if (load.passive) {
     value = (d.damping + d.spring_damping) * rate;
@@ -39,13 +38,31 @@ T passive_load(const StateView<T>& view, int pair, int element, const JointLoad&
   return value;
 }
 
+/// L of both stops of a coordinate [N or N m], theory (13d): positive beyond the upper limit, negative beyond the lower one.
+/// @param rate of the coordinate. @param dissipation c of (13d) [s/m or s/rad]; 0 leaves the elastic part.
+template <class T>
+T stop_load(const StateView<T>& view, const JointLoad& load, const T& rate, double dissipation) {
+  const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
+  const LimitOptions& stop = view.system.study().limits;
+  const T position = view.coordinate_value(load.pair, load.element), below = d.lower - position, above = position - d.upper;
+  const T at_upper = joint_stop(above, rate, stop.stiffness, dissipation, stop.width);
+  return at_upper - joint_stop(below, T(-rate), stop.stiffness, dissipation, stop.width);
+}
+
+/// The part of stop_load() that takes energy from the motion, k delta (h - 1): the load less its elastic part.
+template <class T>
+T stop_dissipation(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  const T elastic = stop_load(view, load, rate, 0.0);
+  return stop_load(view, load, rate, view.system.study().limits.dissipation) - elastic;
+}
+
 /// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if the study enforces `<limit effort>`.
 template <class T>
 T applied_effort(const StateView<T>& view, const JointLoad& load) {
   T demand(0.0);
   for (int controller : load.controllers) demand += drive_effort(view, controller);
   if (!load.saturated) return demand;
-  const T& limit = view.design.constants.pairs[static_cast<std::size_t>(load.pair)].dynamics[static_cast<std::size_t>(load.element)].effort;
+  const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).value;
 }
 

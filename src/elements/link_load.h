@@ -15,7 +15,7 @@ template <class T>
 void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
   if (load.turns) return;
-  BodyLoad<T>& on_body = workspace->loads[static_cast<std::size_t>(load.body)];
+  BodyLoad<T>& on_body = workspace->loads[to_index(load.body)];
   on_body.force -= view.design.wrenches[k].force;
   on_body.W -= view.design.wrenches[k].force * view.design.wrenches[k].point.transpose();
 }
@@ -28,7 +28,7 @@ void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::
   const ConstantWrench<T>& wrench = view.design.wrenches[k];
   const BodyKinematics<T>& on = view.body(load.body);
   if (on.in_forest) {
-    Wrench<T>& own = workspace->own[static_cast<std::size_t>(load.body)];
+    Wrench<T>& own = workspace->own[to_index(load.body)];
     if (load.turns) own.force -= wrench.force;
     own.moment -= load.turns ? wrench.torque : Vector3<T>(on.A.transpose() * wrench.torque);
     return;

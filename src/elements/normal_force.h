@@ -2,7 +2,6 @@
 #pragma once
 
 #include "elements/state_view.h"
-#include "forces/normal_force.h"
 
 namespace codesign {
 
@@ -16,27 +15,22 @@ const Wrench<T>& transmitted_wrench(const StateView<T>& view, int body);
 /// pair_reaction() of a pair of the forest: the part that the pair constrains of the wrench that it transmits, about the point of body j.
 template <class T>
 void forest_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T>* torque) {
-  const auto p = static_cast<std::size_t>(index);
-  const PairTraits& traits = traits_of(view.system.topology().pairs[p].kind);
-  const PairConstants<T>& pair = view.design.constants.pairs[p];
-  const int body = view.layout.forest.body_below[p];
+  const JointLaw& joint = *view.pair(index).kind;
+  const PairConstants<T>& pair = view.constants(index);
+  const int body = view.layout.forest.body_below[to_index(index)];
   const Wrench<T>& wrench = transmitted_wrench(view, body);
-  const Matrix3<T>& R = view.motion.poses[static_cast<std::size_t>(body)].R;
+  const Matrix3<T>& R = view.motion.poses[to_index(body)].R;
   const auto in_joint_axes = [&](const Vector3<T>& x) { return Vector3<T>(-(pair.C_i.transpose() * Vector3<T>(R * x))); };
   const Vector3<T> force = in_joint_axes(wrench.force);
   F->setZero();
   torque->setZero();
-  if (traits.force == ForceRows::kAll) *F = force;
-  if (traits.force == ForceRows::kAcross) *F = Vector3<T>(force[0], force[1], T(0.0));
-  if (traits.force == ForceRows::kAlong) (*F)[2] = force[2];
-  if (!traits.torque_rows) return;
-  const int forces = traits.force == ForceRows::kAll      ? 3
-                     : traits.force == ForceRows::kAcross ? 2
-                     : traits.force == ForceRows::kAlong  ? 1
-                                                          : 0;
+  if (joint.force == ForceRows::kAll) *F = force;
+  if (joint.force == ForceRows::kAcross) *F = Vector3<T>(force[0], force[1], T(0.0));
+  if (joint.force == ForceRows::kAlong) (*F)[2] = force[2];
+  if (!joint.torque_rows) return;
   const Vector3<T> moment = in_joint_axes(Vector3<T>(wrench.moment - cross<T>(pair.s_j, wrench.force)));
   for (int k = 0; k < 2; ++k) (*torque)[k] = moment[k];
-  if (traits.rows - forces > 2) (*torque)[2] = moment[2];
+  if (joint.rows - joint.force_rows() > 2) (*torque)[2] = moment[2];
 }
 
 /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, read from the multipliers, theory (11); the child feels -F''
@@ -47,49 +41,29 @@ void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T
     forest_reaction(view, index, F, torque);
     return;
   }
-  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
-  const PairTraits& traits = traits_of(pair.kind);
-  const int row = view.layout.lambda_column(view.layout.pair_row[static_cast<std::size_t>(index)]);
-  const auto lambda = [&view, row](int k) { return view.state->z[row + k]; };
+  const Pair& pair = view.pair(index);
+  const JointLaw& joint = *pair.kind;
+  const int row = view.layout.lambda_column(view.layout.pair_row[to_index(index)]), next = row + joint.force_rows();
+  const VectorX<T>& z = view.state->z;
   F->setZero();
   torque->setZero();
-  int next = 0;
-  if (traits.force == ForceRows::kAll) {
-    const Vector3<T> on_child = view.state->z.template segment<3>(row);
-    *F = view.design.constants.pairs[static_cast<std::size_t>(index)].C_i.transpose() * (view.body(pair.body_i).A.transpose() * on_child);
-    next = 3;
-  } else if (traits.force == ForceRows::kAcross) {
-    *F = Vector3<T>(lambda(0), lambda(1), T(0.0));
-    next = 2;
-  } else if (traits.force == ForceRows::kAlong) {
-    (*F)[2] = lambda(0);
-    next = 1;
+  if (joint.force == ForceRows::kAll) {
+    const Vector3<T> on_child = z.template segment<3>(row);
+    *F = view.constants(index).C_i.transpose() * (view.body(pair.body_i).A.transpose() * on_child);
   }
-  if (!traits.torque_rows || traits.rows < next + 2) return;
-  (*torque)[1] = lambda(next);
-  (*torque)[0] = -lambda(next + 1);
-  if (traits.rows > next + 2) (*torque)[2] = lambda(next + 2);
+  if (joint.force == ForceRows::kAcross) *F = Vector3<T>(z[row], z[row + 1], T(0.0));
+  if (joint.force == ForceRows::kAlong) (*F)[2] = z[row];
+  if (!joint.torque_rows || joint.rows < joint.force_rows() + 2) return;
+  *torque = Vector3<T>(-z[next + 1], z[next], T(0.0));
+  if (joint.rows > joint.force_rows() + 2) (*torque)[2] = z[next + 2];
 }
 
-/// The normal force N [N] in the bearing of a pair, theory (12); the kind of pair chooses the formula.
+/// The normal force N [N] in the bearing of a pair, theory (12); its joint must have a BearingLaw.
 template <class T>
 T normal_force(const StateView<T>& view, int pair) {
-  const FrictionConstants<T>& c = view.design.constants.pairs[static_cast<std::size_t>(pair)].friction;
   Vector3<T> F, torque;
   pair_reaction(view, pair, &F, &torque);
-  switch (traits_of(view.system.topology().pairs[static_cast<std::size_t>(pair)].kind).bearing) {
-    case BearingLaw::kTranslational:
-      return translational_normal_force(F, torque, c);
-    case BearingLaw::kRevolute:
-      return revolute_normal_force(F, torque, c);
-    case BearingLaw::kPlane:
-      return planar_normal_force(F, c);
-    case BearingLaw::kBall:
-      return ball_normal_force(F, c);
-    case BearingLaw::kPin:
-      break;
-  }
-  return pin_normal_force(F, torque, c);
+  return view.pair(pair).kind->bearing.normal_force.template of<T>(F, torque, view.constants(pair).friction);
 }
 
 }  // namespace codesign

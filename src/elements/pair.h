@@ -49,7 +49,7 @@ void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
 /// @param errors, rates one value per row of the pair.
 template <class T>
 void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) {
-  const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(pair)];
+  const PairRows<T>& rows = view.design.rows[to_index(pair)];
   assert(errors.size() == rows.size() && rates.size() == rows.size());
   T *error = errors.data(), *rate = rates.data();
   if (rows.coincident) {

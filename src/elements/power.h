@@ -64,13 +64,13 @@ T total_power(const StateView<T>& view, PowerKind kind) {
 /// The power of one kind in one joint: a pair and the index in its chain. Spring-dampers and loads on links belong to no joint.
 template <class T>
 T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
-  const Pair& p = view.system.topology().pairs[static_cast<std::size_t>(pair)];
+  const Pair& p = view.pair(pair);
   const auto elements = static_cast<int>(p.chain.size());
   T sum(0.0);
   // A cylindrical loop is one joint with two coordinates: the index of the second one is beyond the chain.
   for (const JointLoad& load : view.system.loads())
     if (load.pair == pair && (load.element == element || load.element >= elements)) sum += load_power(view, kind, load);
-  const bool holds_friction = p.chain[static_cast<std::size_t>(element)].joint == p.friction_joint;
+  const bool holds_friction = p.chain[to_index(element)].joint == p.friction_joint;
   if (kind == PowerKind::kFriction && holds_friction && slips_isotropically(p.kind)) sum -= contact_at(view, pair).power();
   return sum;
 }

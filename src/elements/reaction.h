@@ -3,7 +3,6 @@
 
 #include "elements/contact.h"
 #include "elements/joint_load.h"
-#include "elements/reaction_axis.h"
 #include "elements/rotor.h"
 #include "elements/state_view.h"
 #include "joints/pair_motion.h"
@@ -13,12 +12,30 @@ namespace codesign {
 // The wrench of a joint on its child, theory (11a): one component of the force [N] or of the torque [N m], in the axes of the joint frame
 // that the child carries.
 
+/// One component of the wrench of a joint on its child: the force along, or the torque about, an axis of the joint frame that the child
+/// carries; theory (11a).
+template <class T>
+struct ReactionAxis {
+  int pair = -1;
+  Side side = Side::kJ;  ///< side of the pair that the child is on
+  int body = -1;         ///< the child; -1 if it is the ground
+  bool torque = false;   ///< torque about the axis through s, else force along the axis
+  Vector3<T> e, s;       ///< axis and origin of the joint frame, in body coordinates
+
+  /// The vector d of (11a) in body axes: a load b on the child's vector A s_t contributes (A d) . b to the component. d is e for a force,
+  /// e x (s_t - s) for a torque and a point, e x s_t for a torque and a direction. @param point whether A s_t is a point or a direction.
+  Vector3<T> lever(const Vector3<T>& s_t, bool point) const {
+    if (!torque) return e;
+    return cross<T>(e, point ? Vector3<T>(s_t - s) : s_t);
+  }
+};
+
 /// The axis and the origin of the joint frame for one component of a reaction signal.
 template <class T>
 ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& term) {
-  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(term.pair)];
-  const ChainElement& element = pair.chain[static_cast<std::size_t>(term.element)];
-  const LinkConstants<T>& frame = view.design.constants.joint_frames[static_cast<std::size_t>(element.joint)];
+  const Pair& pair = view.pair(term.pair);
+  const ChainElement& element = pair.chain[to_index(term.element)];
+  const LinkConstants<T>& frame = view.design.constants.joint_frames[to_index(element.joint)];
   ReactionAxis<T> axis;
   axis.pair = term.pair;
   axis.side = element.reversed ? Side::kI : Side::kJ;
@@ -34,7 +51,7 @@ ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& t
 /// @param lambda the row's multiplier.
 template <class T>
 T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const ProductRow<T>& product, const T& lambda) {
-  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(axis.pair)];
+  const Pair& pair = view.pair(axis.pair);
   const BodyKinematics<T>&i = view.body(pair.body_i), &j = view.body(pair.body_j), &child = view.body(axis.body);
   T value(0.0);
   const auto add = [&](const PairVector<T>& own, const PairVector<T>& partner) {
@@ -53,8 +70,8 @@ T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const 
 /// The contribution of all constraint rows of the pair.
 template <class T>
 T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
-  const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(axis.pair)];
-  int row = view.layout.lambda_column(view.layout.pair_row[static_cast<std::size_t>(axis.pair)]);
+  const PairRows<T>& rows = view.design.rows[to_index(axis.pair)];
+  int row = view.layout.lambda_column(view.layout.pair_row[to_index(axis.pair)]);
   T value(0.0);
   if (rows.coincident) {
     // The multipliers are the force at the joint's point: -lambda acts on body j, +lambda on body i. Either may be the child.

@@ -22,8 +22,7 @@ struct RotorMotion {
 /// Evaluates RotorMotion at the loaded state.
 template <class T>
 RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
-  const JointDynamicsConstants<T>& d =
-      view.design.constants.pairs[static_cast<std::size_t>(rotor.pair)].dynamics[static_cast<std::size_t>(rotor.element)];
+  const JointDynamicsConstants<T>& d = view.dynamics(rotor.pair, rotor.element);
   const BodyKinematics<T>& carrier = view.body(rotor.body);
   RotorMotion<T> m;
   m.axis = d.rotor_axis;
@@ -68,7 +67,7 @@ void rotor_residual(const StateView<T>& view, Workspace<T>* workspace, const Rot
   if (rotor.body < 0) return;
   const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
   if (!view.layout.is_free(rotor.body)) {
-    workspace->own[static_cast<std::size_t>(rotor.body)].moment += moment;
+    workspace->own[to_index(rotor.body)].moment += moment;
     return;
   }
   G->template segment<4>(view.layout.column(rotor.body) + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);

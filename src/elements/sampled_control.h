@@ -16,16 +16,15 @@ T measured_error(const StateView<T>& view, int controller) {
   const T error = controller_error(view, controller);
   const double quantum = realization_of(view, controller).quantization;
   if (!(quantum > 0.0)) return error;
-  const T setpoint = view.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view.state->t).value;
+  const T setpoint = view.controller_numbers(controller).setpoint.at(view.state->t).value;
   return setpoint - T(quantum) * nearest_integer(T((setpoint - error) / T(quantum)));
 }
 
 /// The output of a PID at a sample, before its limit; updates its memory.
 template <class T>
 T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
-  const auto c = static_cast<std::size_t>(controller);
-  const Controller& resolved = view.system.controllers()[c];
-  const ControllerConstants<T>& k = view.design.controllers[c];
+  const Controller& resolved = view.controller(controller);
+  const ControllerConstants<T>& k = view.controller_numbers(controller);
   const ControlRealization& realization = realization_of(view, controller);
   const auto read = [s](int state) { return state < 0 ? T(0.0) : T((*s)[state]); };
   const auto write = [s](int state, const T& value) {
@@ -44,16 +43,15 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
 /// The output of a controller at a sample, within its limit; updates its memory in `s`.
 template <class T>
 T sample_controller(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
-  const auto c = static_cast<std::size_t>(controller);
-  const T output = view.system.controllers()[c].kind == ControllerKind::kPid ? sampled_pid_output(view, controller, is_first, s)
-                                                                             : law_output(view, controller);
-  return realization_of(view, controller).output_limit ? clamp(output, view.design.controllers[c].output_limit) : output;
+  const T output =
+      view.controller(controller).kind->is_pid ? sampled_pid_output(view, controller, is_first, s) : law_output(view, controller);
+  return realization_of(view, controller).output_limit ? clamp(output, view.controller_numbers(controller).output_limit) : output;
 }
 
 /// The extra state that an event writes an output to (kSample) or reads one from (kApply): the output in effect, or a place in the queue of
 /// delayed ones.
 inline int output_state(const System& system, const ControlEvent& event) {
-  const auto c = static_cast<std::size_t>(event.controller);
+  const auto c = to_index(event.controller);
   const ControllerStates& states = system.controllers()[c].states;
   const int queued = system.study().controllers[c].realization.queued();
   return queued == 0 ? states.held : states.queue + static_cast<int>(event.sample % queued);
@@ -64,7 +62,7 @@ template <class T, class Sample>
 void jump_controller(const System& system, const ControlEvent& event, const Sample& sample, VectorX<T>* s) {
   const int place = output_state(system, event);
   if (event.kind == ControlEvent::Kind::kApply)
-    (*s)[system.controllers()[static_cast<std::size_t>(event.controller)].states.held] = T((*s)[place]);
+    (*s)[system.controllers()[to_index(event.controller)].states.held] = T((*s)[place]);
   else
     (*s)[place] = sample(event.controller, event.sample == 0);
 }
@@ -73,7 +71,7 @@ void jump_controller(const System& system, const ControlEvent& event, const Samp
 /// @param sample as of jump_controller(). @param error controller -> its error.
 template <class T, class Sample, class Error>
 void begin_controller(const System& system, int controller, const Sample& sample, const Error& error, VectorX<T>* s) {
-  const auto c = static_cast<std::size_t>(controller);
+  const auto c = to_index(controller);
   const int filter = system.controllers()[c].states.filter;
   if (system.study().controllers[c].realization.is_sampled())
     jump_controller(system, {ControlEvent::Kind::kSample, controller, 0}, sample, s);

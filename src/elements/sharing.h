@@ -20,9 +20,7 @@ constexpr double kLoadUnit = 1e-4;
 /// 1 if a row is dropped, 0 if it is enforced; a number, since compiled code takes it as an input. The row must have a mu.
 template <class T>
 T is_dropped(const StateView<T>& view, int row) {
-  return T(
-      view.state
-          ->turns[static_cast<std::size_t>(view.layout.drop_slot + view.system.sharing_layout().miss_slot[static_cast<std::size_t>(row)])]);
+  return T(view.state->turns[to_index(view.layout.drop_slot + view.system.sharing_layout().miss_slot[to_index(row)])]);
 }
 
 /// Sets Workspace::displaced to the bodies' positions with w as acceleration, and Workspace::shared_loads to zero. Must be called before
@@ -36,8 +34,8 @@ void load_sharing(const StateView<T>& view, Workspace<T>* workspace) {
     carrier.A = view.body(b).A;
   }
   for (int b : view.system.sharing_layout().bodies) {
-    const BodyKinematics<T>& from = view.kinematics[static_cast<std::size_t>(b)];
-    BodyKinematics<T>& k = workspace->displaced[static_cast<std::size_t>(b)];
+    const BodyKinematics<T>& from = view.kinematics[to_index(b)];
+    BodyKinematics<T>& k = workspace->displaced[to_index(b)];
     const int w = view.system.sharing_layout().displacement(b);
     k.r = from.r;
     k.p = from.p;
@@ -45,8 +43,8 @@ void load_sharing(const StateView<T>& view, Workspace<T>* workspace) {
     k.rdd = view.state->z.template segment<3>(w);
     k.pdd = view.state->z.template segment<4>(w + 3);
     k.Add = rotation_derivative(k.p, k.pdd);
-    workspace->shared_loads[static_cast<std::size_t>(b)].force.setZero();
-    workspace->shared_loads[static_cast<std::size_t>(b)].W.setZero();
+    workspace->shared_loads[to_index(b)].force.setZero();
+    workspace->shared_loads[to_index(b)].W.setZero();
   }
 }
 
@@ -69,11 +67,11 @@ void share_row(const StateView<T>& view, int row, const T& given, VectorX<T>* G)
 /// share_row() for all rows of a pair; adds the loads Phi_q^T eta to Workspace::shared_loads.
 template <class T>
 void share_pair(const StateView<T>& view, Workspace<T>* workspace, int index, VectorX<T>* G) {
-  const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(index)];
-  const PairRows<T>& rows = view.design.rows[static_cast<std::size_t>(index)];
+  const Pair& pair = view.pair(index);
+  const PairRows<T>& rows = view.design.rows[to_index(index)];
   const BodyKinematics<T>&i = workspace->displaced_body(pair.body_i), &j = workspace->displaced_body(pair.body_j);
   BodyLoad<T>*load_i = workspace->shared_load_on(pair.body_i), *load_j = workspace->shared_load_on(pair.body_j);
-  int row = view.layout.pair_row[static_cast<std::size_t>(index)];
+  int row = view.layout.pair_row[to_index(index)];
   if (rows.coincident) {
     const Vector3<T>&s_i = rows.point(Side::kI), &s_j = rows.point(Side::kJ);
     Vector3<T> given = Vector3<T>::Zero();
@@ -96,18 +94,18 @@ void share_pair(const StateView<T>& view, Workspace<T>* workspace, int index, Ve
 /// share_row() for a coupling; adds its load J_k^T c_k eta to the rows of w.
 template <class T>
 void share_coupling(const StateView<T>& view, Workspace<T>* workspace, int index, VectorX<T>* G) {
-  const auto k = static_cast<std::size_t>(index);
+  const auto k = to_index(index);
   const SharingLayout& at = view.system.sharing_layout();
   const int row = view.layout.coupling_row(index);
   const T eta = view.state->z[at.load(row)];
   T given(0.0);
   for (std::size_t t = 0; t < view.system.topology().couplings[k].terms.size(); ++t) {
     const CouplingTerm& term = view.system.topology().couplings[k].terms[t];
-    const Pair& pair = view.system.topology().pairs[static_cast<std::size_t>(term.pair)];
+    const Pair& pair = view.pair(term.pair);
     const T c = view.design.constants.couplings[k].coefficients[t];
-    const CoordinateMotion<T> motion = coordinate_motion(
-        view.design.constants.pairs[static_cast<std::size_t>(term.pair)], view.coordinate_constants(term.pair, term.element),
-        workspace->displaced_body(pair.body_i), workspace->displaced_body(pair.body_j), CoordinateDetail::kAcceleration);
+    const CoordinateMotion<T> motion =
+        coordinate_motion(view.constants(term.pair), view.coordinate_constants(term.pair, term.element),
+                          workspace->displaced_body(pair.body_i), workspace->displaced_body(pair.body_j), CoordinateDetail::kAcceleration);
     given += c * motion.acceleration;
     for (int local = 0; local < kLocalSize; ++local) {
       const int body = local < kBodySize ? pair.body_i : pair.body_j;
@@ -126,7 +124,7 @@ void sharing_residual(const StateView<T>& view, Workspace<T>* workspace, VectorX
   for (int k : view.system.sharing().couplings) share_coupling(view, workspace, k, G);
   for (int b : at.bodies) {
     const BodyKinematics<T>& k = workspace->displaced_body(b);
-    const BodyLoad<T>& load = workspace->shared_loads[static_cast<std::size_t>(b)];
+    const BodyLoad<T>& load = workspace->shared_loads[to_index(b)];
     const int w = at.displacement(b), norm = at.load(view.layout.norm_row(b));
     G->template segment<3>(w) += kLoadUnit * k.rdd + load.force;
     G->template segment<4>(w + 3) += kLoadUnit * k.pdd + rotation_hessian_product(load.W, k.p) + view.state->z[norm] * k.p;

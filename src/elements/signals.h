@@ -27,8 +27,8 @@ T joint_term(const StateView<T>& view, const SignalReference& term) {
 /// One component of the position, velocity or acceleration of a link's origin, or of its angular velocity, in ground axes.
 template <class T>
 T link_term(const StateView<T>& view, const SignalReference& term) {
-  const BodyKinematics<T>& k = view.body(view.system.topology().link_body[static_cast<std::size_t>(term.link)]);
-  const Vector3<T>& s = view.design.constants.links[static_cast<std::size_t>(term.link)].s;
+  const BodyKinematics<T>& k = view.body(view.system.topology().link_body[to_index(term.link)]);
+  const Vector3<T>& s = view.design.constants.links[to_index(term.link)].s;
   switch (term.kind) {
     case SignalKind::kLinkPosition:
       return (k.r + k.A * s)[term.axis];
@@ -44,7 +44,7 @@ T link_term(const StateView<T>& view, const SignalReference& term) {
 /// One component of a link's quaternion in the root's axes: the body's p times a constant quaternion.
 template <class T>
 T orientation_term(const StateView<T>& view, const SignalReference& term) {
-  const auto link = static_cast<std::size_t>(term.link);
+  const auto link = to_index(term.link);
   const Vector4<T> p = body_parameters(view.system, view.design.constants, *view.state, view.system.topology().link_body[link]);
   return quaternion_product<T>(p, euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
 }
@@ -87,11 +87,11 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
     case SignalKind::kControllerErrorRate:
       return controller_error_rate(view, term.controller);
     case SignalKind::kControllerSetpoint:
-      return view.design.controllers[static_cast<std::size_t>(term.controller)].setpoint.at(view.state->t).value;
+      return view.controller_numbers(term.controller).setpoint.at(view.state->t).value;
     case SignalKind::kControllerSetpointRate:
-      return view.design.controllers[static_cast<std::size_t>(term.controller)].setpoint.at(view.state->t).rate;
+      return view.controller_numbers(term.controller).setpoint.at(view.state->t).rate;
     case SignalKind::kControllerIntegral:
-      return view.state->s[view.system.controllers()[static_cast<std::size_t>(term.controller)].state];
+      return view.state->s[view.controller(term.controller).state];
     case SignalKind::kContactFriction:
       return -contact_at(view, term.pair).magnitude();
     case SignalKind::kContactSpeed:

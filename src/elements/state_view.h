@@ -9,6 +9,7 @@
 #include "elements/workspace.h"
 #include "joints/coordinate.h"
 #include "math/elementary.h"
+#include "math/to_index.h"
 #include "system/forest_motion.h"
 #include "system/inverse_dynamics.h"
 #include "system/state.h"
@@ -55,14 +56,20 @@ struct StateView {
   /// Computes the motion of all bodies from q, v and the accelerations in z. @param at is kept as a pointer: it must stay alive and
   /// unchanged while the view is read.
   void load(const State<T>& at);
+  const Pair& pair(int index) const { return system.topology().pairs[to_index(index)]; }
+  const PairConstants<T>& constants(int pair) const { return design.constants.pairs[to_index(pair)]; }
+  /// Damping, springs, limits and actuator of a joint coordinate.
+  const JointDynamicsConstants<T>& dynamics(int pair, int element) const { return constants(pair).dynamics[to_index(element)]; }
+  const Controller& controller(int index) const { return system.controllers()[to_index(index)]; }
+  const ControllerConstants<T>& controller_numbers(int index) const { return design.controllers[to_index(index)]; }
   /// The motion of a body; -1 is the ground, a body at rest.
-  const BodyKinematics<T>& body(int index) const { return kinematics[static_cast<std::size_t>(index < 0 ? layout.bodies : index)]; }
+  const BodyKinematics<T>& body(int index) const { return kinematics[to_index(index < 0 ? layout.bodies : index)]; }
   /// The entry of q that belongs to one of the 14 local coordinates [r_i, p_i, r_j, p_j] of a pair; -1 if that body is not free. The
   /// same index is the row of motion in G and the column of the velocity and of the acceleration.
-  int column(int pair, int local) const { return columns[static_cast<std::size_t>(pair)][static_cast<std::size_t>(local)]; }
+  int column(int pair, int local) const { return columns[to_index(pair)][to_index(local)]; }
   /// The constants of a joint coordinate. @param element index in the pair's chain; a cylindrical loop has 0 (turn) and 1 (slide).
   const CoordinateConstants<T>& coordinate_constants(int pair, int element) const {
-    return design.constants.pairs[static_cast<std::size_t>(pair)].coordinates[static_cast<std::size_t>(element)];
+    return design.constants.pairs[to_index(pair)].coordinates[to_index(element)];
   }
   /// The motion of a joint coordinate, theory (8), with the members that `detail` includes; the position counts whole turns. The referenced
   /// object is overwritten when another state is loaded, or when more detail of the same coordinate is requested.
@@ -90,7 +97,7 @@ struct StateView {
 
 template <class T>
 StateView<T>::StateView(const System& of) : system(of), layout(of.layout()), motion(of.layout()), forest(of) {
-  kinematics.resize(static_cast<std::size_t>(layout.bodies) + 1);
+  kinematics.resize(to_index(layout.bodies) + 1);
   kinematics.back().at_rest = true;
   std::size_t nodes = 0;
   for (const Controller& controller : system.controllers()) {
@@ -102,7 +109,7 @@ StateView<T>::StateView(const System& of) : system(of), layout(of.layout()), mot
     std::array<int, kLocalSize>& of_pair = columns.emplace_back();
     for (int local = 0; local < kLocalSize; ++local) {
       const int body = local < kBodySize ? pair.body_i : pair.body_j;
-      of_pair[static_cast<std::size_t>(local)] = body < 0 || !layout.is_free(body) ? -1 : layout.column(body) + local % kBodySize;
+      of_pair[to_index(local)] = body < 0 || !layout.is_free(body) ? -1 : layout.column(body) + local % kBodySize;
     }
   }
 }
@@ -121,7 +128,7 @@ void StateView<T>::load(const State<T>& at) {
   state = &at;
   for (int b = 0; b < layout.bodies; ++b) {
     if (!layout.is_free(b)) continue;
-    BodyKinematics<T>& k = kinematics[static_cast<std::size_t>(b)];
+    BodyKinematics<T>& k = kinematics[to_index(b)];
     const int c = layout.column(b);
     k.r = at.q.template segment<3>(c);
     k.p = at.q.template segment<4>(c + 3);
@@ -134,18 +141,18 @@ void StateView<T>::load(const State<T>& at) {
   }
   if (!layout.has_forest()) return;
   sweep_out(system, design.constants, design.gravity, at.q.data(), at.v.data(), at.z.data(), &motion);
-  for (int b : layout.forest.order) set_forest_kinematics(motion.body(b), design.gravity, &kinematics[static_cast<std::size_t>(b)]);
+  for (int b : layout.forest.order) set_forest_kinematics(motion.body(b), design.gravity, &kinematics[to_index(b)]);
 }
 
 template <class T>
 const CoordinateMotion<T>& StateView<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
-  KnownCoordinate<T>& known = coordinates[static_cast<std::size_t>(pair)][static_cast<std::size_t>(element)];
+  KnownCoordinate<T>& known = coordinates[to_index(pair)][to_index(element)];
   if (known.version == version && known.detail >= detail) return known.motion;
   known.version = version;
   known.detail = detail;
-  const Pair& p = system.topology().pairs[static_cast<std::size_t>(pair)];
-  const PairConstants<T>& c = design.constants.pairs[static_cast<std::size_t>(pair)];
-  known.motion = coordinate_motion(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j), detail);
+  const Pair& p = system.topology().pairs[to_index(pair)];
+  const PairConstants<T>& c = design.constants.pairs[to_index(pair)];
+  known.motion = coordinate_motion(c, c.coordinates[to_index(element)], body(p.body_i), body(p.body_j), detail);
   if (const int own = layout.element_column(pair, element); own >= 0) {
     known.motion.position = state->q[own];
     known.motion.rate = state->v[own];
@@ -159,16 +166,16 @@ const CoordinateMotion<T>& StateView<T>::coordinate(int pair, int element, Coord
 template <class T>
 T StateView<T>::coordinate_value(int pair, int element) const {
   if (const int own = layout.element_column(pair, element); own >= 0) return state->q[own];
-  const Pair& p = system.topology().pairs[static_cast<std::size_t>(pair)];
-  const PairConstants<T>& c = design.constants.pairs[static_cast<std::size_t>(pair)];
-  const T position = coordinate_position(c, c.coordinates[static_cast<std::size_t>(element)], body(p.body_i), body(p.body_j));
+  const Pair& p = system.topology().pairs[to_index(pair)];
+  const PairConstants<T>& c = design.constants.pairs[to_index(pair)];
+  const T position = coordinate_position(c, c.coordinates[to_index(element)], body(p.body_i), body(p.body_j));
   return position + whole_turns(pair, element, position);
 }
 
 template <class T>
 T StateView<T>::whole_turns(int pair, int element, const T& position) const {
   if (coordinate_constants(pair, element).kind == CoordinateConstants<T>::Kind::kSlide) return T(0.0);
-  return nearest_turns(state->turns[static_cast<std::size_t>(layout.turn(pair, element))], position);
+  return nearest_turns(state->turns[to_index(layout.turn(pair, element))], position);
 }
 
 }  // namespace codesign

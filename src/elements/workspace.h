@@ -16,7 +16,7 @@ namespace codesign {
 template <class T>
 struct Workspace {
   explicit Workspace(const System& system) {
-    loads.resize(static_cast<std::size_t>(system.layout().bodies));
+    loads.resize(to_index(system.layout().bodies));
     if (system.layout().has_forest()) {
       own.resize(loads.size());
       transmitted.resize(loads.size());
@@ -36,13 +36,11 @@ struct Workspace {
     for (Wrench<T>& wrench : own) wrench = {};
   }
   /// The sum of the loads on a body, to which elements add theirs; null for the ground, whose loads are not needed.
-  BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads[static_cast<std::size_t>(body)]; }
+  BodyLoad<T>* load_on(int body) { return body < 0 ? nullptr : &loads[to_index(body)]; }
   /// The same for `shared_loads`.
-  BodyLoad<T>* shared_load_on(int body) { return body < 0 ? nullptr : &shared_loads[static_cast<std::size_t>(body)]; }
+  BodyLoad<T>* shared_load_on(int body) { return body < 0 ? nullptr : &shared_loads[to_index(body)]; }
   /// A body of `displaced`; -1 is the ground.
-  const BodyKinematics<T>& displaced_body(int body) const {
-    return body < 0 ? displaced.back() : displaced[static_cast<std::size_t>(body)];
-  }
+  const BodyKinematics<T>& displaced_body(int body) const { return body < 0 ? displaced.back() : displaced[to_index(body)]; }
 
   /// Per body: f and W of multipliers, spring-dampers and constant forces. They are terms of G, on the left, so the body feels -f.
   std::vector<BodyLoad<T>> loads;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "elements/contact_friction.h"
-#include "elements/friction_state.h"
 #include "elements/power_kind.h"
 #include "elements/state_view.h"
 #include "elements/workspace.h"

@@ -1,20 +1,18 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "description/robot.h"
-#include "forces/gonthier.h"
-#include "forces/lugre.h"
+#include "forces/friction_law.h"
 
 namespace codesign {
 
-/// A contact whose friction has states. In the vector of extra states it has one zeta per slip coordinate, then s_dw if the model has it.
+/// A contact whose friction has states. In the vector of extra states it has one zeta per slip coordinate, then s_dw if the law has it.
 struct BristleContact {
   FrictionModel model = FrictionModel::kGonthier;
   int pair = -1, element = -1;  ///< element -1: the pair slips isotropically
   int first = 0;                ///< index of the first state
   int size = 1;                 ///< number of slip coordinates
 
-  bool dwells() const { return model == FrictionModel::kGonthier; }
+  bool dwells() const { return model->dwells; }
   int states() const { return size + (dwells() ? 1 : 0); }
   int dwell_state() const { return first + size; }
 };
@@ -24,9 +22,8 @@ template <class T>
 Bristle<T> bristle_law(const BristleContact& contact, const Vector3<T>& u, const VectorX<T>& s, const FrictionConstants<T>& c) {
   BristleState<T> state;
   for (int k = 0; k < contact.size; ++k) state.zeta[k] = s[contact.first + k];
-  if (!contact.dwells()) return lugre<T>(u, state, c);
-  state.dwell = s[contact.dwell_state()];
-  return gonthier<T>(u, state, c);
+  if (contact.dwells()) state.dwell = s[contact.dwell_state()];
+  return contact.model->bristle.of<T>(u, state, c);
 }
 
 }  // namespace codesign

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "description/friction.h"
-#include "forces/brown_mcphee.h"
+#include "forces/friction_numbers.h"
 
 namespace codesign {
 
@@ -19,12 +18,12 @@ T forward_share(const T& v, const T& v_t) {
   return T(0.5) * (T(1.0) + tanh(T(4.0) * v / v_t));
 }
 
-/// Brown and McPhee's coefficient with other numbers against the axis: S = w S_forward + (1 - w) S_backward.
-template <class T>
-T directional_brown_mcphee(const T& v, const FrictionNumbers<T>& c) {
-  const T back = brown_mcphee<T>(v, c.mu_static_backward, c.mu_dynamic_backward, c.transition_velocity);
-  // The coefficient is linear in mu_s and mu_d.
-  const T more = brown_mcphee<T>(v, T(c.mu_static - c.mu_static_backward), T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
+/// The coefficient with other numbers against the axis: w S_forward + (1 - w) S_backward.
+/// @param S the coefficient as a function of v, mu_s, mu_d and v_t; linear in mu_s and mu_d.
+template <class T, class Curve>
+T directional_friction(const Curve& S, const T& v, const FrictionNumbers<T>& c) {
+  const T back = S(v, c.mu_static_backward, c.mu_dynamic_backward, c.transition_velocity);
+  const T more = S(v, T(c.mu_static - c.mu_static_backward), T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
   return back + forward_share<T>(v, c.transition_velocity) * more;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "forces/bristle.h"
+#include "forces/friction_numbers.h"
 #include "math/elementary.h"
 #include "math/euler_parameters.h"
-#include "mechanism/constants.h"
 
 namespace codesign {
 

@@ -20,14 +20,13 @@ T friction_per_speed(const T& square, const T& mu_static, const T& mu_dynamic, c
 }
 
 /// The load L = S(|u|) N u/|u| [N] of a contact that slips in D directions, with the same coefficient in all of them, theory (13a). It
-/// opposes the slip, with the power -L . u; zero at rest and analytic there.
-/// @param u slip velocity [m/s], @param normal N [N].
-template <class T, int D>
-Eigen::Matrix<T, D, 1> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal, const T& mu_static, const T& mu_dynamic,
-                                          const T& v_t) {
+/// opposes the slip, with the power -L . u; zero at rest.
+/// @param u slip velocity [m/s], @param normal N [N], @param per_speed S(|u|)/|u| [s/m] as a function of u.u.
+template <class T, int D, class PerSpeed>
+Eigen::Matrix<T, D, 1> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal, const PerSpeed& per_speed) {
   T square(0.0);
   for (int k = 0; k < D; ++k) square += u[k] * u[k];
-  const T sigma = friction_per_speed<T>(square, mu_static, mu_dynamic, v_t);
+  const T sigma = per_speed(square);
   return normal * (sigma * u);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "forces/bristle.h"
+#include "forces/friction_numbers.h"
 #include "math/euler_parameters.h"
-#include "mechanism/constants.h"
 
 namespace codesign {
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "forces/friction_numbers.h"
 #include "math/elementary.h"
 #include "math/euler_parameters.h"
-#include "mechanism/constants.h"
 
 namespace codesign {
 
@@ -47,13 +47,13 @@ T revolute_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const Fri
 
 /// Planar joint or table, theory (12): N = cabs(F_z) + preload. The joint holds in both directions of the normal.
 template <class T>
-T planar_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
+T planar_normal_force(const Vector3<T>& F, const Vector3<T>&, const FrictionConstants<T>& c) {
   return smooth_abs(F[2], c.smoothing) + c.preload;
 }
 
 /// Ball of a spherical joint, theory (12): N = sqrt(F.F + eps^2) + preload.
 template <class T>
-T ball_normal_force(const Vector3<T>& F, const FrictionConstants<T>& c) {
+T ball_normal_force(const Vector3<T>& F, const Vector3<T>&, const FrictionConstants<T>& c) {
   using std::sqrt;
   return sqrt(dot(F, F) + c.smoothing * c.smoothing) + c.preload;
 }

@@ -54,8 +54,7 @@ void refuse_friction_states(const CompiledSystem& system) {
   const int index = system.topology().pairs[to_index(system.bristles().front().pair)].friction_joint;
   const JointDescription& joint = system.robot().joints[to_index(index)];
   throw InputError({joint.friction->where, joint.element() + " <codesign:friction>",
-                    "the friction law has states, which the motion at one instant does not determine",
-                    kFrictionModelNames[static_cast<std::size_t>(joint.friction->model)],
+                    "the friction law has states, which the motion at one instant does not determine", joint.friction->model->name,
                     "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
 }
 

@@ -35,7 +35,7 @@ void disconnect(const std::vector<std::string>& names, Study* study) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) throw unknown_name({"disconnect", 0}, name, "controller", name, known);
     ControllerDescription& controller = study->controllers[static_cast<std::size_t>(found - known.begin())];
-    if (has_error(controller.kind)) controller.kind = ControllerKind::kPid;
+    if (controller.kind->load != ControlLoad::kNone) controller.kind = ControllerKind::kPid;
     controller.output.clear();
   }
 }
@@ -90,7 +90,7 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
   for (std::size_t c = 0; c < study.controllers.size(); ++c) {
     const std::string& name = study.controllers[c].name;
     const auto& without = options.disconnected;
-    if (!has_error(study.controllers[c].kind) || std::find(without.begin(), without.end(), name) != without.end()) continue;
+    if (!study.controllers[c].kind->has_error() || std::find(without.begin(), without.end(), name) != without.end()) continue;
     controllers.push_back(name);
     indices.push_back(c);
     setpoints.push_back(make_live(&study.controllers[c].setpoint));

@@ -15,7 +15,8 @@ void BestRecord::note(const Trial& trial) {
   if (iteration_ < 0) first_ = trial;
   iteration_ = trial.iteration;
   try {
-    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf(), problem_.overlays(), problem_.parameters(trial.rho)));
+    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf(), problem_.overlays(), problem_.parameters(trial.rho),
+                                                             std::nullopt, problem_.robot().laws));
     write_whole_file(prefix_ + "best.json", json(trial));
     failure_.clear();
   } catch (const std::exception& error) {

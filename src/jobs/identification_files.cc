@@ -21,7 +21,7 @@ std::string residuals_text(const IdentificationResult& result) {
 }
 
 std::string identified_urdf(const Problem& problem, const IdentificationResult& result) {
-  return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters);
+  return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters, std::nullopt, problem.robot().laws);
 }
 
 }  // namespace

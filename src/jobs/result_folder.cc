@@ -59,7 +59,7 @@ std::vector<Failure> ResultFolder::write_design(const Json& object, const Optimi
   const auto write = [&](const char* name, const Text& text) { write_file(in_folder(name), text, &failures); };
   const std::vector<double> initial = problem_.parameters(result.initial_rho), tuned = problem_.parameters(result.rho);
   const auto urdf_at = [this](const std::vector<double>& parameters) {
-    return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters);
+    return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters, std::nullopt, problem_.robot().laws);
   };
   write("result.json", [&] { return to_text(object); });
   write("tuned.urdf", [&] { return urdf_at(tuned); });

@@ -15,7 +15,7 @@ std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<do
     found.name_space = gains.name_space;
     found.controller = controller.name;
     found.joint = controller.output;
-    found.loses_weight = controller.kind == ControllerKind::kPdGravity;
+    found.loses_weight = controller.kind->load == ControlLoad::kAtRest;
     found.p = controller.p.at(parameters);
     found.i = controller.i.at(parameters);
     found.d = controller.d.at(parameters);

@@ -60,7 +60,7 @@ std::vector<std::string> further_signals(const RobotDescription& robot, const st
   std::vector<std::string> texts;
   for (const ControllerDescription& controller : controllers) {
     if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
-    if (!has_error(controller.kind)) continue;
+    if (!controller.kind->has_error()) continue;
     for (const char* quantity : {"/setpoint", "/error"}) texts.push_back(controller.name + quantity);
   }
   for (const JointDescription& joint : robot.joints)

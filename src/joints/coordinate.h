@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "joints/pair_constants.h"
 #include "joints/scalar_product.h"
 #include "math/elementary.h"
-#include "mechanism/constants.h"
 
 namespace codesign {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "joints/body_kinematics.h"
-#include "mechanism/constants.h"
+#include "joints/pair_constants.h"
 
 namespace codesign {
 

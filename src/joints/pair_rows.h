@@ -4,8 +4,9 @@
 #include <array>
 #include <vector>
 
+#include "joints/joint_law.h"
 #include "joints/scalar_product.h"
-#include "mechanism/constants.h"
+#include "math/to_index.h"
 
 namespace codesign {
 
@@ -34,85 +35,50 @@ struct PairRows {
   std::array<bool, kVectors> used{};
   std::vector<ProductRow<T>> products;
 
-  const Vector3<T>& point(Side side) const { return vectors[static_cast<std::size_t>(shared(side, kPoint))].s; }
+  const Vector3<T>& point(Side side) const { return vectors[to_index(shared(side, kPoint))].s; }
   /// The number of rows.
   int size() const { return (coincident ? 3 : 0) + static_cast<int>(products.size()); }
+
+  // What rows are made of. x, y, z are the joint axes of each body (k is 0 to 2), d runs from the joint point of i to that of j.
+
+  PairVector<T> axis(Side side, int k) const {
+    return PairVector<T>::direction(side, vectors[to_index(shared(side, k))].s, shared(side, k));
+  }
+  PairVector<T> displacement() const {
+    return PairVector<T>::displacement(point(Side::kI), point(Side::kJ), shared(Side::kI, kPoint), shared(Side::kJ, kPoint));
+  }
+  /// Adds the row scale (X . Y - offset).
+  void add(const PairVector<T>& X, const PairVector<T>& Y, const T& offset = T(0.0), double scale = 1.0) {
+    products.push_back({X, Y, offset, scale});
+  }
+  /// Adds the row k_i . d: the point of j stays in a plane of i.
+  void keep_in_plane(int k) { add(axis(Side::kI, k), displacement()); }
+  /// Adds the rows x_i . z_j and y_i . z_j: the axes stay parallel.
+  void keep_parallel() {
+    for (int k : {0, 1}) add(axis(Side::kI, k), axis(Side::kJ, 2));
+  }
+  /// Adds the row y_i . x_j: no turn about the axis.
+  void keep_from_turning() { add(axis(Side::kI, 1), axis(Side::kJ, 0)); }
 };
 
-namespace internal {
-
-/// Sets PairRows::vectors.
+/// The constraint rows of a pair; the table in theory (6) lists them. @param result overwritten, its memory is used again.
 template <class T>
-void share_vectors(const PairConstants<T>& c, PairRows<T>* rows) {
+void pair_rows(PairKind kind, const PairConstants<T>& c, PairRows<T>* result) {
+  PairRows<T>& rows = *result;
+  rows.used = {};
+  rows.products.clear();
   for (Side side : {Side::kI, Side::kJ})
     for (int k = 0; k < 4; ++k) {
       const Matrix3<T>& C = side == Side::kI ? c.C_i : c.C_j;
       const Vector3<T> s = k < 3 ? Vector3<T>(C.col(k)) : side == Side::kI ? c.s_i : c.s_j;
       const int index = PairRows<T>::shared(side, k);
-      rows->vectors[static_cast<std::size_t>(index)] = {side, k == PairRows<T>::kPoint, 1.0, s, index};
+      rows.vectors[to_index(index)] = {side, k == PairRows<T>::kPoint, 1.0, s, index};
     }
-}
-
-}  // namespace internal
-
-/// The constraint rows of a pair of this kind; the table in theory (6) lists them. @param result overwritten, its memory is used again.
-template <class T>
-void pair_rows(PairKind kind, const PairConstants<T>& c, PairRows<T>* result) {
-  using V = PairVector<T>;
-  using R = PairRows<T>;
-  R& rows = *result;
-  rows.used = {};
-  rows.products.clear();
-  internal::share_vectors(c, &rows);
-  const auto axis = [&](Side side, int k) {
-    const int index = R::shared(side, k);
-    return V::direction(side, rows.vectors[static_cast<std::size_t>(index)].s, index);
-  };
-  const auto axis_i = [&](int k) { return axis(Side::kI, k); };
-  const auto axis_j = [&](int k) { return axis(Side::kJ, k); };
-  const V d = V::displacement(c.s_i, c.s_j, R::shared(Side::kI, R::kPoint), R::shared(Side::kJ, R::kPoint));
-  const auto in_plane = [&](int k) { rows.products.push_back({axis_i(k), d, T(0.0), 1.0}); };
-  const auto parallel_z = [&] {
-    rows.products.push_back({axis_i(0), axis_j(2), T(0.0), 1.0});
-    rows.products.push_back({axis_i(1), axis_j(2), T(0.0), 1.0});
-  };
-  const auto no_turn = [&] { rows.products.push_back({axis_i(1), axis_j(0), T(0.0), 1.0}); };
-  rows.coincident = traits_of(kind).force == ForceRows::kAll;
-  switch (kind) {
-    case PairKind::kFixed:
-      parallel_z(), no_turn();
-      break;
-    case PairKind::kRevolute:
-      parallel_z();
-      break;
-    case PairKind::kPrismatic:
-      in_plane(0), in_plane(1), parallel_z(), no_turn();
-      break;
-    case PairKind::kCylindrical:
-      in_plane(0), in_plane(1), parallel_z();
-      break;
-    case PairKind::kUniversal:
-      rows.products.push_back({axis_i(2), axis_j(2), c.cosine, 1.0});
-      break;
-    case PairKind::kTable:
-      in_plane(2), parallel_z(), no_turn();
-      break;
-    case PairKind::kPlanar:
-      in_plane(2), parallel_z();
-      break;
-    case PairKind::kTranslational:
-      parallel_z(), no_turn();
-      break;
-    case PairKind::kDistance:
-      rows.products.push_back({d, d, c.distance * c.distance, 0.5});
-      break;
-    case PairKind::kSpherical:
-    case PairKind::kFree:
-      break;
-  }
+  rows.coincident = kind->force == ForceRows::kAll;
+  if (kind->add_rows) kind->add_rows.template of<T>(c, result);
   for (const ProductRow<T>& row : rows.products)
-    for (const V* x : {&row.X, &row.Y})
-      for (int k = 0; k < x->terms; ++k) rows.used[static_cast<std::size_t>(x->term[k].shared)] = true;
+    for (const PairVector<T>* x : {&row.X, &row.Y})
+      for (int k = 0; k < x->terms; ++k) rows.used[to_index(x->term[k].shared)] = true;
 }
 template <class T>
 PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {

@@ -106,7 +106,7 @@ bool needs_coordinate(const RobotDescription& robot, const Topology& topology, i
 
 PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
   const auto kind =
-      chain.size() == 1 ? kind_of(robot.joints[static_cast<std::size_t>(chain[0].joint)].type) : kind_of_chain(robot, topology, chain);
+      chain.size() == 1 ? kind_of(robot.joints[static_cast<std::size_t>(chain[0].joint)]) : kind_of_chain(robot, topology, chain);
   if (!kind) refuse(robot, chain);
   return *kind;
 }

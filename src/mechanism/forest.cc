@@ -10,20 +10,8 @@ namespace {
 
 /// Ball and floating joints have no scalar coordinates that hold in all positions; they keep the Euler parameters of their body.
 bool has_scalar_coordinates(const Pair& pair) {
-  switch (pair.kind) {
-    case PairKind::kRevolute:
-    case PairKind::kPrismatic:
-    case PairKind::kCylindrical:
-    case PairKind::kUniversal:
-    case PairKind::kTable:
-    case PairKind::kPlanar:
-    case PairKind::kTranslational:
-      break;
-    default:
-      return false;
-  }
   const auto reversed = [](const ChainElement& element) { return element.reversed; };
-  return !pair.is_loop && pair.body_j >= 0 && std::none_of(pair.chain.begin(), pair.chain.end(), reversed);
+  return pair.kind->in_forest && !pair.is_loop && pair.body_j >= 0 && std::none_of(pair.chain.begin(), pair.chain.end(), reversed);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ Offer offer_of(const std::string& name, const RobotDescription& robot, const std
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;
     offer.exists = true;
-    offer.scalars = has_error(controller.kind) ? Names{"error", "setpoint", "integral", "output"} : Names{"output"};
+    offer.scalars = controller.kind->has_error() ? Names{"error", "setpoint", "integral", "output"} : Names{"output"};
   }
   for (const LinkDescription& link : robot.links) {
     if (link.name != name) continue;

@@ -219,7 +219,7 @@ class TopologyBuilder {
   // The URDF reader checks ordinary joints only, not those folded from a chain.
   void check_friction(const Pair& pair) const {
     const JointDescription& joint = robot_.joints[index(pair.friction_joint)];
-    check_friction_geometry(*joint.friction, traits_of(pair.kind).joint, joint.element() + " <codesign:friction>");
+    check_friction_geometry(*joint.friction, pair.kind, joint.element() + " <codesign:friction>");
   }
 
   const RobotDescription& robot_;

@@ -6,7 +6,6 @@
 
 #include "description/robot.h"
 #include "mechanism/coupling.h"
-#include "mechanism/pair_kind.h"
 
 namespace codesign {
 

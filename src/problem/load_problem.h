@@ -46,15 +46,18 @@ struct SavedDesign {
 /// load_problem() from a saved design: the parameters that the model or the study has, within their bounds, begin with its values, before
 /// `settings` apply. What does not fit is named in the warning `result_of_another_study`. @throws InputError also if nothing fits.
 Problem load_problem_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                        const ParameterSettings& settings, const TrajectoryLoader& loader = {}, const FileLoader& files = {});
+                        const ParameterSettings& settings, const TrajectoryLoader& loader = {}, const FileLoader& files = {},
+                        const Laws& laws = standard_laws());
 /// The same without a study.
 Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays,
                           const ParameterSettings& settings);
 
 /// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that
 /// names a bag is refused. @param files reads other files that the study names; if it is empty, they are looked for in the study's folder.
+/// @param laws that model and study may name. Other processes know standard_laws() only.
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files = {});
+                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files = {},
+                     const Laws& laws = standard_laws());
 
 /// The system compiled for one run of `Study::ensemble.runs` with one friction law for all joints.
 /// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the uncertain friction law; -1: the model's own.

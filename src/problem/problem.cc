@@ -150,14 +150,14 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files) {
-  return load_problem_at(SavedDesign(), urdf, overlays, study, settings, loader, files);
+                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files, const Laws& laws) {
+  return load_problem_at(SavedDesign(), urdf, overlays, study, settings, loader, files, laws);
 }
 
 Problem load_problem_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                        const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files) {
+                        const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files, const Laws& laws) {
   const CpuTimer timer;
-  const RobotDescription robot = read_urdf(urdf, overlays);
+  const RobotDescription robot = read_urdf(urdf, overlays, laws);
   std::vector<LoadedTrajectory> loaded;
   std::vector<LoadedFile> loaded_files;
   const FileLoader read_file = files ? files : files_beside(study.name);

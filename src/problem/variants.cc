@@ -74,7 +74,7 @@ std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDesc
     Warnings found;
     variants.push_back(changed ? make_system(robot, *changed, &found) : own);
     for (std::size_t k = 0; law && k < law->laws.size(); ++k)
-      variants.push_back(make_system(with_law(robot, friction_model(law->laws[k]).value()), changed ? *changed : study, &found));
+      variants.push_back(make_system(with_law(robot, *find_friction(robot.laws, law->laws[k])), changed ? *changed : study, &found));
     append(found, warnings);
   }
   return variants;

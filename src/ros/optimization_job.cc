@@ -65,7 +65,8 @@ mechanism_codesign::OptimizeResult to_message(const OptimizationResult& result, 
 BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario, double rate, Patience* patience) {
   const auto side = [&](const Eigen::VectorXd& rho) {
     const std::vector<double> parameters = scenario.parameters(rho);
-    return BagSide{write_tuned_urdf(problem.urdf(), problem.overlays(), parameters, friction_model(scenario.friction_law)),
+    const Laws& laws = problem.robot().laws;
+    return BagSide{write_tuned_urdf(problem.urdf(), problem.overlays(), parameters, find_friction(laws, scenario.friction_law), laws),
                    record_run(scenario.system, parameters, rate, [patience] { return (*patience)(); })};
   };
   BagSide tuned = side(result.rho);

@@ -142,7 +142,8 @@ void SimulationNode::advertise() {
 
 void SimulationNode::tell_description() {
   std_msgs::String message;
-  const std::string urdf = write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters());
+  const std::string urdf =
+      write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters(), std::nullopt, problem_->robot().laws);
   message.data = with_sticks(urdf);
   if (message.data == description_) return;
   description_ = message.data;

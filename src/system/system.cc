@@ -132,7 +132,7 @@ void System::lay_out() {
   lay_out_bodies();
   for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
     layout_.pair_row.push_back(layout_.m);
-    if (layout_.is_cut(static_cast<int>(p))) layout_.m += traits_of(topology_.pairs[p].kind).rows;
+    if (layout_.is_cut(static_cast<int>(p))) layout_.m += topology_.pairs[p].kind->rows;
   }
   layout_.couplings = static_cast<int>(topology_.couplings.size());
   layout_.m += layout_.couplings + layout_.norms();
@@ -253,19 +253,21 @@ void System::collect_rotors() {
   }
 }
 
+const FrictionLaw& System::friction_law(int pair) const {
+  return *robot_.joints[to_index(topology_.pairs[to_index(pair)].friction_joint)].friction->model;
+}
+
 void System::add_bristle(int pair, int element, int size) {
-  const int joint = topology_.pairs[static_cast<std::size_t>(pair)].friction_joint;
-  const FrictionModel model = robot_.joints[static_cast<std::size_t>(joint)].friction->model;
-  if (model == FrictionModel::kBrownMcPhee) return;
-  bristles_.push_back({model, pair, element, layout_.states, size});
+  const FrictionLaw& law = friction_law(pair);
+  if (!law.bristle) return;
+  bristles_.push_back({law, pair, element, layout_.states, size});
   layout_.states += bristles_.back().states();
 }
 
 void System::collect_bristles() {
   for (const JointLoad& load : loads_)
     if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
-  for (int contact : contacts_)
-    add_bristle(contact, -1, traits_of(topology_.pairs[static_cast<std::size_t>(contact)].kind).slip_coordinates);
+  for (int contact : contacts_) add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind->slip_coordinates);
 }
 
 const BristleContact* System::bristle(int pair, int element) const {

@@ -86,6 +86,8 @@ class System {
   const std::vector<BristleContact>& bristles() const { return bristles_; }
   /// The states of the friction law of a joint coordinate, or of a contact (element -1); null if the law has no states.
   const BristleContact* bristle(int pair, int element) const;
+  /// The friction law of a pair with Pair::friction_joint.
+  const FrictionLaw& friction_law(int pair) const;
   /// The terms of the integrand and the terminal terms of the objective, theory (21).
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }

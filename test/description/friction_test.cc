@@ -32,10 +32,10 @@ TEST(FrictionNumbers, TwoStructuresAreVisitedSideBySide) {
 TEST(FrictionNumbers, ModelsUseTheirOwn) {
   std::set<std::string> of_lugre, of_gonthier;
   const auto note = [&](const FrictionNumberRule& rule, const Quantity&) {
-    if (rule.is_used_by(FrictionModel::kLuGre)) of_lugre.insert(rule.attribute);
-    if (rule.is_used_by(FrictionModel::kGonthier)) of_gonthier.insert(rule.attribute);
-    EXPECT_EQ(rule.is_used_by(FrictionModel::kBrownMcPhee),
-              rule.models == FrictionNumberRule::Models::kAll || rule.models == FrictionNumberRule::Models::kBrownMcPheeOnly);
+    if (FrictionModel::kLuGre->uses(rule)) of_lugre.insert(rule.attribute);
+    if (FrictionModel::kGonthier->uses(rule)) of_gonthier.insert(rule.attribute);
+    EXPECT_EQ(FrictionModel::kBrownMcPhee->uses(rule),
+              rule.laws == FrictionNumberRule::Laws::kAll || rule.laws == FrictionNumberRule::Laws::kDirectional);
   };
   const FrictionDescription friction;
   visit_friction_numbers(note, &friction);

@@ -15,10 +15,10 @@ TEST(JointDescription, TheElementTellsLoopsFromJoints) {
 }
 
 TEST(JointType, OneCoordinate) {
-  for (const JointTypeName& name : kJointTypeNames) {
-    const bool turn = name.type == JointType::kRevolute || name.type == JointType::kContinuous;
-    EXPECT_EQ(is_turn(name.type), turn) << static_cast<int>(name.type);
-    EXPECT_EQ(has_one_coordinate(name.type), turn || name.type == JointType::kPrismatic) << static_cast<int>(name.type);
+  for (const RowReference<JointLaw>& joint : standard_laws().joints) {
+    const bool turn = joint->type == JointType::kRevolute || joint->type == JointType::kContinuous;
+    EXPECT_EQ(is_turn(joint->type), turn) << static_cast<int>(joint->type);
+    EXPECT_EQ(has_one_coordinate(joint->type), turn || joint->type == JointType::kPrismatic) << static_cast<int>(joint->type);
   }
 }
 

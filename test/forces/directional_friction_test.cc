@@ -5,6 +5,8 @@
 
 #include <complex>
 
+#include "forces/brown_mcphee.h"
+
 namespace codesign {
 namespace {
 
@@ -21,6 +23,12 @@ FrictionNumbers<T> directional_numbers() {
   c.viscous = T(2.0);
   c.viscous_backward = T(0.5);
   return c;
+}
+
+template <class T>
+T directional_brown_mcphee(const T& v, const FrictionNumbers<T>& c) {
+  return directional_friction<T>(
+      [](const T& at, const T& mu_s, const T& mu_d, const T& v_t) { return brown_mcphee<T>(at, mu_s, mu_d, v_t); }, v, c);
 }
 
 TEST(DirectionalFriction, TheShareChangesOverAtRest) {

@@ -11,12 +11,16 @@ namespace {
 
 constexpr double kIsotropicMuS = 0.4, kIsotropicMuD = 0.3, kIsotropicVt = 0.01;
 
+/// S(|u|)/|u| as a function of u.u.
+template <class T>
+T per_speed(const T& square) {
+  return friction_per_speed<T>(square, T(kIsotropicMuS), T(kIsotropicMuD), T(kIsotropicVt));
+}
+
 /// The derivative of the load at N = 7 by the slip, by the complex step.
 Eigen::MatrixXd expected_slope(const Eigen::Vector3d& u) {
   using C = std::complex<double>;
-  const auto law = [](const Eigen::VectorXcd& z) {
-    return Eigen::VectorXcd(isotropic_friction<C, 3>(z.head<3>(), C(7.0), C(kIsotropicMuS), C(kIsotropicMuD), C(kIsotropicVt)));
-  };
+  const auto law = [](const Eigen::VectorXcd& z) { return Eigen::VectorXcd(isotropic_friction<C, 3>(z.head<3>(), C(7.0), per_speed<C>)); };
   return complex_step_jacobian(law, u);
 }
 
@@ -25,13 +29,13 @@ TEST(IsotropicFriction, IsTheScalarLawAlongTheSlip) {
     const double S = brown_mcphee(s, kIsotropicMuS, kIsotropicMuD, kIsotropicVt);
     EXPECT_NEAR(friction_per_speed(s * s, kIsotropicMuS, kIsotropicMuD, kIsotropicVt) * s, S, 1e-15) << s;
     const Eigen::Vector2d u(0.6 * s, -0.8 * s);
-    const auto f = isotropic_friction<double, 2>(u, 7.0, kIsotropicMuS, kIsotropicMuD, kIsotropicVt);
+    const auto f = isotropic_friction<double, 2>(u, 7.0, per_speed<double>);
     EXPECT_NEAR((f - 7.0 * S * Eigen::Vector2d(0.6, -0.8)).norm(), 0.0, 1e-13) << s;
   }
 }
 
 TEST(IsotropicFriction, AtRestItIsLinear) {
-  const auto f = isotropic_friction<double, 3>(Eigen::Vector3d::Zero(), 7.0, kIsotropicMuS, kIsotropicMuD, kIsotropicVt);
+  const auto f = isotropic_friction<double, 3>(Eigen::Vector3d::Zero(), 7.0, per_speed<double>);
   EXPECT_EQ(f.norm(), 0.0);
   // S'(0) = (4 mu_d + 16/9 (mu_s - mu_d))/v_t in every direction.
   const Eigen::Matrix3d by_slip = expected_slope(Eigen::Vector3d::Zero());
@@ -44,7 +48,7 @@ TEST(IsotropicFriction, LanesCarryTheDerivatives) {
     const Eigen::Vector3d at(0.36 * s, -0.48 * s, 0.8 * s);
     Eigen::Matrix<L, 3, 1> u = at.cast<L>();
     for (int k = 0; k < 3; ++k) u[k].v[k] = 1.0;
-    const auto lanes = isotropic_friction<L, 3>(u, L(7.0), L(kIsotropicMuS), L(kIsotropicMuD), L(kIsotropicVt));
+    const auto lanes = isotropic_friction<L, 3>(u, L(7.0), per_speed<L>);
     Eigen::Matrix3d by_slip;
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column) by_slip(row, column) = lanes[row].v[column];

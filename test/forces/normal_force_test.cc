@@ -43,10 +43,12 @@ TEST(NormalForce, PinDoesNotSeeATurnAboutItsAxis) {
 }
 
 TEST(NormalForce, PlanarAndBallByHand) {
-  EXPECT_NEAR(planar_normal_force<double>(kF, geometry<double>()), std::hypot(5.0, 0.01) + 2.0, 1e-12);
-  EXPECT_EQ(planar_normal_force<double>(-kF, geometry<double>()), planar_normal_force<double>(kF, geometry<double>()));
-  EXPECT_NEAR(ball_normal_force<double>(kF, geometry<double>()), std::sqrt(9.0 + 400.0 + 25.0 + 1e-4) + 2.0, 1e-12);
-  EXPECT_NEAR(ball_normal_force<double>(Eigen::Vector3d::Zero(), geometry<double>()), 0.01 + 2.0, 1e-15);
+  EXPECT_NEAR(planar_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()), std::hypot(5.0, 0.01) + 2.0, 1e-12);
+  EXPECT_EQ(planar_normal_force<double>(-kF, Eigen::Vector3d::Zero(), geometry<double>()),
+            planar_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()));
+  EXPECT_NEAR(ball_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()), std::sqrt(9.0 + 400.0 + 25.0 + 1e-4) + 2.0,
+              1e-12);
+  EXPECT_NEAR(ball_normal_force<double>(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), geometry<double>()), 0.01 + 2.0, 1e-15);
 }
 
 }  // namespace

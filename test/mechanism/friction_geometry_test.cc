@@ -8,8 +8,10 @@ namespace {
 
 /// The error that the check throws; empty if it passes.
 std::string complaint(const FrictionDescription& friction, JointType type) {
+  JointDescription joint;
+  joint.type = type;
   try {
-    check_friction_geometry(friction, type, "<joint>");
+    check_friction_geometry(friction, kind_of(joint), "<joint>");
   } catch (const InputError& error) {
     return error.what();
   }

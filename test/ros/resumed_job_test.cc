@@ -223,7 +223,7 @@ TEST(JobOfAnEnsemble, TheWorstRunsDescriptionHasTheFrictionLawOfItsSample) {
   const auto law_in = [&bag](const std::string& place) {
     rosbag::View view(bag, rosbag::TopicQuery(place + "robot_description"));
     const RobotDescription robot = read_urdf({place, view.begin()->instantiate<std_msgs::String>()->data});
-    return std::string(kFrictionModelNames[static_cast<std::size_t>(robot.joints.at(0).friction->model)]);
+    return std::string(robot.joints.at(0).friction->model->name);
   };
   EXPECT_EQ(law_in("worst/tuned/"), law);
   EXPECT_EQ(law_in("worst/initial/"), law);

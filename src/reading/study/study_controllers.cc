@@ -2,7 +2,6 @@
 #include "reading/study/study_controllers.h"
 
 #include <algorithm>
-#include <map>
 
 #include "mechanism/signal_catalog.h"
 #include "reading/study/study_basis.h"
@@ -21,11 +20,12 @@ struct Context {
   const Study& study;
 };
 
-void read_gains(const YamlValue& gains, const std::vector<std::string>& known, const ParameterTable& table,
-                ControllerDescription* controller) {
-  gains.require_keys({}, known);
+void read_gains(const YamlValue& gains, const ParameterTable& table, ControllerDescription* controller) {
+  std::vector<std::string> known;
   std::string all;
+  for (const char* letter = controller->kind->gains; *letter; ++letter) known.emplace_back(1, *letter);
   for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+  gains.require_keys({}, known);
   if (gains.entries().empty()) gains.fail("a controller needs at least one gain", all);
   if (const auto p = gains.find("p")) controller->p = read_quantity(*p, table);
   if (const auto i = gains.find("i")) controller->i = read_quantity(*i, table);
@@ -52,19 +52,19 @@ SignalDescription own_position(const ControllerDescription& controller) {
   return {controller.output + "/position", {{1.0, controller.output, "position", ""}}, controller.where};
 }
 
-void read_pid(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+void read_with_input(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "input", "setpoint", "gains"}, with_realization_keys(controller->kind, {"output"}));
   controller->input = read_signal(value.at("input"), context);
   controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
-  read_gains(value.at("gains"), {"p", "i", "d"}, context.table, controller);
+  read_gains(value.at("gains"), context.table, controller);
 }
 
-/// Gravity compensation and computed torque; their input is the position of the joint that they drive.
-void read_model_based(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+/// Such as gravity compensation and computed torque; the input is the position of the joint that they drive.
+void read_with_own_position(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   value.require_keys({"type", "setpoint", "output", "gains"}, with_realization_keys(controller->kind, {}));
   controller->input = own_position(*controller);
   controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
-  read_gains(value.at("gains"), {"p", "d"}, context.table, controller);
+  read_gains(value.at("gains"), context.table, controller);
 }
 
 void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
@@ -90,26 +90,29 @@ void read_basis_controller(const YamlValue& value, const Context& context, Contr
   controller->basis = read_basis(controller->name, value, context.table, context.study.duration);
 }
 
+void read_law(const YamlValue& value, const Context& context, ControllerDescription* controller) {
+  switch (controller->kind->input) {
+    case ControlInput::kSignal:
+      return read_with_input(value, context, controller);
+    case ControlInput::kOwnPosition:
+      return read_with_own_position(value, context, controller);
+    case ControlInput::kFeedback:
+      return read_state_feedback(value, context, controller);
+    case ControlInput::kShape:
+      return read_basis_controller(value, context, controller);
+  }
+}
+
 ControllerDescription read_controller(const std::string& name, const YamlValue& value, const Context& context) {
-  struct Law {
-    ControllerKind kind;
-    void (*read)(const YamlValue&, const Context&, ControllerDescription*);
-  };
-  static const std::map<std::string, Law> laws{{"basis", {ControllerKind::kBasis, read_basis_controller}},
-                                               {"computed_torque", {ControllerKind::kComputedTorque, read_model_based}},
-                                               {"pd_gravity", {ControllerKind::kPdGravity, read_model_based}},
-                                               {"pid", {ControllerKind::kPid, read_pid}},
-                                               {"state_feedback", {ControllerKind::kStateFeedback, read_state_feedback}}};
-  std::vector<std::string> types;
-  for (const auto& law : laws) types.push_back(law.first);
+  const std::vector<ControllerKind>& laws = context.robot.laws.controllers;
   refuse_taken_name(name, value, context.robot);
   ControllerDescription controller;
   controller.name = name;
   controller.where = value.where();
-  const Law& law = laws.at(value.at("type").choice("controller type", types));
-  controller.kind = law.kind;
+  const std::string type = value.at("type").choice("controller type", names_of(laws));
+  controller.kind = *std::find_if(laws.begin(), laws.end(), [&type](const ControllerKind& law) { return law->name == type; });
   if (const auto output = value.find("output")) controller.output = scalar_joint(output->text(), context.robot, *output).name;
-  law.read(value, context, &controller);
+  read_law(value, context, &controller);
   read_realization(value, context.table, &controller);
   return controller;
 }

@@ -24,7 +24,7 @@ const ControllerDescription& find_controller(const std::string& name, const Yaml
 
 /// The law on the robot is control_toolbox's; others have gains of another kind.
 void require_pid_gains(const ControllerDescription& controller, const YamlValue& at) {
-  if (controller.kind != ControllerKind::kPid && controller.kind != ControllerKind::kPdGravity)
+  if (!controller.kind->is_pid && controller.kind->load != ControlLoad::kAtRest)
     at.fail("this controller has no p, i and d that act on an effort", "controllers of type pid or pd_gravity");
 }
 

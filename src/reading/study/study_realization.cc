@@ -40,7 +40,7 @@ void require_partner(const YamlValue& controller, const std::string& key, bool h
 
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
   own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
-  if (kind == ControllerKind::kPid) own.insert(own.end(), {"i_clamp", "antiwindup", "derivative_filter", "quantization"});
+  if (kind->is_pid) own.insert(own.end(), {"i_clamp", "antiwindup", "derivative_filter", "quantization"});
   return own;
 }
 

@@ -61,11 +61,11 @@ void read_values(const YamlValue& choice, const Parameter& parameter, Distributi
   }
 }
 
-/// The law of LuGre divides by mu_dynamic.
 void require_usable(FrictionModel law, const RobotDescription& robot, const YamlValue& at) {
   for (const JointDescription& joint : robot.joints)
-    if (law == FrictionModel::kLuGre && joint.friction && joint.friction->mu_dynamic.nominal() == 0.0)
-      at.fail("the LuGre model divides by mu_dynamic, which is zero in the joint " + joint.name, "laws without states, or mu_dynamic > 0");
+    if (law->divides_by_mu_dynamic && joint.friction && joint.friction->mu_dynamic.nominal() == 0.0)
+      at.fail(std::string("the ") + law->title + " model divides by mu_dynamic, which is zero in the joint " + joint.name,
+              "laws without states, or mu_dynamic > 0");
 }
 
 void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQuantity* quantity) {
@@ -74,10 +74,10 @@ void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQ
     value.fail("no joint of the model has friction", "a model with <codesign:friction>");
   quantity->distribution.kind = DistributionKind::kChoice;
   for (const YamlValue& item : choices_at(value.at("choice"))) {
-    const std::string law = item.choice("friction law", {kFrictionModelNames.begin(), kFrictionModelNames.end()});
+    const std::string law = item.choice("friction law", names_of(robot.laws.friction));
     if (std::find(quantity->laws.begin(), quantity->laws.end(), law) != quantity->laws.end())
       item.fail("repeated choice", "laws that differ; each is equally likely");
-    require_usable(friction_model(law).value(), robot, item);
+    require_usable(*find_friction(robot.laws, law), robot, item);
     quantity->distribution.choices.push_back(static_cast<double>(quantity->laws.size()));
     quantity->laws.push_back(law);
   }

@@ -100,7 +100,7 @@ void sort_by_place(const std::string& file, Warnings* warnings) {
 
 }  // namespace
 
-XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays) {
+XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws) {
   SourceText text = urdf;
   const Warnings trailing = cut_trailing_text(&text);
   XmlDocument document(text);
@@ -118,18 +118,19 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
   check_vocabulary(document, &warnings);
   document.note(warnings);
   write_out_free_inertias(&document);
-  apply_set_values(&document);
+  apply_set_values(&document, laws);
   return document;
 }
 
-RobotDescription read_robot(const XmlDocument& document) {
+RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   const XmlElement element(document.robot(), &document);
   RobotDescription robot;
+  robot.laws = laws;
   robot.file = document.file();
   robot.warnings = document.warnings();
   robot.name = element.text("name");
   robot.parameters = read_parameters(element);
-  ReadContext context{{}, ParameterTable(robot.parameters), &robot.warnings};
+  ReadContext context{{}, ParameterTable(robot.parameters), &robot.warnings, &laws};
   for (const XmlElement& link : element.children("link")) robot.links.push_back(read_link(link, context.table));
   if (robot.links.empty()) element.fail("the robot has no links");
   for (const LinkDescription& link : robot.links) context.links.push_back(link.name);

@@ -9,9 +9,9 @@
 namespace codesign {
 
 /// Parses the URDF, merges the overlays and checks all element and attribute names. @throws InputError
-XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays);
+XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws = standard_laws());
 
 /// The mechanism that the document describes, with the warnings of the document and of reading it. @throws InputError
-RobotDescription read_robot(const XmlDocument& document);
+RobotDescription read_robot(const XmlDocument& document, const Laws& laws = standard_laws());
 
 }  // namespace codesign

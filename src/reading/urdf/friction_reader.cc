@@ -11,11 +11,10 @@
 namespace codesign {
 namespace {
 
-FrictionModel read_model(const XmlElement& element) {
+FrictionModel read_model(const XmlElement& element, const Laws& laws) {
   const std::string name = element.find("model").value_or("brown_mcphee");
-  if (const auto model = friction_model(name)) return *model;
-  throw unknown_name(element.where("model"), element.label(), "friction model", name,
-                     {kFrictionModelNames.begin(), kFrictionModelNames.end()});
+  if (const auto law = find_friction(laws, name)) return *law;
+  throw unknown_name(element.where("model"), element.label(), "friction model", name, names_of(laws.friction));
 }
 
 /// The number that counts where an attribute is missing.
@@ -38,17 +37,11 @@ const Quantity& value_if_missing(const FrictionNumberRule& rule, const FrictionD
 }
 
 /// The models that use a number, for messages.
-const char* models_of(const FrictionNumberRule& rule) {
-  switch (rule.models) {
-    case FrictionNumberRule::Models::kBrownMcPheeOnly:
-      return "with model=\"brown_mcphee\"";
-    case FrictionNumberRule::Models::kGonthierOnly:
-      return "with model=\"gonthier\"";
-    case FrictionNumberRule::Models::kWithStates:
-    case FrictionNumberRule::Models::kAll:
-      break;
-  }
-  return "with model=\"gonthier\" or model=\"lugre\"";
+std::string models_of(const FrictionNumberRule& rule, const Laws& laws) {
+  std::string models;
+  for (const FrictionModel& law : laws.friction)
+    if (law->uses(rule)) models += (models.empty() ? "with model=\"" : " or model=\"") + std::string(law->name) + "\"";
+  return models;
 }
 
 void require_ordered(const XmlElement& element, const std::string& dynamic_name, const Quantity& dynamic, const std::string& static_name,
@@ -59,18 +52,19 @@ void require_ordered(const XmlElement& element, const std::string& dynamic_name,
 }
 
 /// A number of the element. An attribute that the model does not use is an error, since it would have no effect.
-void read_number(const XmlElement& element, const FrictionNumberRule& rule, const ParameterTable& table, FrictionDescription* friction,
+void read_number(const XmlElement& element, const FrictionNumberRule& rule, const ReadContext& context, FrictionDescription* friction,
                  Quantity* number) {
-  if (!rule.is_used_by(friction->model)) {
+  if (!friction->model->uses(rule)) {
     if (element.has(rule.attribute))
-      element.fail_at(rule.attribute, std::string(rule.attribute) + " has no meaning for this friction model", models_of(rule));
+      element.fail_at(rule.attribute, std::string(rule.attribute) + " has no meaning for this friction model",
+                      models_of(rule, *context.laws));
     return;
   }
   const Range range = rule.zero_allowed ? Range::kNonNegative : Range::kPositive;
   if (rule.missing == FrictionNumberRule::Missing::kRefused)
-    *number = read_quantity(element, rule.attribute, range, table);
+    *number = read_quantity(element, rule.attribute, range, context.table);
   else
-    *number = read_quantity_or(value_if_missing(rule, *friction, *number), element, rule.attribute, range, table);
+    *number = read_quantity_or(value_if_missing(rule, *friction, *number), element, rule.attribute, range, context.table);
   if (rule.is_backward() && element.has(rule.attribute)) friction->is_directional = true;
 }
 
@@ -86,16 +80,16 @@ std::array<double, 3> read_transverse_axis(const XmlElement& element, const Quan
 
 }  // namespace
 
-FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ParameterTable& table) {
+FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ReadContext& context) {
   FrictionDescription friction;
   friction.where = element.where();
-  friction.model = read_model(element);
-  const auto read = [&](const FrictionNumberRule& rule, Quantity& number) { read_number(element, rule, table, &friction, &number); };
+  friction.model = read_model(element, *context.laws);
+  const auto read = [&](const FrictionNumberRule& rule, Quantity& number) { read_number(element, rule, context, &friction, &number); };
   visit_friction_numbers(read, &friction);
   require_ordered(element, "mu_dynamic", friction.mu_dynamic, "mu_static", friction.mu_static);
   require_ordered(element, "mu_dynamic_backward", friction.mu_dynamic_backward, "mu_static_backward", friction.mu_static_backward);
-  if (friction.model == FrictionModel::kLuGre && friction.mu_dynamic.nominal() == 0.0)
-    element.fail_at("mu_dynamic", "mu_dynamic is zero: the LuGre model divides by it", "> 0");
+  if (friction.model->divides_by_mu_dynamic && friction.mu_dynamic.nominal() == 0.0)
+    element.fail_at("mu_dynamic", std::string("mu_dynamic is zero: the ") + friction.model->title + " model divides by it", "> 0");
   if (element.has("transverse_axis")) friction.transverse_axis = read_transverse_axis(element, axis);
   return friction;
 }

@@ -9,8 +9,6 @@
 namespace codesign {
 namespace {
 
-JointType read_tree_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_joints, "joint type"); }
-
 /// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
 /// since exporters write it for unknown values. @param meaning what zero means there.
 Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context,
@@ -113,15 +111,19 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
 
 }  // namespace
 
-JointType read_joint_type(const XmlElement& element, const char* const JointTypeName::*spelling, const std::string& kind) {
+void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint) {
   const std::string name = element.text("type");
   std::vector<std::string> known;
-  for (const JointTypeName& type : kJointTypeNames) {
-    if (type.*spelling == nullptr) continue;
-    if (name == type.*spelling) return type.type;
-    known.emplace_back(type.*spelling);
+  for (const RowReference<JointLaw>& law : laws.joints) {
+    const char* const spelling = joint->is_loop ? law->of_loops : law->of_joints;
+    if (spelling == nullptr) continue;
+    known.emplace_back(spelling);
+    if (name != spelling) continue;
+    joint->type = law->type;
+    if (law->type == JointType::kOther) joint->own_kind = pair_of(*law);
+    return;
   }
-  throw unknown_name(element.where("type"), element.label(), kind, name, known);
+  throw unknown_name(element.where("type"), element.label(), joint->is_loop ? "loop type" : "joint type", name, known);
 }
 
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
@@ -132,7 +134,7 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context, Joi
   if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
   const std::optional<XmlElement> friction = element.child("codesign:friction"), spring = element.child("codesign:torsion_spring");
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
-  if (friction) joint->friction = read_friction(*friction, joint->axis, table);
+  if (friction) joint->friction = read_friction(*friction, joint->axis, context);
   if (actuator) joint->actuator = read_actuator(*actuator, joint->type, table);
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
@@ -146,7 +148,7 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   JointDescription joint;
   joint.where = element.where();
   joint.name = element.text("name");
-  joint.type = read_tree_type(element);
+  read_joint_type(element, *context.laws, &joint);
   const XmlElement child = element.only("child");
   joint.parent = context.link(element.only("parent"), "link");
   joint.child = context.link(child, "link");

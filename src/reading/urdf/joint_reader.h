@@ -6,8 +6,8 @@
 
 namespace codesign {
 
-/// The attribute `type`. @param spelling of joints or of loops. @param kind the word for it in messages. @throws InputError
-JointType read_joint_type(const XmlElement& element, const char* const JointTypeName::*spelling, const std::string& kind);
+/// Reads the attribute `type` of a joint, or of a loop if `joint` is one. @throws InputError
+void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint);
 
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);

@@ -3,12 +3,9 @@
 
 #include "reading/urdf/joint_reader.h"
 #include "reading/urdf/quantity_reader.h"
-#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {
-
-JointType read_loop_type(const XmlElement& element) { return read_joint_type(element, &JointTypeName::of_loops, "loop type"); }
 
 void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
   const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");
@@ -28,7 +25,7 @@ JointDescription read_loop(const XmlElement& element, const ReadContext& context
   loop.is_loop = true;
   loop.where = element.where();
   loop.name = element.text("name");
-  loop.type = read_loop_type(element);
+  read_joint_type(element, *context.laws, &loop);
   std::tie(loop.parent, loop.child) = context.ends(element);
   loop.origin = read_origin(element.only("predecessor"), context.table);
   loop.child_origin = read_origin(element.only("successor"), context.table);

@@ -14,7 +14,8 @@ namespace codesign {
 struct ReadContext {
   std::vector<std::string> links;  ///< names, in the order of RobotDescription::links
   ParameterTable table;
-  Warnings* warnings = nullptr;  ///< never null while a robot is read
+  Warnings* warnings = nullptr;         ///< never null while a robot is read
+  const Laws* laws = &standard_laws();  ///< never null
 
   /// Index of the link that `attribute` names. @throws InputError naming the link with the nearest name.
   int link(const XmlElement& element, const std::string& attribute) const;

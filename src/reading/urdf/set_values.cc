@@ -56,11 +56,11 @@ void refuse_set_values(const XmlDocument& model) {
     set.fail("only an overlay sets values of parameters", set.find("name").value_or(""), "the value in <codesign:parameter>");
 }
 
-void apply_set_values(XmlDocument* document) {
+void apply_set_values(XmlDocument* document, const Laws& laws) {
   XMLElement* const node = document->robot();
   const std::vector<XmlElement> sets = XmlElement(node, document).children(kSetTag);
   if (sets.empty()) return;
-  RobotDescription robot = read_robot(*document);
+  RobotDescription robot = read_robot(*document, laws);
   for (const XmlElement& set : sets) {
     const std::size_t k = index_of(set, robot.parameters);
     read_set(set, find_named(node, kParameterTag, robot.parameters[k].name), &robot.parameters[k]);

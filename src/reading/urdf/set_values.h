@@ -18,7 +18,7 @@ void refuse_set_values(const XmlDocument& model);
 /// Gives parameters the values of the `<codesign:set>` elements of merged overlays, and takes these elements out. First the model is read
 /// and checked at the values that it declares; then all numbers with twins follow the new values, as in write_design().
 /// @throws InputError for an unknown parameter, a value that is not a number or outside its bounds, and as read_robot()
-void apply_set_values(XmlDocument* document);
+void apply_set_values(XmlDocument* document, const Laws& laws);
 
 /// One `<codesign:set>` to be written.
 struct SetValue {

@@ -142,7 +142,7 @@ void check_friction(const RobotDescription& robot) {
   for (const JointDescription& joint : robot.joints) {
     if (!joint.friction) continue;
     const bool ordinary = joint.is_loop || (is_body(joint.parent) && is_body(joint.child));
-    if (ordinary) check_friction_geometry(*joint.friction, joint.type, joint.element() + " <codesign:friction>");
+    if (ordinary) check_friction_geometry(*joint.friction, kind_of(joint), joint.element() + " <codesign:friction>");
   }
 }
 

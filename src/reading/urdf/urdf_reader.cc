@@ -5,8 +5,8 @@
 
 namespace codesign {
 
-RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays) {
-  return read_robot(load_annotated_urdf(urdf, overlays));
+RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws) {
+  return read_robot(load_annotated_urdf(urdf, overlays, laws), laws);
 }
 
 }  // namespace codesign

@@ -11,16 +11,16 @@
 namespace codesign {
 
 /// Reads an annotated URDF merged with its overlays; doc/annotations.md. Annotations and overlays are read strictly; doubtful parts of a
-/// vendor's URDF become warnings.
+/// vendor's URDF become warnings. @param laws that the files and their study may name; RobotDescription::laws.
 /// @throws InputError naming file, line, element, value and allowed range.
-RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays = {});
+RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays = {}, const Laws& laws = standard_laws());
 
 /// The merged URDF as XML for other parameter values: every attribute with a twin, every parameter's default and every inertial computed
 /// from shapes is set to its value at `parameters` (all named parameters; those after the model's are ignored). Reading it gives a model
 /// whose default design is this one.
 /// @param law the friction law of every joint and loop with friction; numbers that it does not use are left out. Without it each keeps its
-/// own. @throws InputError if values are missing or not finite.
+/// own. @param laws as of read_urdf(). @throws InputError if values are missing or not finite.
 std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters,
-                             std::optional<FrictionModel> law = std::nullopt);
+                             std::optional<FrictionModel> law = std::nullopt, const Laws& laws = standard_laws());
 
 }  // namespace codesign

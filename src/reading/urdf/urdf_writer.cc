@@ -10,13 +10,13 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// Gives each joint and loop with friction the law. Removes attributes that the law does not use, since a file with them could not be read.
-void write_friction_law(XMLElement* robot, FrictionModel law) {
+void write_friction_law(XMLElement* robot, const FrictionLaw& law) {
   for (XMLElement* joint = robot->FirstChildElement(); joint != nullptr; joint = joint->NextSiblingElement()) {
     XMLElement* friction = joint->FirstChildElement("codesign:friction");
     if (friction == nullptr) continue;
-    friction->SetAttribute("model", kFrictionModelNames[static_cast<std::size_t>(law)]);
+    friction->SetAttribute("model", law.name);
     visit_friction_numbers([&](const FrictionNumberRule& rule) {
-      if (rule.is_used_by(law)) return;
+      if (law.uses(rule)) return;
       friction->DeleteAttribute(rule.attribute);
       friction->DeleteAttribute((std::string(kPrefix) + rule.attribute).c_str());
     });
@@ -26,9 +26,9 @@ void write_friction_law(XMLElement* robot, FrictionModel law) {
 }  // namespace
 
 std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters,
-                             std::optional<FrictionModel> law) {
-  XmlDocument document = load_annotated_urdf(urdf, overlays);
-  const RobotDescription robot = read_robot(document);
+                             std::optional<FrictionModel> law, const Laws& laws) {
+  XmlDocument document = load_annotated_urdf(urdf, overlays, laws);
+  const RobotDescription robot = read_robot(document, laws);
   const std::size_t count = robot.parameters.size();
   if (parameters.size() < count)
     throw InputError({{urdf.name, 0},
@@ -38,7 +38,7 @@ std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceTex
                       std::to_string(count) + " or more"});
   const std::vector<double> values(parameters.begin(), parameters.begin() + static_cast<std::ptrdiff_t>(count));
   write_design(robot, values, &document);
-  if (law) write_friction_law(document.robot(), *law);
+  if (law) write_friction_law(document.robot(), **law);
   return document.text();
 }
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "control/pid.h"
+#include "forces/pid.h"
 
 #include <gtest/gtest.h>
 

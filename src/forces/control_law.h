@@ -1,0 +1,71 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "forces/law.h"
+#include "forces/pid.h"
+
+namespace codesign {
+
+/// The values that a control law is a function of; what ControlLaw does not ask for is zero.
+template <class T>
+struct ControlValues {
+  Pid<T> gains;
+  T error{0.0}, integral{0.0}, error_rate{0.0};  ///< e = setpoint - input, its integral and its rate, [unit of the input], s, 1/s
+  T clamped{0.0};                                ///< k_i times the integral within i_clamp; the integral is then zero
+  T load{0.0};                                   ///< inverse dynamics, see ControlLoad [N m or N]
+  T given{0.0};                                  ///< u_0(t) - sum of K_i (x_i - r_i(t)) of (C7), or the shape u(t) of (C8)
+
+  /// p e + i s + d e' of (C3).
+  T pid() const { return gains.output(error, integral, error_rate) + clamped; }
+};
+
+/// The output u before any limit [N m or N, positive along the coordinate that the controller drives].
+template <class T>
+using ControlFunction = T (*)(const ControlValues<T>& x);
+
+/// What a controller reads: keys of the study and, with them, values of ControlValues.
+enum class ControlInput {
+  kSignal,       ///< `input`, `setpoint` and `gains`: error, integral, rate
+  kOwnPosition,  ///< `setpoint` and `gains`; the input is the position of the joint that it drives
+  kFeedback,     ///< `feedback` and `feedforward`: given
+  kShape         ///< `shape` and its coefficients, a function of time only: given
+};
+
+/// Inverse dynamics of the tree that hangs on the driven joint.
+enum class ControlLoad {
+  kNone,
+  kAtRest,   ///< the load that holds it against gravity, (C5)
+  kDemanded  ///< the load at the accelerations setpoint'' + pid() that all controllers of this kind demand, (C6)
+};
+
+/// A control law, one row of the table in control_law.cc: its name, what it reads, and one function of values; doc/theory.md (C3)-(C8).
+struct ControlLaw {
+  const char* name;  ///< the value of the controller's `type`
+  Law<ControlFunction> output;
+  const char* gains = "";  ///< the letters of the gains that the study may give
+  ControlInput input = ControlInput::kSignal;
+  ControlLoad load = ControlLoad::kNone;
+  bool reads_rate = false;  ///< whether it reads the rate of the error, if there is a gain d
+  bool is_pid = false;      ///< whether the output is pid(), which a robot may also sample, clamp and filter, (50)-(52)
+
+  /// Whether the law compares an input with a setpoint.
+  bool has_error() const { return input == ControlInput::kSignal || input == ControlInput::kOwnPosition; }
+};
+
+/// The law of a controller.
+class ControllerKind : public RowReference<ControlLaw> {
+ public:
+  using RowReference::RowReference;
+  static const ControllerKind kPid,  ///< p e + i int e dt + d de/dt, with e = setpoint - input
+      kPdGravity,                    ///< p e + d de/dt + the load that holds the joint against gravity
+      kComputedTorque,               ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
+      kStateFeedback,                ///< feedforward - sum gain (signal - reference)
+      kBasis;                        ///< a shaped input, a function of time only
+};
+
+/// The library's control laws, by name.
+std::vector<ControllerKind> control_laws();
+
+}  // namespace codesign

@@ -1,0 +1,84 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "forces/law.h"
+#include "joints/joint_type.h"
+#include "joints/pair_constants.h"
+
+namespace codesign {
+
+template <class T>
+struct PairRows;
+
+/// Adds the constraint rows of a pair to those of coincident points, if it has these; theory (6).
+template <class T>
+using PairRowsFunction = void (*)(const PairConstants<T>& c, PairRows<T>* rows);
+/// The normal force N [N] in the bearing as a function of the reaction F'' [N] and T'' [N m], theory (12).
+template <class T>
+using NormalForceFunction = T (*)(const Vector3<T>& F, const Vector3<T>& torque, const FrictionNumbers<T>& c);
+
+/// The components of the reaction force F'', theory (11), that equal the multipliers of a pair's first rows.
+enum class ForceRows {
+  kNone,    ///< no row is a component of F''
+  kAll,     ///< three rows of coincident points, in ground axes
+  kAcross,  ///< two, along x'' and y''
+  kAlong    ///< one, along z''
+};
+
+/// The bearing of a joint: the formula of its normal force, none if the joint has no friction law, and which dimensions it needs.
+struct BearingLaw {
+  Law<NormalForceFunction> normal_force{};
+  bool joint_length = false, joint_width = false, pin_radius = false;
+};
+
+/// A joint, one row of the table in joint_law.cc: its names, the properties of the pair of bodies that it makes, and its functions of
+/// values. Body i is on the parent's side, body j on the child's; z is the joint axis.
+struct JointLaw {
+  const char* of_joints;   ///< value of `<joint type>`; null: no joint of the tree has this type
+  const char* of_loops;    ///< value of `<loop type>`; null: no loop has it
+  JointType type;          ///< kOther: nothing but this row depends on it; such a joint is a loop, or arises by folding
+  int rows;                ///< number of constraint rows
+  ForceRows force;         ///< the force components that the first rows stand for
+  bool torque_rows;        ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are rows
+  bool in_forest = false;  ///< whether its coordinates are scalars, which hold in all positions; theory (56)
+  Law<PairRowsFunction> add_rows{};
+  BearingLaw bearing{};
+  int slip_coordinates = 0;    ///< number of slip coordinates of isotropic friction (13a); 0: each coordinate has its own friction, (13)
+  int slips_of_the_point = 0;  ///< how many of them, from the first on, make up the reported speed and friction
+
+  /// How many of the first rows are components of F''.
+  constexpr int force_rows() const { return force == ForceRows::kAll ? 3 : force == ForceRows::kAcross ? 2 : force == ForceRows::kAlong; }
+  /// Whether friction acts in a plane, whose normal force only the first row enters.
+  constexpr bool is_plane() const { return slips_of_the_point == 2; }
+};
+
+/// The kind of a pair: the relative motion that it allows.
+class PairKind : public RowReference<JointLaw> {
+ public:
+  using RowReference::RowReference;
+  static const PairKind kFixed,  ///< none
+      kRevolute,                 ///< turn about z
+      kPrismatic,                ///< slide along z
+      kCylindrical,              ///< turn about z and slide along z
+      kUniversal,                ///< turn about z_i and z_j, which keep their angle
+      kSpherical,                ///< turn about any axis
+      kTable,                    ///< slide in the plane normal to z, no turn
+      kPlanar,                   ///< slide in the plane normal to z and turn about z
+      kTranslational,            ///< slide anywhere, no turn
+      kDistance,                 ///< two points at a constant distance
+      kFree;                     ///< any motion
+};
+
+/// The library's joints.
+std::vector<RowReference<JointLaw>> joint_laws();
+
+/// The kind of pair that a joint makes: a continuous joint is a revolute one without limits.
+inline PairKind pair_of(const JointLaw& joint) { return joint.type == JointType::kContinuous ? PairKind::kRevolute : PairKind(joint); }
+
+/// Whether friction in such a pair is isotropic, one law for all directions of slip, doc/theory.md (13a), instead of one law per
+/// coordinate, (13).
+inline bool slips_isotropically(PairKind kind) { return kind->slip_coordinates > 0; }
+
+}  // namespace codesign
