@@ -9,6 +9,7 @@
 #include "equations/compiled_system.h"
 #include "joints/body_kinematics.h"
 #include "joints/pair_rows.h"
+#include "mechanism/constants.h"
 
 namespace codesign {
 

@@ -40,6 +40,7 @@ Problem load_slider_crank() { return load_problem(read_source(kUrdf), {}, read_s
 
 std::optional<Problem> with_solver(const Problem& problem, const std::string& name, double relative_tolerance) {
   Study changed = problem.study();
+  changed.solver.coordinates = CoordinatesKind::kAbsolute;  // the formulation of the paper and of the other codes
   changed.solver.integrator = name == "idas" ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
   if (name != "idas") changed.solver.method = method_named(name == kControlled ? "rodas5p" : name);
   changed.solver.sensitivity_tolerance = name == kControlled ? relative_tolerance : 0.0;

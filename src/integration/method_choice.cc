@@ -15,16 +15,26 @@ constexpr int kStiffSteps = 15, kOtherSteps = 6;
 constexpr double kCalm = 1.0;
 constexpr int kLooks = 8, kFirstPause = 16, kLongestPause = 1024;
 
+bool has_dry_friction(const System& system) {
+  return !system.contacts().empty() || std::any_of(system.loads().begin(), system.loads().end(),
+                                                   [](const JointLoad& load) { return load.reaction_friction || load.constant_friction; });
+}
+
 }  // namespace
 
+// Dry friction is stiff wherever it sticks. A run that began explicitly would find this out in some fifty steps, and have made the programs
+// of both methods.
 MethodChoice::MethodChoice(const CompiledSystem& system)
-    : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto), direction_(IncrementLayout(system.layout()).size()) {}
+    : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto),
+      first_(is_automatic_ && has_dry_friction(system) ? &rodas5p() : &rosenbrock_tableau(system.study().solver.method)),
+      direction_(IncrementLayout(system.layout()).size()) {}
 
-void MethodChoice::start() {
+const RosenbrockTableau& MethodChoice::start() {
   stiff_ = others_ = 0;
-  pause_ = kFirstPause;
+  waits_ = pause_ = kFirstPause;
   // Without any pattern, so that it has a part along every eigenvector.
   for (Eigen::Index k = 0; k < direction_.size(); ++k) direction_[k] = std::sin(1.0 + 7.0 * static_cast<double>(k));
+  return *first_;
 }
 
 bool MethodChoice::is_stiff(const RosenbrockStep<double>& step) {

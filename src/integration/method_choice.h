@@ -5,14 +5,15 @@
 
 namespace codesign {
 
-/// The change-over between dopri5() and rodas5p() of `solver: {method: auto}`, theory (15c): a run begins explicitly, goes on implicitly
-/// when stability limits the explicit steps, and returns when steps of the same size would be stable explicitly.
+/// The change-over between dopri5() and rodas5p() of `solver: {method: auto}`, theory (15c): a run begins explicitly, or
+/// implicitly if the mechanism has dry friction, goes on implicitly when stability limits the explicit steps, and returns when steps of the
+/// same size would be stable explicitly.
 class MethodChoice {
  public:
   explicit MethodChoice(const CompiledSystem& system);
 
-  /// Begins a run.
-  void start();
+  /// Begins a run. @returns the method of the first step
+  const RosenbrockTableau& start();
   /// The method of the next step. @param step after its last attempt was accepted.
   const RosenbrockTableau& next(RosenbrockStep<double>* step);
 
@@ -21,6 +22,7 @@ class MethodChoice {
   bool is_calm(RosenbrockStep<double>* step);
 
   const bool is_automatic_;
+  const RosenbrockTableau* first_;
   int stiff_ = 0, others_ = 0;  ///< explicit steps at the limit of stability; others in a row
   int waits_ = 0;               ///< implicit steps before the next look
   int pause_ = 0;               ///< implicit steps before the first look after a change

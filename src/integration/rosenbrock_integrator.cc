@@ -37,8 +37,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   statistics_ = {};
   clock_.start();
   jump_events_.clear();
-  step_.use(rosenbrock_tableau(options_.method));
-  choice_.start();
+  step_.use(choice_.start());
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;

@@ -13,8 +13,9 @@
 namespace codesign {
 namespace {
 
-/// Above this number `auto` keeps absolute coordinates, whose matrices are sparse: a chain of 24 hinges; decision 82.
-constexpr int kMostCoupled = 300;
+/// Above this number of pairs of coordinates that move the same body (a chain of 24 hinges) chains are cut, so that matrices stay sparse,
+/// and the number of coordinates between two cuts; decision 82.
+constexpr int kMostCoupled = 300, kLongestChain = 10;
 
 /// Whether a signal needs the wrenches that joints transmit.
 bool depends_on_reactions(const SignalTerm& term) {
@@ -39,6 +40,18 @@ int coupled_coordinates(const Topology& topology, const Forest& forest) {
     sum += own * above[static_cast<std::size_t>(body)];
   }
   return sum;
+}
+
+/// Cuts chains so that no body has more than kLongestChain coordinates between it and a free body or the ground.
+void cut_long_chains(const Topology& topology, std::vector<bool>* cut) {
+  const Forest forest = tree_forest(topology, *cut);
+  std::vector<int> above(topology.bodies.size(), 0);
+  for (int body : forest.order) {
+    const int pair = forest.pair_above[to_index(body)], parent = topology.pairs[to_index(pair)].body_i;
+    const int sum = forest_coordinates(topology.pairs[to_index(pair)]) + (parent < 0 ? 0 : above[to_index(parent)]);
+    (*cut)[to_index(pair)] = sum > kLongestChain;
+    above[to_index(body)] = sum > kLongestChain ? 0 : sum;
+  }
 }
 
 }  // namespace
@@ -78,8 +91,7 @@ void System::choose_forest() {
 CoordinatesKind System::best_coordinates() const {
   // In joint coordinates motions can be polynomials, which idas follows exactly in a few steps too long for its quadratures.
   const bool is_possible = study_.solver.integrator != IntegratorKind::kIdas && !mechanism_friction();
-  return is_possible && coupled_coordinates(topology_, tree_forest(topology_, cut_pairs())) <= kMostCoupled ? CoordinatesKind::kJoint
-                                                                                                            : CoordinatesKind::kAbsolute;
+  return is_possible ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
 }
 
 /// The inputs of all controllers.
@@ -101,7 +113,8 @@ const SignalDescription* System::mechanism_friction() const {
 }
 
 /// Pairs that have rows in joint coordinates too: those that share reactions, (23), and those whose reactions a controller reads, which are
-/// then multipliers and known before the wrenches of the other joints, to which the controller contributes.
+/// then multipliers and known before the wrenches of the other joints, to which the controller contributes. And joints that cut long
+/// chains.
 std::vector<bool> System::cut_pairs() const {
   std::vector<bool> cut(topology_.pairs.size(), false);
   for (int pair : sharing_.pairs) cut[to_index(pair)] = true;
@@ -109,6 +122,7 @@ std::vector<bool> System::cut_pairs() const {
     for (const SignalTerm& term : input->terms)
       if (depends_on_reactions(term))
         if (const int pair = topology_.joint_pair[to_index(joint_named(robot_, term.object))]; pair >= 0) cut[to_index(pair)] = true;
+  if (coupled_coordinates(topology_, tree_forest(topology_, cut)) > kMostCoupled) cut_long_chains(topology_, &cut);
   return cut;
 }
 

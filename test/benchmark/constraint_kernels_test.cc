@@ -34,7 +34,10 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
     if (GetParam() == "chain") return load(open_chain(3));
     if (GetParam() == "ladder") return load(ladder(2));
     const std::string source = source_dir();
-    return load({read_source(source + "/urdf/" + GetParam() + ".urdf"), read_source(source + "/config/" + GetParam() + ".yaml")});
+    SourceText study = read_source(source + "/config/" + GetParam() + ".yaml");
+    const std::string solver = "solver: {";
+    study.text.replace(study.text.find(solver), solver.size(), solver + "coordinates: absolute, ");
+    return load({read_source(source + "/urdf/" + GetParam() + ".urdf"), study});
   }
   static Problem load(const GeneratedCase& generated) { return load_problem(generated.urdf, {}, generated.study); }
 

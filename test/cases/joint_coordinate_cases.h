@@ -107,6 +107,15 @@ inline std::vector<CoordinatesCase> frictions() {
 }
 
 /// Everything else that acts on a mechanism.
+/// Bars on hinges one below the other.
+inline std::string chain_of(int count) {
+  std::string content;
+  for (int k = 0; k < count; ++k)
+    content += bar("bar" + std::to_string(k)) + hinge("hinge" + std::to_string(k), k == 0 ? "ground" : "bar" + std::to_string(k - 1),
+                                                      "bar" + std::to_string(k), k == 0 ? "0 0 0" : "0 0 -1");
+  return robot(content);
+}
+
 inline std::vector<CoordinatesCase> loads() {
   const std::string servo =
       "controllers:\n"
@@ -134,6 +143,7 @@ inline std::vector<CoordinatesCase> loads() {
           {"loaded_arm_within_limits", loaded_arm(), servo + forces + limits, false},
           {"loaded_arm_sampled", loaded_arm(), sampled, false},
           {"fed_back_reactions", double_pendulum(pin_friction()), "initial_state: {elbow: {position: 1.2}}\n" + compliant, false},
+          {"long_chain", chain_of(26), "initial_state: {hinge0: {position: 1.0}, hinge5: {velocity: 1.0}}\n", false},
           {"computed_torque", loaded_arm(), torque, false},
           {"crane", crane(), "initial_state: {turn: {velocity: 1.0}, ball_x: {position: 0.3}}\n" + gravity, false},
           {"puck", puck(), "initial_state: {hinge: {position: 0.4}}\n", false},

@@ -293,24 +293,20 @@ TEST(JointCoordinates, RedundantLoopsAndReactionsThatControllersReadKeepRows) {
                    .has_forest());
 }
 
-TEST(JointCoordinates, AutoKeepsLongChainsInAbsoluteCoordinates) {
-  const auto chain = [](int count) {
-    std::string content;
-    for (int k = 0; k < count; ++k)
-      content += bar("bar" + std::to_string(k)) +
-                 hinge("hinge" + std::to_string(k), k == 0 ? "ground" : "bar" + std::to_string(k - 1), "bar" + std::to_string(k), "0 0 -1");
-    const RobotDescription model = read_urdf({"test.urdf", robot(content)});
-    const Study study = read_study({"test.yaml",
-                                    "duration: 1.0\nobjective: {integral: [{signal: bar0/position/x}]}\n"
-                                    "solver: {coordinates: auto}\n"},
-                                   model);
-    return System(model, study).best_coordinates();
+TEST(JointCoordinates, LongChainsAreCut) {
+  const auto cuts = [](int count) {
+    const auto system =
+        system_of(joint_coordinates::chain_of(count), "duration: 1.0\nobjective: {integral: [{signal: bar0/position/x}]}\n");
+    EXPECT_TRUE(system->layout().has_forest());
+    int sum = 0;
+    for (int pair = 0; pair < count; ++pair) sum += system->layout().is_cut(pair) ? 1 : 0;
+    return sum;
   };
-  EXPECT_EQ(chain(24), CoordinatesKind::kJoint);
-  EXPECT_EQ(chain(25), CoordinatesKind::kAbsolute);
+  EXPECT_EQ(cuts(24), 0);
+  EXPECT_EQ(cuts(25), 2);
+  EXPECT_EQ(cuts(40), 3);
 }
 
-// A tree has no constraints there, among which the motions without inertia are sought.
 TEST(JointCoordinates, APointMassOnAHingeMovesAsInAbsoluteOnes) {
   const std::string model =
       robot(bar("upper") + hinge("shoulder", "ground", "upper", "0 0 0") +

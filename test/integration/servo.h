@@ -22,9 +22,12 @@ inline std::string servo_study(const std::string& solver) {
          solver + "\n";
 }
 
-inline std::shared_ptr<const CompiledSystem> compile(const std::string& urdf, const std::string& study) {
+/// In absolute coordinates, whose places in the state tests know, unless the study names others.
+inline std::shared_ptr<const CompiledSystem> compile(const std::string& urdf, const std::string& text) {
   const RobotDescription description = read_urdf({"test.urdf", urdf});
-  return make_system(description, read_study({"test.yaml", study}, description));
+  Study study = read_study({"test.yaml", text}, description);
+  if (study.solver.coordinates == CoordinatesKind::kAuto) study.solver.coordinates = CoordinatesKind::kAbsolute;
+  return make_system(description, study);
 }
 
 inline std::shared_ptr<const CompiledSystem> servo(const std::string& solver) {
