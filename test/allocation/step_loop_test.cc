@@ -75,7 +75,8 @@ std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSyste
 TEST_P(StepLoop, BackwardsAsksForTheGradientOnly) {
   const auto system = test.compile(method, "adjoint");
   const auto engine = make_gradient_engine(*system);
-  allocations_of_way_back(engine.get(), *system, test.study.duration);
+  // Twice: the second way back begins with the variant of the recording that the first one found last, and makes its code.
+  for (int k = 0; k < 2; ++k) allocations_of_way_back(engine.get(), *system, test.study.duration);
   for (double share : {1.0, 0.25}) EXPECT_EQ(allocations_of_way_back(engine.get(), *system, share * test.study.duration), 1) << share;
 }
 

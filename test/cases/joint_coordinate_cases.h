@@ -67,7 +67,7 @@ inline std::string carried_ring(const std::string& friction) {
 inline std::vector<CoordinatesCase> rings() {
   const std::string start = "initial_state: {root: {velocity: 1.0}, left_hinge: {position: 0.4, velocity: 1.0}}\n";
   return {
-      {"ring", carried_ring(""), start, true, 1e-6, 1e-8},
+      {"ring", carried_ring(""), start, true, 1e-6, 1e-7},
       {"ring_with_friction", carried_ring(annotation("brown_mcphee", "joint_length='0.1' pin_radius='0.03'")), start, true, 1e-7, 1e-8}};
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 // Steps of one size at all designs, so that a run is a smooth function of its numbers.
 constexpr const char* kEqualSteps =
-    "solver: {relative_tolerance: 0.99, absolute_tolerance: 0.99, initial_step: 0.0025, maximum_step: 0.0025}\n";
+    "solver: {method: rodas4, relative_tolerance: 0.99, absolute_tolerance: 0.99, initial_step: 0.0025, maximum_step: 0.0025}\n";
 
 JointRecording wavy(const std::string& joint, double effort) {
   JointRecording recording;

@@ -81,8 +81,20 @@ TEST_P(MethodChoiceTest, TheTangentOfAChangingRunIsExactAndTheAdjointTheSame) {
 INSTANTIATE_TEST_SUITE_P(Coordinates, MethodChoiceTest, ::testing::Values("joint", "absolute"));
 
 TEST(MethodChoice, StaysExplicitWhereNothingIsStiff) {
-  const auto system = shipped_case("two_link_arm", 0.5).compile("auto", "direct");
+  const auto system = shipped_case("inverted_pendulum_frictionless", 0.5).compile("auto", "direct");
   EXPECT_TRUE(changes(*system).empty());
+}
+
+TEST(MethodChoice, BeginsImplicitlyWithDryFrictionAndReturnsWhereItIsNotStiff) {
+  const auto system = shipped_case("two_link_arm", 0.5).compile("auto", "direct");
+  const std::vector<int> steps = changes(*system);
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0], 1);
+}
+
+TEST(MethodChoice, LoopsThatShareReactionsStayImplicit) {
+  const auto system = compile(four_bar(), let_go("{left_hinge: {position: 0.4}}", "left_hinge/velocity"));
+  EXPECT_EQ(changes(*system), std::vector<int>{1});
 }
 
 }  // namespace

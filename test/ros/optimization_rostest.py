@@ -108,7 +108,7 @@ class OptimizationTest(unittest.TestCase):
         self.assertEqual(len(result["warnings"]), len(self.result.warnings))
         # The files alone give the objective again, and a page.
         reply = self.codesign("simulate", "tuned.urdf", "job_study.yaml", "--result", "result.json", "--json", cwd=folder)
-        self.assertAlmostEqual(json.loads(reply)["objective"], self.result.objective, delta=1e-12 * self.result.objective)
+        self.assertAlmostEqual(json.loads(reply)["objective"], self.result.objective, delta=1e-9 * self.result.objective)
         page = os.path.join(folder, "page.html")
         self.codesign("report", self.result.bag, "-o", page)
         with open(page, encoding="utf-8") as file:
