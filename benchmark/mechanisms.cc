@@ -57,7 +57,8 @@ std::string parameter(const std::string& name, double value) {
 
 std::string study(const std::string& initial_state, const std::string& parameters, const std::string& signal) {
   return "duration: 0.5\ninitial_state: {" + initial_state + "}\nparameters: {" + parameters +
-         "}\nobjective: {integral: [{signal: " + signal + "}]}\nsolver: {coordinates: absolute, method: rodas4, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}\n";
+         "}\nobjective: {integral: [{signal: " + signal +
+         "}]}\nsolver: {coordinates: absolute, method: rodas4, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}\n";
 }
 
 GeneratedCase chain(int links, bool parametric, const std::string& tuned) {

@@ -36,11 +36,11 @@ constexpr std::array<const char*, 3> kCoordinatesNames{"auto", "joint", "absolut
 struct SolverOptions {
   IntegratorKind integrator = IntegratorKind::kRosenbrock;
   CoordinatesKind coordinates = CoordinatesKind::kAuto;
-  SourceLocation coordinates_where;                     ///< of the key `coordinates`, for messages
+  SourceLocation coordinates_where;                   ///< of the key `coordinates`, for messages
   RosenbrockMethod method = RosenbrockMethod::kAuto;  ///< kRosenbrock only
-  double relative_tolerance = 1e-6;                     ///< rtol of the error test, theory (15)
-  double absolute_tolerance = 1e-7;                     ///< atol of the error test, in the units of q, v and s
-  GradientMethod gradient = GradientMethod::kAuto;      ///< kRosenbrock only
+  double relative_tolerance = 1e-6;                   ///< rtol of the error test, theory (15)
+  double absolute_tolerance = 1e-7;                   ///< atol of the error test, in the units of q, v and s
+  GradientMethod gradient = GradientMethod::kAuto;    ///< kRosenbrock only
   /// kRosenbrock only: relative tolerance of the sensitivities by each parameter, theory (18); 0: they take no part in the error test.
   double sensitivity_tolerance = 0.0;
   double initial_step = 0.0;        ///< [s]; 0: chosen automatically

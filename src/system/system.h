@@ -62,7 +62,8 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  /// The coordinates that `solver: {coordinates: auto}` stands for: joint coordinates where they are possible. A system whose study still says `auto` has absolute coordinates; make_system() chooses.
+  /// The coordinates that `solver: {coordinates: auto}` stands for: joint coordinates where they are possible. A system whose study still
+  /// says `auto` has absolute coordinates; make_system() chooses.
   CoordinatesKind best_coordinates() const;
 
   /// The model, with the study's start rotations of floating joints.
