@@ -15,12 +15,17 @@ constexpr int kStiffSteps = 15, kOtherSteps = 6;
 constexpr double kCalm = 1.0;
 constexpr int kLooks = 8, kFirstPause = 16, kLongestPause = 1024;
 
-/// Steps of loops that share reactions are watched for singular positions, (23a), which explicit ones are long enough to pass unseen.
-bool chooses(const System& system) { return system.study().solver.method == RosenbrockMethod::kAuto && system.compliance() == 0.0; }
-
 bool has_dry_friction(const System& system) {
   return !system.contacts().empty() || std::any_of(system.loads().begin(), system.loads().end(),
                                                    [](const JointLoad& load) { return load.reaction_friction || load.constant_friction; });
+}
+
+const RosenbrockTableau& first_method(const System& system) {
+  const RosenbrockMethod method = system.study().solver.method;
+  if (method != RosenbrockMethod::kAuto) return rosenbrock_tableau(method);
+  // Steps of loops that share reactions are watched for singular positions, (23a), which explicit steps are long enough to pass unseen.
+  if (system.compliance() > 0.0) return rodas4();
+  return has_dry_friction(system) ? rodas5p() : dopri5();
 }
 
 }  // namespace
@@ -28,10 +33,8 @@ bool has_dry_friction(const System& system) {
 // Dry friction is stiff wherever it sticks. A run that began explicitly would find this out in some fifty steps, and have made the programs
 // of both methods.
 MethodChoice::MethodChoice(const CompiledSystem& system)
-    : is_automatic_(chooses(system)),
-      first_(system.study().solver.method == RosenbrockMethod::kAuto && (!is_automatic_ || has_dry_friction(system))
-                 ? &rodas5p()
-                 : &rosenbrock_tableau(system.study().solver.method)),
+    : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto && system.compliance() == 0.0),
+      first_(&first_method(system)),
       direction_(IncrementLayout(system.layout()).size()) {}
 
 const RosenbrockTableau& MethodChoice::start() {
