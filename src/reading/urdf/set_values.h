@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "description/laws.h"
 #include "mechanism_codesign/parameter.h"
 #include "reading/xml/xml_document.h"
 
