@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "codegen/operate.h"
+#include "equations/compressed_jacobian.h"
 #include "equations/design_products.h"
 #include "equations/equation_code.h"
 #include "math/to_index.h"
@@ -64,36 +65,65 @@ template <class T>
 CompiledEquations<T>::~CompiledEquations() = default;
 
 template <class T>
+template <class Visit>
+void CompiledEquations<T>::for_each_other(const Visit& visit) const {
+  for (const auto& other : others_)
+    if (other) visit(other.get());
+  if constexpr (std::is_same_v<T, double>)
+    if (compressed_) visit(compressed_.get());
+}
+
+template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
   for (Variant& variant : variants_) variant.ready = false;
   multiplied_.clear();
   current_ = 0;
-  if (linearized_) linearized_->set_design(parameters);
+  for_each_other([&](auto* other) { other->set_design(parameters); });
 }
 
 template <class T>
 void CompiledEquations<T>::allow(bool machine_code) {
   interpreted_ = !machine_code;
-  if (linearized_) linearized_->allow(machine_code);
+  for_each_other([&](auto* other) { other->allow(machine_code); });
 }
 
 template <class T>
 void CompiledEquations<T>::forget() {
   current_ = 0;
-  if (linearized_) linearized_->forget();
+  for_each_other([](auto* other) { other->forget(); });
+}
+
+template <class T>
+EquationPart CompiledEquations<T>::part_of(EquationFunction function) const {
+  if (part_ != EquationPart::kMotion) return part_;
+  const bool is_rates = function == EquationFunction::kRates || function == EquationFunction::kAccelerations;
+  if (is_rates && system_.compresses_jacobian()) return EquationPart::kRates;
+  return function == EquationFunction::kLinearization && system_.has_rates_apart() ? EquationPart::kLinearized : part_;
+}
+
+template <class T>
+template <class Other>
+std::unique_ptr<Other> CompiledEquations<T>::prepared(std::unique_ptr<Other> other) const {
+  other->allow(!interpreted_);
+  other->set_design(parameters_);
+  return other;
 }
 
 template <class T>
 CompiledEquations<T>& CompiledEquations<T>::holder(EquationFunction function) {
-  const bool here = part_ != EquationPart::kMotion || function != EquationFunction::kLinearization;
-  if (here || !linearizes_apart(system_.study().solver)) return *this;
-  if (!linearized_) {
-    linearized_ = std::make_unique<CompiledEquations>(system_, EquationPart::kLinearized);
-    linearized_->allow(!interpreted_);
-    linearized_->set_design(parameters_);
-  }
-  return *linearized_;
+  const EquationPart part = part_of(function);
+  if (part == part_) return *this;
+  std::unique_ptr<CompiledEquations>& other = others_[static_cast<std::size_t>(part)];
+  if (!other) other = prepared(std::make_unique<CompiledEquations>(system_, part));
+  return *other;
+}
+
+template <class T>
+CompressedJacobian& CompiledEquations<T>::compressed() {
+  if constexpr (std::is_same_v<T, double>)
+    if (!compressed_) compressed_ = prepared(std::make_unique<CompressedJacobian>(system_));
+  return *compressed_;
 }
 
 template <class T>
@@ -174,6 +204,18 @@ void CompiledEquations<T>::set_instant(const Instant& instant, Variant* variant)
 }
 
 template <class T>
+void CompiledEquations<T>::seed_time(double t, Variant* variant) const {
+  if constexpr (kLanesOf < T >> 0)
+    for (std::size_t k = 0; k < variant->functions.size(); ++k) {
+      const ReferenceMotion<T> motion = std::visit([&](const auto& function) { return function.at(t); }, variant->functions[k]);
+      const T* const next[] = {&motion.rate, &motion.acceleration, &motion.jerk};
+      for (std::size_t order = 0; order < std::size(next); ++order)
+        if (const int entry = variant->numbered->functions[k][order]; entry >= 0)
+          variant->numbers[to_index(entry)].directions()[0] = value_of(*next[order]);
+    }
+}
+
+template <class T>
 bool CompiledEquations<T>::adopt() {
   const EquationCode* const code = system_.equation_code(variants_.size(), part_);
   if (code) variants_.emplace_back(code);
@@ -193,7 +235,7 @@ int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, cons
   if (slots_.size() < slots) slots_.resize(slots);
   if (rows_.size() < code.rows) rows_.resize(code.rows);
   set_instant(instant, variant);
-  return run(code, inner_arrays<T>(variant->numbers, slots_, rows_));
+  return run(code, inner_arrays<T>(variant->numbers, slots_, rows_), variant);
 }
 
 template <class T>
@@ -237,7 +279,7 @@ template <class T>
 void CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
                                const Out<T> (&results)[4]) {
   const auto numbers = [](In<T> array) { return reinterpret_cast<const CodeNumber<T>*>(array.data()); };
-  evaluate({function, Mode::kValues, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+  evaluate({function, Mode::kValues, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant*) {
     std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
     std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
     const int failed = run_values(code, arrays);
@@ -254,7 +296,7 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
                     [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   if constexpr (kLanesOf < T >> 0) {
     const auto first = [](In<double> array) { return array.data(); };
-    holder(function).evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+    holder(function).evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant*) {
       std::transform(std::begin(values), std::end(values), arrays.begin(), first);
       if (const int failed = run_values(code, arrays); failed >= 0) return failed;
       std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
@@ -263,6 +305,33 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
       return -1;
     });
   }
+}
+
+template <class T>
+bool CompiledEquations<T>::residual_tangents(const State<double>& state, const std::vector<Pass>& passes, const Pass* along_time) {
+  bool depends_on_time = false;
+  if constexpr (kLanesOf < T >> 0) {
+    const In<double> parts[] = {state.q, state.v, state.s, state.z};
+    const auto first = [](In<double> array) { return array.data(); };
+    const EquationFunction function = EquationFunction::kResidual;
+    evaluate({function, Mode::kSplit, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant* variant) {
+      std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
+      if (const int failed = run_values(code, arrays); failed >= 0) return failed;
+      const auto run_pass = [&](const Pass& pass) {
+        std::transform(std::begin(pass.directions), std::end(pass.directions), arrays.begin(), first);
+        std::transform(std::begin(pass.results), std::end(pass.results), arrays.begin() + Arrays::kResults, first);
+        code.tangents->run(arrays);
+      };
+      for (const Pass& pass : passes) run_pass(pass);
+      depends_on_time = !variant->functions.empty();
+      if (along_time && depends_on_time) {
+        seed_time(state.t, variant);
+        run_pass(*along_time);
+      }
+      return -1;
+    });
+  }
+  return depends_on_time;
 }
 
 template <class T>
@@ -275,7 +344,7 @@ void CompiledEquations<T>::add_transposed(EquationFunction function, const State
     }
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     const auto first = [](In<double> array) { return array.data(); };
-    evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays) {
+    evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant*) {
       std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
       std::transform(std::begin(weights), std::end(weights), arrays.begin() + Arrays::kResults, first);
       return run_values(code, arrays);
@@ -291,7 +360,8 @@ template <class T>
 void CompiledEquations<T>::add_gradient(Out<double> gradient) {
   if constexpr (std::is_same_v<T, double>)
     for (std::size_t k : multiplied_) variants_[k].products->add_to(variants_[k].numbers, gradient);
-  if (linearized_) linearized_->add_gradient(gradient);
+  for (const auto& other : others_)
+    if (other) other->add_gradient(gradient);
 }
 
 template <class T>
@@ -302,22 +372,35 @@ void CompiledEquations<T>::residual(const State<T>& state, VectorX<T>* G, T* g) 
 
 template <class T>
 void CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* derivatives) {
+  if constexpr (std::is_same_v<T, double>)
+    if (system_.compresses_jacobian()) return compressed().linearize(state, derivatives);
   holder(EquationFunction::kLinearization)
       .run(EquationFunction::kLinearization, state, {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
 }
 
 template <class T>
 void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) {
+  if constexpr (std::is_same_v<T, double>)
+    if (system_.compresses_jacobian()) {
+      residual(state, G, g);
+      return compressed().rates(state, derivatives);
+    }
   G->resize(system_.layout().columns());
-  run(EquationFunction::kRates, state, {*G, {g, 1}, derivatives->rate, {}});
+  holder(EquationFunction::kRates).run(EquationFunction::kRates, state, {*G, {g, 1}, derivatives->rate, {}});
 }
 
 template <class T>
 bool CompiledEquations<T>::accelerations(State<T>* state, T* g) {
-  if (variants_.empty()) adopt();
-  if (!variants_[current_].code->has_accelerations()) return false;
-  run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, {}, {}});
-  return variants_[current_].code->has_accelerations();
+  if (!has_accelerations()) return false;
+  holder(EquationFunction::kAccelerations).run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, {}, {}});
+  return has_accelerations();
+}
+
+template <class T>
+bool CompiledEquations<T>::has_accelerations() {
+  CompiledEquations& at = holder(EquationFunction::kAccelerations);
+  if (at.variants_.empty()) at.adopt();
+  return at.variants_[at.current_].code->has_accelerations();
 }
 
 template <class T>

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <complex>
 #include <memory>
 #include <type_traits>
@@ -18,6 +19,7 @@
 
 namespace codesign {
 
+class CompressedJacobian;
 class DesignProducts;
 class EquationCode;
 struct CompiledFunction;
@@ -51,6 +53,7 @@ class CompiledEquations {
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// Sets z to the solution of G = 0, and g. @return false if the variant that serves has no kAccelerations; then z stays.
   bool accelerations(State<T>* state, T* g);
+  bool has_accelerations();
 
   /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
   T signal(EquationFunction function, const State<T>& state);
@@ -72,6 +75,16 @@ class CompiledEquations {
   /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; then empty arrays.
   void tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
                 const In<double> (&directions)[4], const Out<double> (&results)[4]);
+
+  /// Directions of q, v, s and z, N numbers side by side per entry, and where the derivatives of G and g along them go; then empty arrays.
+  struct Pass {
+    In<double> directions[4];
+    Out<double> results[4];
+  };
+  /// The derivatives of the residual at one state along the directions of every pass, for T = Lanes<N> only. The design must not vary.
+  /// @param along_time null, or a pass with zero directions whose first one becomes the time, if functions of time occur.
+  /// @return whether they do.
+  bool residual_tangents(const State<double>& state, const std::vector<Pass>& passes, const Pass* along_time);
 
   // The next two functions exist for T = double only. The products by parameters are summed up since set_design().
 
@@ -105,8 +118,16 @@ class CompiledEquations {
     const std::vector<double>& turns;
   };
 
-  /// Where a function is recorded: here, or in a part of its own.
+  /// The equations of the part in which a function is recorded: these, or others that are made when they are first needed.
   CompiledEquations& holder(EquationFunction function);
+  EquationPart part_of(EquationFunction function) const;
+  CompressedJacobian& compressed();
+  /// @return `other` with this design.
+  template <class Other>
+  std::unique_ptr<Other> prepared(std::unique_ptr<Other> other) const;
+  /// Calls visit for those others.
+  template <class Visit>
+  void for_each_other(const Visit& visit) const;
   void take_design(Variant* variant);
   /// Prepares a variant for transposed products.
   void take_products(Variant* variant);
@@ -114,6 +135,8 @@ class CompiledEquations {
   void set_functions(Variant* variant) const;
   /// Evaluates the functions of time and copies the turn references to the code's inputs.
   void set_instant(const Instant& instant, Variant* variant) const;
+  /// Makes time the first direction of the functions of time; for Lanes, until the next set_instant().
+  void seed_time(double t, Variant* variant) const;
   /// Takes over one more of the variants that the system knows; false if there is none.
   bool adopt();
   /// The first decision of a variant that the point makes otherwise; -1 if the results are valid. Machine code does not tell which one, 0.
@@ -132,7 +155,8 @@ class CompiledEquations {
   EquationPart part_;
   std::vector<T> parameters_;
   bool interpreted_ = false;
-  std::unique_ptr<CompiledEquations> linearized_;  ///< of kLinearization, if it is recorded apart and was called
+  std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
+  std::unique_ptr<CompressedJacobian> compressed_;                         ///< for double, if the system compresses its Jacobian
   std::vector<Variant> variants_;                  ///< the first ones that the system knows, in its order
   std::size_t current_ = 0;                        ///< the variant that served last
   std::vector<std::size_t> multiplied_;            ///< variants with products since set_design(), in the order of their first one

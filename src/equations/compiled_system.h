@@ -28,6 +28,16 @@ class CompiledSystem final : public System {
   /// The patterns of G_q and G_s (position), G_v (velocity) and G_z (rate), with one more row for the integrand g.
   const ByVariable<Sparsity>& patterns() const { return patterns_; }
 
+  /// Whether CompressedJacobian differentiates the equations in simulations: for trees of some size in joint coordinates it takes less time
+  /// than a program for the derivatives, and much less to prepare. doc/decisions/0086-compressed-jacobian.md
+  bool compresses_jacobian() const;
+  /// Whether G_z alone costs less than the linearization: so it is if the Jacobian is compressed, and for the explicit pair, which asks for
+  /// nothing else; the linearization then has a recording of its own.
+  bool has_rates_apart() const;
+  /// Whether a run begins with the explicit pair. With `method: auto` it does so unless there is dry friction, which is stiff wherever it
+  /// sticks: a run that began explicitly would find this out in some fifty steps, and have made the programs of both methods.
+  bool begins_explicitly() const;
+
   /// The k-th variant of the equations' code; null if fewer are known. The first one is recorded by the first call. Thread-safe.
   const EquationCode* equation_code(std::size_t k = 0, EquationPart part = EquationPart::kMotion) const;
   /// The variant for given outcomes of the first decisions, not yet among those known.

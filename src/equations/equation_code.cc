@@ -34,8 +34,8 @@ VectorX<Traced> vector(const std::vector<Traced>& x) {
 }
 
 std::size_t count_functions(const System& system, EquationPart part) {
-  if (part == EquationPart::kMotion || part == EquationPart::kLinearized) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
   if (part == EquationPart::kSignals) return static_cast<std::size_t>(watched_function(system.watched().size()));
+  if (part != EquationPart::kStart) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
   return static_cast<std::size_t>(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
 }
 
@@ -52,7 +52,7 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
-EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes)
+EquationCode::EquationCode(const CompiledSystem& system, EquationPart part, std::vector<bool> outcomes)
     : system_(system),
       long_(system.layout().columns() > kMostColumns),
       functions_(count_functions(system, part)),
@@ -61,10 +61,10 @@ EquationCode::EquationCode(const System& system, const ByVariable<Sparsity>& pat
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
   take_guards(0, &none);
-  const bool is_motion = part == EquationPart::kMotion, apart = linearizes_apart(system.study().solver);
-  if (is_motion || part == EquationPart::kLinearized) record_motion(patterns, is_motion && apart, &equations);
-  if (part == EquationPart::kSignals) record_signals(system, &equations);
-  if (part == EquationPart::kStart) record_start(system, &equations);
+  if (part == EquationPart::kMotion || part == EquationPart::kLinearized || part == EquationPart::kRates)
+    record_motion(part, &equations);
+  if (part == EquationPart::kSignals) record_signals(&equations);
+  if (part == EquationPart::kStart) record_start(&equations);
   if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
   for (const Recording::Guard& guard : values_.recording.guards()) outcomes_.push_back(guard.outcome);
   values_.number_nodes();
@@ -78,7 +78,7 @@ void EquationCode::record(EquationFunction function, const Compute& compute) {
   take_outputs(function, results);
 }
 
-void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rates_only, RecordedEquations* equations) {
+void EquationCode::record_motion(EquationPart part, RecordedEquations* equations) {
   record(EquationFunction::kResidual, [&] {
     equations->record_residual();
     return std::vector<VectorX<Traced>>{equations->G, VectorX<Traced>::Constant(1, equations->g)};
@@ -88,7 +88,9 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rate
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
     return errors;
   });
-  const Linearization<Traced> d = derive_linearization(patterns, EliminationOrder::kForward, rates_only, equations);
+  if (part == EquationPart::kMotion && system_.compresses_jacobian()) return;
+  const bool rates_only = part == EquationPart::kRates || (part == EquationPart::kMotion && system_.has_rates_apart());
+  const Linearization<Traced> d = derive_linearization(system_.patterns(), EliminationOrder::kForward, rates_only, equations);
   if (!rates_only) take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
   take_outputs(EquationFunction::kRates, {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
   at(EquationFunction::kRates).has_derivatives = false;
@@ -96,13 +98,14 @@ void EquationCode::record_motion(const ByVariable<Sparsity>& patterns, bool rate
   // The derivatives decide nothing: they hold where the residual holds.
   for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates, EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
-  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g)) record_accelerations(patterns.rate, d.rate, equations);
+  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g)) record_accelerations(d.rate, equations);
 }
 
 bool EquationCode::has_accelerations() const { return !at(EquationFunction::kAccelerations).outputs.empty(); }
 
 // G at z = 0 is short: it holds no accelerations.
-void EquationCode::record_accelerations(const Sparsity& pattern, const std::vector<Traced>& G_z, RecordedEquations* equations) {
+void EquationCode::record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations) {
+  const Sparsity& pattern = system_.patterns().rate;
   constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take longer to make than most runs
   if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, values_.recording, pattern, G_z)) return;
   VectorX<Traced>& z = equations->state.z;
@@ -130,9 +133,9 @@ bool EquationCode::is_affine(const std::vector<Traced>& G_z, const Traced& g) co
          std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
 }
 
-void EquationCode::record_signals(const System& system, RecordedEquations* equations) {
+void EquationCode::record_signals(RecordedEquations* equations) {
   std::vector<EquationFunction> functions{EquationFunction::kTerminal};
-  for (std::size_t k = 0; k < system.watched().size(); ++k) functions.push_back(watched_function(k));
+  for (std::size_t k = 0; k < system_.watched().size(); ++k) functions.push_back(watched_function(k));
   std::vector<Traced> values;
   for (EquationFunction function : functions)
     record(function, [&] {
@@ -141,7 +144,7 @@ void EquationCode::record_signals(const System& system, RecordedEquations* equat
       return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, values.back())};
     });
   std::vector<std::vector<Traced>> gradients(values.size());
-  for (const JacobianEntry& entry : derive_gradients(system, values, EliminationOrder::kReverse, &values_.recording)) {
+  for (const JacobianEntry& entry : derive_gradients(system_, values, EliminationOrder::kReverse, &values_.recording)) {
     gradients[to_index(entry.row)].push_back(entry.value);
     at(with_gradient(functions[to_index(entry.row)])).columns.push_back(entry.column);
   }
@@ -160,7 +163,7 @@ void EquationCode::record_signals(const System& system, RecordedEquations* equat
   residuals(EquationFunction::kTerminalResiduals, ObjectivePart::kTerminal);
 }
 
-void EquationCode::record_start(const System& system, RecordedEquations* equations) {
+void EquationCode::record_start(RecordedEquations* equations) {
   Formulas<Traced>& formulas = equations->formulas;
   const State<Traced>& state = equations->state;
   record(EquationFunction::kPlacement, [&] {
@@ -172,14 +175,14 @@ void EquationCode::record_start(const System& system, RecordedEquations* equatio
     State<Traced> turned = state;
     formulas.track_turns(&turned);
     // Without the flags of dropped rows, which no step changes.
-    return std::vector<VectorX<Traced>>{vector(turned.turns).head(system.layout().drop_slot)};
+    return std::vector<VectorX<Traced>>{vector(turned.turns).head(system_.layout().drop_slot)};
   });
-  for (std::size_t k = 0; k < system.controllers().size(); ++k) {
+  for (std::size_t k = 0; k < system_.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);
     formulas.load(state);
     record(controller_function(controller, ControllerFunction::kError),
            [&] { return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, formulas.controller_error(controller))}; });
-    if (!system.study().controllers[k].realization.is_sampled()) continue;
+    if (!system_.study().controllers[k].realization.is_sampled()) continue;
     for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample})
       record(controller_function(controller, which), [&] {
         VectorX<Traced> s = state.s;

@@ -13,9 +13,8 @@
 #include "codegen/tangent_program.h"
 #include "codegen/traced.h"
 #include "codegen/value_code.h"
+#include "equations/compiled_system.h"
 #include "equations/equation_function.h"
-#include "sparse/sparsity.h"
-#include "system/system.h"
 
 namespace codesign {
 
@@ -78,10 +77,10 @@ class EquationCode {
     bool interpreted;  ///< without machine code
   };
 
-  /// Records the equations. @param patterns of record_patterns() for the same system. @param outcomes of the first decisions; the later
-  /// ones have their expected outcomes.
+  /// Records the equations. @param system must outlive this. @param outcomes of the first decisions; the later ones have their expected
+  /// outcomes.
   /// @throws std::logic_error if the formulas decide something without is_less().
-  EquationCode(const System& system, const ByVariable<Sparsity>& patterns, EquationPart part, std::vector<bool> outcomes = {});
+  explicit EquationCode(const CompiledSystem& system, EquationPart part, std::vector<bool> outcomes = {});
   ~EquationCode();
 
   /// One function, made by the first call. It is interpreted also where machine code cannot be made: on other processors than x86-64 and
@@ -107,10 +106,9 @@ class EquationCode {
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[static_cast<std::size_t>(function)]; }
   const RecordedFunction& at(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)]; }
-  /// @param rates_only leaves kLinearization empty.
-  void record_motion(const ByVariable<Sparsity>& patterns, bool rates_only, RecordedEquations* equations);
-  void record_signals(const System& system, RecordedEquations* equations);
-  void record_start(const System& system, RecordedEquations* equations);
+  void record_motion(EquationPart part, RecordedEquations* equations);
+  void record_signals(RecordedEquations* equations);
+  void record_start(RecordedEquations* equations);
   /// Records one function whose results `compute` returns.
   template <class Compute>
   void record(EquationFunction function, const Compute& compute);
@@ -119,7 +117,7 @@ class EquationCode {
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
   /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates does.
   bool is_affine(const std::vector<Traced>& G_z, const Traced& g) const;
-  void record_accelerations(const Sparsity& pattern, const std::vector<Traced>& G_z, RecordedEquations* equations);
+  void record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
@@ -127,7 +125,7 @@ class EquationCode {
   ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
   std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
-  const System& system_;
+  const CompiledSystem& system_;
   bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
   std::vector<RecordedFunction> functions_;  ///< per EquationFunction; empty for those of the other part

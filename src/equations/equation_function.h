@@ -3,26 +3,18 @@
 
 #include <cstddef>
 
-#include "description/solver_options.h"
-
 namespace codesign {
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,      ///< kResidual, kConstraintErrors, kRates, and kLinearization unless linearizes_apart()
+  kMotion,      ///< kResidual, kConstraintErrors, and what no other part has: kRates, kAccelerations and kLinearization
   kSignals,     ///< kTerminal, the residuals of the objective and the watched signals
   kStart,       ///< kPlacement, kTurns and the controllers' functions
-  kLinearized,  ///< the functions of kMotion, all of them
+  kLinearized,  ///< kLinearization, where kRates are recorded without it, CompiledSystem::has_rates_apart()
+  kRates,       ///< kRates and kAccelerations, where simulations differentiate without a program, CompiledSystem::compresses_jacobian()
   kEnd          ///< number of parts
 };
 constexpr auto kEquationParts = static_cast<std::size_t>(EquationPart::kEnd);
-
-/// Whether kLinearization has a recording of its own, which is made when it is first needed: the explicit pair does without it, and it is
-/// longer than all others together.
-constexpr bool linearizes_apart(const SolverOptions& solver) {
-  return solver.integrator == IntegratorKind::kRosenbrock &&
-         (solver.method == RosenbrockMethod::kDopri5 || solver.method == RosenbrockMethod::kAuto);
-}
 
 /// The recorded functions of Equations, numbered in each part; each enumerator lists the arrays of results, in order.
 enum class EquationFunction : std::size_t {

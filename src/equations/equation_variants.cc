@@ -6,9 +6,9 @@
 
 namespace codesign {
 
-const EquationCode* EquationVariants::at(std::size_t k, const System& system, const ByVariable<Sparsity>& patterns, EquationPart part) {
+const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& system, EquationPart part) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (variants_.empty()) variants_.push_back(std::make_unique<EquationCode>(system, patterns, part));
+  if (variants_.empty()) variants_.push_back(std::make_unique<EquationCode>(system, part));
   return k < variants_.size() ? variants_[k].get() : nullptr;
 }
 

@@ -17,7 +17,7 @@ namespace codesign {
 class EquationVariants {
  public:
   /// The k-th variant; null if fewer are known. The first one is recorded by the first call for it.
-  const EquationCode* at(std::size_t k, const System& system, const ByVariable<Sparsity>& patterns, EquationPart part);
+  const EquationCode* at(std::size_t k, const CompiledSystem& system, EquationPart part);
   /// Adds a variant, unless one with the same outcomes is known. @return its index.
   std::size_t keep(std::unique_ptr<EquationCode> variant);
 

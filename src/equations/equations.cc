@@ -10,7 +10,7 @@ namespace codesign {
 
 template <class T>
 void Equations<T>::linearize_rates(const State<T>& state, Linearization<T>* derivatives) {
-  if (!linearizes_apart(system_.study().solver)) return linearize(state, derivatives);
+  if (!system_.has_rates_apart()) return linearize(state, derivatives);
   T g(0.0);
   rates(state, &residual_, &g, derivatives);
 }

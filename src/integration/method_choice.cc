@@ -15,23 +15,15 @@ constexpr int kStiffSteps = 15, kOtherSteps = 6;
 constexpr double kCalm = 1.0;
 constexpr int kLooks = 8, kFirstPause = 16, kLongestPause = 1024;
 
-bool has_dry_friction(const System& system) {
-  return !system.contacts().empty() || std::any_of(system.loads().begin(), system.loads().end(),
-                                                   [](const JointLoad& load) { return load.reaction_friction || load.constant_friction; });
-}
-
-const RosenbrockTableau& first_method(const System& system) {
+const RosenbrockTableau& first_method(const CompiledSystem& system) {
   const RosenbrockMethod method = system.study().solver.method;
   if (method != RosenbrockMethod::kAuto) return rosenbrock_tableau(method);
-  // Steps of loops that share reactions are watched for singular positions, (23a), which explicit steps are long enough to pass unseen.
   if (system.compliance() > 0.0) return rodas4();
-  return has_dry_friction(system) ? rodas5p() : dopri5();
+  return system.begins_explicitly() ? dopri5() : rodas5p();
 }
 
 }  // namespace
 
-// Dry friction is stiff wherever it sticks. A run that began explicitly would find this out in some fifty steps, and have made the programs
-// of both methods.
 MethodChoice::MethodChoice(const CompiledSystem& system)
     : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto && system.compliance() == 0.0),
       first_(&first_method(system)),

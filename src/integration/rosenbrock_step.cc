@@ -59,10 +59,15 @@ template <class T>
 void RosenbrockStep<T>::linearize_start() {
   end_ = state_;
   has_first_ = has_derivatives_ = false;
-  if (tableau_->is_explicit())
-    equations_.rates(state_, &residual_, &first_g_, &derivatives_);
-  else
+  if (!tableau_->is_explicit())
     linearize_end();
+  else if (needs_matrix())
+    equations_.rates(state_, &residual_, &first_g_, &derivatives_);
+}
+
+template <class T>
+bool RosenbrockStep<T>::needs_matrix() {
+  return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.has_accelerations();
 }
 
 template <class T>
@@ -82,8 +87,9 @@ template <class T>
 void RosenbrockStep<T>::choose_pivots(double h) {
   const double hg = h * tableau_->gamma;
   stage_matrix_.forget();
-  stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
   projection_matrix_.forget();
+  if (!needs_matrix()) return;
+  stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
   if (layout_.m > 0) projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
 }
 

@@ -96,6 +96,8 @@ class RosenbrockStep {
   void linearize_start();
   /// The derivatives with which a step of a Rosenbrock method begins, at end_.
   void linearize_end();
+  /// Whether steps solve with a matrix: implicit ones do, and explicit ones where no expression gives the accelerations.
+  bool needs_matrix();
   bool attempt_explicitly();
   std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
   /// Solves G = 0 for the z of a state, beginning with the z that it has. @param g integrand there.
