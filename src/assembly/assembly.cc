@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "assembly/given_start.h"
 #include "equations/derivative_products.h"
+#include "equations/mass_solution.h"
 
 namespace codesign {
 namespace {
@@ -338,12 +338,14 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
-  solved_by_ = nullptr;
-  solution_ = *state;
-  if (system_.begins_explicitly() && equations->accelerations(&solution_, &g) && std::isfinite(solution_.z.sum())) {
-    state->z = solution_.z;
-    solved_by_ = equations;
-    return {};
+  factor_ = nullptr;
+  if (system_.begins_explicitly() && equations->mass_factor()) {
+    residual_ = state->z;
+    if (equations->accelerations(state, &g, &factor_values_) && std::isfinite(state->z.sum())) {
+      factor_ = equations->mass_factor();
+      return {};
+    }
+    state->z = residual_;
   }
   const bool apart = system_.has_rates_apart();
   for (int iteration = 0; iteration < 100; ++iteration) {
@@ -364,21 +366,21 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
           std::string("no accelerations and reactions satisfy the equations of motion with friction") + place};
 }
 
-void Assembly::require_matrix() const {
-  if (!solved_by_) return;
-  std::exchange(solved_by_, nullptr)->linearize_rates(solution_, &derivatives_);
-  matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+void Assembly::solve_at_rates(Out<double> x) const {
+  if (factor_)
+    factor_->solve<1>(factor_values_, x);
+  else
+    matrix_.lu().solve(x);
 }
 
 void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations, State<double>* rates) {
-  require_matrix();
   VectorX<double> change;
   // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are there already in the other case.
   if (system_.has_rates_apart()) equations->linearize(at, &derivatives_);
   rates->z.setZero(system_.layout().columns());
   directional_derivative(system_, derivatives_, *rates, &change);
   rates->z = -(change + derivatives_.time).head(rates->z.size());
-  matrix_.lu().solve(rates->z);
+  solve_at_rates(rates->z);
 }
 
 }  // namespace codesign

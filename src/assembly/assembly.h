@@ -92,7 +92,6 @@ class Assembly {
   /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty unless kInitialVelocityFailed.
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
   /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states), starting from the present state->z.
-  /// @param equations must stay alive with their design until the last function that needs this solution was called.
   Status solve_rates(Equations<double>* equations, State<double>* state);
   /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts, which follow from the first-order parts of
   /// the rest of `state`. @param z that solution; it must belong to the values of `state`. @param equations must hold the design,
@@ -199,8 +198,8 @@ class Assembly {
   const std::vector<int>& choose_columns(const ColumnPreferences& preferences);
   void choose(const ColumnPreferences& preferences, Dependents* dependents);
   void factor(const std::vector<int>& columns, double rank_tolerance, Dependents* dependents) const;
-  /// Factors the matrix at the last solution of solve_rates(), if that was found without one.
-  void require_matrix() const;
+  /// Overwrites x with the solution of G_z y = x at the last solution of solve_rates().
+  void solve_at_rates(Out<double> x) const;
   template <class T>
   void correct(const Dependents& dependents, const VectorX<T>& rows, ExtensionWorkspace<T>* workspace, VectorX<T>* coordinates) const;
 
@@ -222,10 +221,10 @@ class Assembly {
   const std::vector<double> own_design_;  ///< the start values of the study's parameters
   Origin origin_;
   Dependents positions_, velocities_;
-  mutable Linearization<double> derivatives_;
-  mutable IterationMatrix matrix_;  ///< factored at the last solution of solve_rates(), by require_matrix() if solved_by_ is set
-  mutable Equations<double>* solved_by_ = nullptr;
-  State<double> solution_;
+  Linearization<double> derivatives_;
+  IterationMatrix matrix_;              ///< factored at the last solution of solve_rates() unless that has mass factors
+  const MassFactor* factor_ = nullptr;  ///< of that solution, if an expression gave it, with these values
+  std::vector<double> factor_values_;
   VectorX<double> residual_;  ///< workspace of solve_rates()
   LoopMiss worst_miss_;
   Workspace work_;

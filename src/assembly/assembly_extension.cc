@@ -46,13 +46,12 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
 // First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
 template <class T>
 void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations, ExtensionWorkspace<T>* workspace, State<T>* state) const {
-  require_matrix();
   T g(0.0);
   state->z = z.template cast<T>();
   equations->residual(*state, &workspace->G, &g);
   Eigen::MatrixXd& step = workspace->rates;
   directions_of(workspace->G, &step);
-  for (auto column : step.colwise()) matrix_.lu().solve(column);
+  for (auto column : step.colwise()) solve_at_rates(column);
   step = -step;
   add_directions(step, &state->z);
 }

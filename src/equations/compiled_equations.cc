@@ -390,17 +390,20 @@ void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g, Lin
 }
 
 template <class T>
-bool CompiledEquations<T>::accelerations(State<T>* state, T* g) {
-  if (!has_accelerations()) return false;
-  holder(EquationFunction::kAccelerations).run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, {}, {}});
-  return has_accelerations();
+bool CompiledEquations<T>::accelerations(State<T>* state, T* g, std::vector<T>* factors) {
+  const MassFactor* const factor = mass_factor();
+  if (!factor) return false;
+  factors->resize(factor->size());
+  holder(EquationFunction::kAccelerations).run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, *factors, {}});
+  return mass_factor() != nullptr;
 }
 
 template <class T>
-bool CompiledEquations<T>::has_accelerations() {
+const MassFactor* CompiledEquations<T>::mass_factor() {
   CompiledEquations& at = holder(EquationFunction::kAccelerations);
   if (at.variants_.empty()) at.adopt();
-  return at.variants_[at.current_].code->has_accelerations();
+  const EquationCode& code = *at.variants_[at.current_].code;
+  return code.has_accelerations() ? &code.mass_factor() : nullptr;
 }
 
 template <class T>

@@ -22,6 +22,7 @@ namespace codesign {
 class CompressedJacobian;
 class DesignProducts;
 class EquationCode;
+struct MassFactor;
 struct CompiledFunction;
 struct NumberedRecording;
 
@@ -51,9 +52,11 @@ class CompiledEquations {
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
-  /// Sets z to the solution of G = 0, and g. @return false if the variant that serves has no kAccelerations; then z stays.
-  bool accelerations(State<T>* state, T* g);
-  bool has_accelerations();
+  /// Sets z to the solution of G = 0, g, and the factors of G_z. @return false if the variant that serves has no kAccelerations; then z
+  /// stays. @param factors resized to MassFactor::size() of mass_factor().
+  bool accelerations(State<T>* state, T* g, std::vector<T>* factors);
+  /// The pattern of those factors; null if the variant that serves has none.
+  const MassFactor* mass_factor();
 
   /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
   T signal(EquationFunction function, const State<T>& state);
@@ -157,13 +160,13 @@ class CompiledEquations {
   bool interpreted_ = false;
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
   std::unique_ptr<CompressedJacobian> compressed_;                         ///< for double, if the system compresses its Jacobian
-  std::vector<Variant> variants_;                  ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;                        ///< the variant that served last
-  std::vector<std::size_t> multiplied_;            ///< variants with products since set_design(), in the order of their first one
-  std::vector<T> entries_;                         ///< workspace of signal() and track_turns()
-  VectorX<T> s_;                                   ///< workspace of sample()
-  std::vector<T> nodes_;                           ///< workspace of fill_numbers(): values of the recording's nodes
-  LineVector slots_, rows_;                        ///< workspace of the code
+  std::vector<Variant> variants_;                                          ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;                                                ///< the variant that served last
+  std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
+  std::vector<T> entries_;               ///< workspace of signal() and track_turns()
+  VectorX<T> s_;                         ///< workspace of sample()
+  std::vector<T> nodes_;                 ///< workspace of fill_numbers(): values of the recording's nodes
+  LineVector slots_, rows_;              ///< workspace of the code
 };
 
 }  // namespace codesign

@@ -34,9 +34,9 @@ bool CompiledSystem::begins_explicitly() const {
   const SolverOptions& solver = study().solver;
   if (solver.integrator != IntegratorKind::kRosenbrock) return false;
   if (solver.method == RosenbrockMethod::kDopri5) return true;
-  const bool has_dry_friction =
-      !contacts().empty() ||
-      std::any_of(loads().begin(), loads().end(), [](const JointLoad& load) { return load.reaction_friction || load.constant_friction; });
+  const bool has_dry_friction = !contacts().empty() || std::any_of(loads().begin(), loads().end(), [](const JointLoad& load) {
+    return load.reaction_friction || load.constant_friction;
+  });
   return solver.method == RosenbrockMethod::kAuto && compliance() == 0.0 && !has_dry_friction;
 }
 

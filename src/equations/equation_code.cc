@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "codegen/traced.h"
-#include "equations/mass_solution.h"
 #include "equations/recorded_equations.h"
 #include "equations/transposed_code.h"
 #include "math/to_index.h"
@@ -61,8 +60,7 @@ EquationCode::EquationCode(const CompiledSystem& system, EquationPart part, std:
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
   take_guards(0, &none);
-  if (part == EquationPart::kMotion || part == EquationPart::kLinearized || part == EquationPart::kRates)
-    record_motion(part, &equations);
+  if (part == EquationPart::kMotion || part == EquationPart::kLinearized || part == EquationPart::kRates) record_motion(part, &equations);
   if (part == EquationPart::kSignals) record_signals(&equations);
   if (part == EquationPart::kStart) record_start(&equations);
   if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
@@ -101,8 +99,6 @@ void EquationCode::record_motion(EquationPart part, RecordedEquations* equations
   if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g)) record_accelerations(d.rate, equations);
 }
 
-bool EquationCode::has_accelerations() const { return !at(EquationFunction::kAccelerations).outputs.empty(); }
-
 // G at z = 0 is short: it holds no accelerations.
 void EquationCode::record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations) {
   const Sparsity& pattern = system_.patterns().rate;
@@ -113,8 +109,9 @@ void EquationCode::record_accelerations(const std::vector<Traced>& G_z, Recorded
   z.setConstant(Traced(0.0));
   equations->record_residual();
   z = trial;
-  take_outputs(EquationFunction::kAccelerations,
-               {record_mass_solution(pattern, G_z, -equations->G), VectorX<Traced>::Constant(1, equations->g)});
+  MassSolution solution = record_mass_solution(pattern, G_z, -equations->G);
+  take_outputs(EquationFunction::kAccelerations, {solution.x, VectorX<Traced>::Constant(1, equations->g), vector(solution.values)});
+  mass_factor_ = std::move(solution.factor);
 }
 
 bool EquationCode::is_affine(const std::vector<Traced>& G_z, const Traced& g) const {

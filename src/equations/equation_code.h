@@ -15,6 +15,7 @@
 #include "codegen/value_code.h"
 #include "equations/compiled_system.h"
 #include "equations/equation_function.h"
+#include "equations/mass_solution.h"
 
 namespace codesign {
 
@@ -99,7 +100,9 @@ class EquationCode {
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
   /// Whether kAccelerations is there: for the explicit pair, in joint coordinates without loops, if G is affine in z, g free of it,
   /// and G_z a mass matrix.
-  bool has_accelerations() const;
+  bool has_accelerations() const { return !mass_factor_.starts.empty(); }
+  /// Of kAccelerations' third result.
+  const MassFactor& mass_factor() const { return mass_factor_; }
   /// The outcomes of all decisions in turn, of which a variant is known.
   const std::vector<bool>& outcomes() const { return outcomes_; }
 
@@ -131,6 +134,7 @@ class EquationCode {
   std::vector<RecordedFunction> functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
   std::vector<bool> outcomes_;
+  MassFactor mass_factor_;
 
   mutable std::once_flag differentiated_;
   mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need

@@ -22,7 +22,7 @@ enum class EquationFunction : std::size_t {
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
   kRates,             ///< G, g, G_z; values only
-  kAccelerations,     ///< z with G = 0, g; values only, and only where one expression gives them: EquationCode::has_accelerations()
+  kAccelerations,     ///< z with G = 0, g, values of MassFactor; values only, and only where EquationCode::has_accelerations()
   kMotionEnd,         ///< number of functions of the part
 
   kTerminal = 0,       ///< w

@@ -41,10 +41,10 @@ class Equations {
   void linearize(const State<T>& state, Linearization<T>* derivatives) { compiled_.linearize(state, derivatives); }
   /// The residual with the part G_z of its derivatives alone, as a solve for z = (a, lambda, sigma) needs them.
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) { compiled_.rates(state, G, g, derivatives); }
-  /// Sets z to the solution of G = 0, and g, where one expression gives them. @return false elsewhere; then z stays as it is.
-  bool accelerations(State<T>* state, T* g) { return compiled_.accelerations(state, g); }
-  /// Whether accelerations() does so at states like the last one.
-  bool has_accelerations() { return compiled_.has_accelerations(); }
+  /// Sets z to the solution of G = 0, g, and the factors of G_z, where one expression gives them. @return false elsewhere; then z stays.
+  bool accelerations(State<T>* state, T* g, std::vector<T>* factors) { return compiled_.accelerations(state, g, factors); }
+  /// The pattern of those factors at states like the last one; null elsewhere.
+  const MassFactor* mass_factor() { return compiled_.mass_factor(); }
   /// G_z in `derivatives`, for solves without the other parts; they are overwritten too unless the linearization is recorded apart.
   void linearize_rates(const State<T>& state, Linearization<T>* derivatives);
   /// Constraint values Phi(q) and rates Phi_q v, both resized to Layout::m. The state's z is not used.

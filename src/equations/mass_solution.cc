@@ -48,7 +48,7 @@ bool is_mass_matrix(const System& system, const Recording& recording, const Spar
   return A.allFinite() && (A - A.transpose()).cwiseAbs().maxCoeff() < kRounding && A.llt().info() == Eigen::Success;
 }
 
-VectorX<Traced> record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries, const VectorX<Traced>& b) {
+MassSolution record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries, const VectorX<Traced>& b) {
   const Eigen::Index size = pattern.columns;
   TracedMatrix A = TracedMatrix::Constant(size, size, Traced(0.0));
   for (int row = 0; row < size; ++row)
@@ -64,12 +64,43 @@ VectorX<Traced> record_mass_solution(const Sparsity& pattern, const std::vector<
       x[i] -= factor * x[k];
     }
   }
+  MassSolution result;
+  result.factor.starts = {0};
   for (Eigen::Index k = 0; k < size; ++k) {
-    for (Eigen::Index j = 0; j < k; ++j)
-      if (!A(k, j).is(0.0)) x[k] -= A(k, j) * x[j];
+    for (Eigen::Index j = 0; j < k; ++j) {
+      if (A(k, j).is(0.0)) continue;
+      x[k] -= A(k, j) * x[j];
+      result.factor.columns.push_back(static_cast<int>(j));
+      result.values.push_back(A(k, j));
+    }
     x[k] *= inverse[k];
+    result.values.push_back(inverse[k]);
+    result.factor.starts.push_back(static_cast<int>(result.factor.columns.size()));
   }
-  return x;
+  result.x = x;
+  return result;
 }
+
+template <int N>
+void MassFactor::solve(In<double> values, Out<double> x) const {
+  using Row = Eigen::Map<Eigen::Array<double, N, 1>>;
+  const auto row = [&x](int k) { return Row(x.data() + std::ptrdiff_t{N} * k); };
+  const int rows = static_cast<int>(starts.size()) - 1;
+  // Before row k there are k inverses.
+  for (int k = rows; k-- > 0;) {
+    const double* const entries = values.data() + k;
+    const Eigen::Array<double, N, 1> scaled = entries[starts[to_index(k) + 1]] * row(k);
+    for (int e = starts[to_index(k)]; e < starts[to_index(k) + 1]; ++e) row(columns[to_index(e)]) -= entries[e] * scaled;
+  }
+  for (int k = 0; k < rows; ++k) {
+    const double* const entries = values.data() + k;
+    for (int e = starts[to_index(k)]; e < starts[to_index(k) + 1]; ++e) row(k) -= entries[e] * row(columns[to_index(e)]);
+    row(k) *= entries[starts[to_index(k) + 1]];
+  }
+}
+
+template void MassFactor::solve<1>(In<double>, Out<double>) const;
+template void MassFactor::solve<4>(In<double>, Out<double>) const;
+template void MassFactor::solve<8>(In<double>, Out<double>) const;
 
 }  // namespace codesign

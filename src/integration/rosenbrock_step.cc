@@ -32,7 +32,8 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
       product_(system),
       increments_(static_cast<std::size_t>(std::max(tableau.stages, most_stages(system.study().solver.method))),
                   VectorX<T>::Zero(at_.size())),
-      stages_(increments_.size()) {
+      stages_(increments_.size()),
+      factors_(increments_.size()) {
   derivatives_.resize(system.patterns());
   for (State<T>* state : {&state_, &previous_, &end_, &first_}) state->resize(layout_);
   for (State<T>& stage : stages_) stage.resize(layout_);
@@ -67,7 +68,7 @@ void RosenbrockStep<T>::linearize_start() {
 
 template <class T>
 bool RosenbrockStep<T>::needs_matrix() {
-  return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.has_accelerations();
+  return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.mass_factor();
 }
 
 template <class T>
@@ -156,10 +157,14 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
 // Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z unless friction depends on reactions.
 // Complex numbers converge one part after the other and need G_z anew.
 template <class T>
-bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g) {
+bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g, StageFactor* factor) {
   constexpr bool kIsReal = std::is_same_v<T, double>;
   if constexpr (kIsReal)
-    if (equations_.accelerations(at, g)) return std::isfinite(at->z.sum() + *g);
+    if (equations_.accelerations(at, g, &factor->values)) {
+      factor->pattern = equations_.mass_factor();
+      return std::isfinite(at->z.sum() + *g);
+    }
+  factor->pattern = nullptr;
   constexpr int kMost = 30, kLeast = kIsReal ? 1 : 3;
   constexpr double kConverged = 1e-14;
   // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
@@ -235,11 +240,12 @@ double RosenbrockStep<double>::spectral_radius(VectorX<double>* direction) {
 template <class T>
 bool RosenbrockStep<T>::attempt_explicitly() {
   if (!has_first_) first_ = state_;
-  if (!has_first_ && !solve_rates(&first_, &first_g_)) return false;
+  if (!has_first_ && !solve_rates(&first_, &first_g_, &first_factor_)) return false;
   has_first_ = true;
   has_derivatives_ = false;
   first_.turns = state_.turns;
   stages_[0] = first_;
+  factors_[0] = first_factor_;
   take_rates(0, first_g_);
   for (std::size_t i = 1; i < count(); ++i) {
     const In<double> factors = In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i));
@@ -250,7 +256,7 @@ bool RosenbrockStep<T>::attempt_explicitly() {
     stage.z = stages_[i - 1].z;
     stage.t = state_.t + tableau_->alpha[i] * h_;
     stage.turns = state_.turns;
-    if (!solve_rates(&stage, &last_g_)) return false;
+    if (!solve_rates(&stage, &last_g_, &factors_[i])) return false;
     take_rates(i, last_g_);
   }
   end_ = stages_[count() - 1];
@@ -308,6 +314,7 @@ bool RosenbrockStep<T>::accept() {
   if (tableau_->is_explicit() && layout_.m == 0) {
     first_ = end_;
     first_g_ = last_g_;
+    first_factor_ = factors_[count() - 1];
     return project();
   }
   return finish();

@@ -70,7 +70,14 @@ class RosenbrockStep {
   /// end of the last attempt (Hairer and Wanner, Solving ODE II, IV.2). The pair is stable up to 3.3.
   double stiffness() const;
 
-  /// Explicit pairs: factors G_z at stage i of the last attempt, for derivatives().rate and stage_matrix(). False if it is singular.
+  /// G_z of an explicit stage as the program that solved it has factored it.
+  struct StageFactor {
+    const MassFactor* pattern = nullptr;  ///< null if the stage was solved with a matrix
+    std::vector<T> values;
+  };
+  /// Explicit pairs: G_z at stage i of the last attempt. If it has no pattern, factor_stage() factors it for derivatives().rate and
+  /// stage_matrix(), and returns false if it is singular.
+  const StageFactor& stage_factor(std::size_t i) const { return factors_[i]; }
   bool factor_stage(std::size_t i);
 
   // The parts of a step that its tangent and adjoint use.
@@ -101,7 +108,7 @@ class RosenbrockStep {
   bool attempt_explicitly();
   std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
   /// Solves G = 0 for the z of a state, beginning with the z that it has. @param g integrand there.
-  bool solve_rates(State<T>* at, T* g);
+  bool solve_rates(State<T>* at, T* g, StageFactor* factor);
   void take_rates(std::size_t i, const T& g);
   void stage_start(std::size_t i);
   bool solve_stage(std::size_t i);
@@ -121,7 +128,9 @@ class RosenbrockStep {
   T psi_{0.0}, previous_psi_{0.0};
   std::vector<VectorX<T>> increments_;
   std::vector<State<T>> stages_;
-  State<T> first_;  ///< of an explicit pair: the first stage of the next attempt, if has_first_
+  std::vector<StageFactor> factors_;  ///< of explicit stages
+  StageFactor first_factor_;          ///< of first_
+  State<T> first_;                    ///< of an explicit pair: the first stage of the next attempt, if has_first_
   T first_g_{0.0}, last_g_{0.0};
   bool has_first_ = false;
   bool has_derivatives_ = false;  ///< whether derivatives_ are those at end_, where the next step begins

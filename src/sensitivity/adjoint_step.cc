@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/adjoint_step.h"
 
+#include "equations/mass_solution.h"
+
 namespace codesign {
 
 AdjointStep::AdjointStep(const CompiledSystem& system, const RosenbrockTableau& tableau)
@@ -97,14 +99,18 @@ void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* 
   const double h = step->step_size();
   const int z_size = at_.z_size;
   const VectorX<double>& u = increment_adjoints_[i];
-  step->factor_stage(i);
   z_.setZero();
   if (i + 1 == count()) z_ = adjoint_.segment(at_.z(), z_size);
   z_.head(at_.n) += h * u.segment(at_.v(), at_.n);
   z_.tail(at_.states) += h * u.segment(at_.s(), at_.states);
   mu_[z_size] = h * u[at_.psi()];
-  add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1}, 1.0, mu_, z_);
-  step->stage_matrix().lu().solve_transposed_rows<1>(z_);
+  if (const auto& [pattern, values] = step->stage_factor(i); pattern) {
+    pattern->solve<1>(values, z_);  // symmetric; and g does not depend on z
+  } else {
+    step->factor_stage(i);
+    add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1}, 1.0, mu_, z_);
+    step->stage_matrix().lu().solve_transposed_rows<1>(z_);
+  }
   mu_.head(z_size) = -z_;
   stage_adjoint_.setZero();
   stage_adjoint_.segment(at_.v(), at_.n) = h * u.segment(at_.x(), at_.n);

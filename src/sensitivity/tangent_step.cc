@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "equations/mass_solution.h"
 #include "sparse/row_product.h"
 
 namespace codesign {
@@ -156,13 +157,17 @@ void TangentStep<N>::explicit_stage(std::size_t i, RosenbrockStep<double>* step)
   combine(y_.part(0, at_.z()), In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.z()));
   for (int k = 0; k < z_size; ++k) stage_y_.vector(at_.z() + k) = Vector{};
   equations_.residual(step->stages()[i], stage_y_, &residual_);
-  step->factor_stage(i);
   const Out<double> z = stage_y_.part(at_.z(), z_size);
   for (int k = 0; k < z_size; ++k) stage_y_.vector(at_.z() + k) = -residual_.vector(k);
-  step->stage_matrix().lu().template solve_rows<N>(z);
   Directions<N>& u = stages_[i];
   Vector psi = residual_.vector(z_size);
-  add_row_product<N>(system_.patterns().rate, step->derivatives().rate, z_size, z, &psi);
+  if (const auto& [pattern, values] = step->stage_factor(i); pattern) {
+    pattern->template solve<N>(values, z);  // then g does not depend on z
+  } else {
+    step->factor_stage(i);
+    step->stage_matrix().lu().template solve_rows<N>(z);
+    add_row_product<N>(system_.patterns().rate, step->derivatives().rate, z_size, z, &psi);
+  }
   u.vector(at_.psi()) = h * psi;
   for (int k = 0; k < at_.n; ++k) {
     u.vector(at_.x() + k) = h * stage_y_.vector(at_.v() + k);

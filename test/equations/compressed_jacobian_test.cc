@@ -13,8 +13,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-const char* const kLugre = "<codesign:friction model='lugre' mu_static='0.2' mu_dynamic='0.15' transition_velocity='0.01' "
-                           "joint_length='0.05' pin_radius='0.02'/>";
+const char* const kLugre =
+    "<codesign:friction model='lugre' mu_static='0.2' mu_dynamic='0.15' transition_velocity='0.01' "
+    "joint_length='0.05' pin_radius='0.02'/>";
 
 /// A tree of hinges in two branches, the last one a slide; friction by reactions, bristles and dry friction, and a controller with a filter
 /// that follows a function of time.

@@ -43,10 +43,33 @@ struct Generic : Compiled {
 TEST(MassSolution, SolvesTheEquationsOfMotion) {
   Generic bars(three_bars(""), kExplicit);
   double g = -1.0;
-  ASSERT_TRUE(bars.equations.accelerations(&bars.state, &g));
+  std::vector<double> factors;
+  ASSERT_TRUE(bars.equations.accelerations(&bars.state, &g, &factors));
   VectorX<double> G;
   bars.equations.residual(bars.state, &G, &g);
   EXPECT_LT(G.cwiseAbs().maxCoeff(), 1e-13 * (1.0 + bars.state.z.cwiseAbs().maxCoeff()));
+}
+
+TEST(MassFactor, SolvesForFurtherRightHandSides) {
+  constexpr int kSides = 4;
+  Generic bars(three_bars(""), kExplicit);
+  double g = 0.0;
+  std::vector<double> factors;
+  ASSERT_TRUE(bars.equations.accelerations(&bars.state, &g, &factors));
+  Linearization<double> rates;
+  rates.resize(bars.system.patterns());
+  bars.equations.linearize_rates(bars.state, &rates);
+  const Sparsity& pattern = bars.system.patterns().rate;
+  Eigen::Matrix<double, kSides, Eigen::Dynamic> b(kSides, pattern.columns), x;
+  for (Eigen::Index k = 0; k < b.size(); ++k) b.data()[k] = std::cos(1.0 + 3.0 * static_cast<double>(k));
+  x = b;
+  bars.equations.mass_factor()->solve<kSides>(factors, Out<double>(x.data(), x.size()));
+  for (int row = 0; row < pattern.columns; ++row) {
+    Eigen::Vector4d product = Eigen::Vector4d::Zero();
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+      product += rates.rate[static_cast<std::size_t>(e)] * x.col(pattern.column(e));
+    EXPECT_LT((product - b.col(row)).norm(), 1e-13 * (1.0 + x.norm())) << row;
+  }
 }
 
 TEST(MassSolution, IsNotThereWhereReactionsMatterOrMethodsAreImplicit) {
@@ -54,7 +77,9 @@ TEST(MassSolution, IsNotThereWhereReactionsMatterOrMethodsAreImplicit) {
   for (Generic* bars : {&reactions, &implicit}) {
     const VectorX<double> z = bars->state.z;
     double g = -1.0;
-    EXPECT_FALSE(bars->equations.accelerations(&bars->state, &g));
+    std::vector<double> factors;
+    EXPECT_FALSE(bars->equations.accelerations(&bars->state, &g, &factors));
+    EXPECT_EQ(bars->equations.mass_factor(), nullptr);
     EXPECT_EQ(bars->state.z, z);
   }
 }
