@@ -28,6 +28,26 @@ T joint_energy(const StateView<T>& view, const JointLoad& load) {
   return energy;
 }
 
+/// With a forest: kinetic energy of the bodies, potential energy of gravity [J], zero if every centre of mass is at the ground's origin,
+/// and the power of all forces but gravity [W], W' of (17a), if the motion satisfies the constraints. The velocity terms of (9) have no
+/// power.
+/// @param bodies resized; per body the centre of mass in ground axes [m], its velocity [m/s] and the angular velocity [rad/s] in body axes.
+template <class T>
+VectorX<T> body_energies(const StateView<T>& view, VectorX<T>* bodies) {
+  constexpr int kPerBody = 9;
+  bodies->resize(kPerBody * view.layout.bodies);
+  VectorX<T> sums = VectorX<T>::Constant(3, T(0.0));
+  for (int b = 0; b < view.layout.bodies; ++b) {
+    const AxesMotion<T>& m = view.motion.body(b);
+    const BodyConstants<T>& c = view.design.constants.bodies[to_index(b)];
+    sums[0] += T(0.5) * (c.mass * dot<T>(m.velocity, m.velocity) + dot<T>(m.omega, c.J * m.omega));
+    sums[1] -= c.mass * dot<T>(view.design.gravity, m.r);
+    sums[2] += c.mass * dot<T>(m.velocity, m.acceleration) + dot<T>(m.omega, c.J * m.alpha);
+    bodies->template segment<kPerBody>(kPerBody * b) << m.r, m.velocity, m.omega;
+  }
+  return sums;
+}
+
 /// T of (14b): translation and rotation of all bodies, and the contribution of the spin of rotors, theory (9a).
 template <class T>
 T kinetic_energy(const StateView<T>& view) {

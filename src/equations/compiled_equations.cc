@@ -414,6 +414,11 @@ void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* 
 }
 
 template <class T>
+void CompiledEquations<T>::energies(const State<T>& state, VectorX<T>* sums, VectorX<T>* bodies) {
+  run(EquationFunction::kEnergies, state, {*sums, *bodies, {}, {}});
+}
+
+template <class T>
 T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state) {
   T value(0.0);
   run(function, state, {{&value, 1}, {}, {}, {}});

@@ -52,6 +52,8 @@ class CompiledEquations {
   void linearize(const State<T>& state, Linearization<T>* derivatives);
   void rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives);
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
+  /// body_energies(), for systems with a forest. @param bodies nine entries per body.
+  void energies(const State<T>& state, VectorX<T>* sums, VectorX<T>* bodies);
   /// Sets z to the solution of G = 0, g, and the factors of G_z. @return false if the variant that serves has no kAccelerations; then z
   /// stays. @param factors resized to MassFactor::size() of mass_factor().
   bool accelerations(State<T>* state, T* g, std::vector<T>* factors);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "codegen/traced.h"
+#include "elements/energy.h"
 #include "equations/recorded_equations.h"
 #include "equations/transposed_code.h"
 #include "math/to_index.h"
@@ -86,6 +87,14 @@ void EquationCode::record_motion(EquationPart part, RecordedEquations* equations
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
     return errors;
   });
+  at(EquationFunction::kEnergies).has_derivatives = false;
+  if (part == EquationPart::kMotion && system_.layout().has_forest())
+    record(EquationFunction::kEnergies, [&] {
+      std::vector<VectorX<Traced>> results(2);
+      equations->formulas.load(equations->state);
+      results[0] = body_energies(equations->formulas.view(), &results[1]);
+      return results;
+    });
   if (part == EquationPart::kMotion && system_.compresses_jacobian()) return;
   const bool rates_only = part == EquationPart::kRates || (part == EquationPart::kMotion && system_.has_rates_apart());
   const Linearization<Traced> d = derive_linearization(system_.patterns(), EliminationOrder::kForward, rates_only, equations);

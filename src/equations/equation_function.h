@@ -23,6 +23,7 @@ enum class EquationFunction : std::size_t {
   kConstraintErrors,  ///< Phi, Phi_q v
   kRates,             ///< G, g, G_z; values only
   kAccelerations,     ///< z with G = 0, g, values of MassFactor; values only, and only where EquationCode::has_accelerations()
+  kEnergies,          ///< body_energies(), their bodies; values only, with a forest
   kMotionEnd,         ///< number of functions of the part
 
   kTerminal = 0,       ///< w

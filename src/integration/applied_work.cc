@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/applied_work.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace codesign {
@@ -18,66 +19,56 @@ Vector3d vector(const double* x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 
-BodyMotion::BodyMotion(const CompiledSystem& system)
-    : system_(system),
-      gravity_(system.study().gravity.data()),
-      bodies_(static_cast<std::size_t>(system.layout().bodies)),
-      forest_(system.layout()),
-      rest_(Eigen::VectorXd::Zero(system.layout().n)) {}
-
-void BodyMotion::set_design(const Constants<double>& constants) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b] = {constants.bodies[b].mass, constants.bodies[b].J};
-  if (!system_.layout().has_forest()) return;
-  constants_ = constants;
-  is_known_ = false;
+BodyMotion::Measured::Measured(const CompiledSystem& system) : equations(system), energies(3), bodies(9 * system.layout().bodies) {
+  at.resize(system.layout());
 }
 
-void BodyMotion::sweep(const VectorX<double>& q, const VectorX<double>& v, const double* a) const {
-  const Layout& layout = system_.layout();
-  q_ = q, v_ = v;
-  is_known_ = true;
-  for (int b = 0; b < layout.bodies; ++b) {
-    if (!layout.is_free(b)) continue;
-    const int c = layout.column(b);
-    BodyKinematics<double> k;
-    k.r = q.segment<3>(c), k.p = q.segment<4>(c + 3);
-    k.rd = v.segment<3>(c), k.pd = v.segment<4>(c + 3);
-    k.rdd = Vector3d(a + c), k.pdd = Eigen::Vector4d(a + c + 3);
-    k.A = rotation(k.p);
-    set_free_motion<double>(k, gravity_, &forest_.body(b));
-  }
-  sweep_out<double>(system_, constants_, gravity_, q.data(), v.data(), a, &forest_);
+BodyMotion::BodyMotion(const CompiledSystem& system)
+    : gravity_(system.study().gravity.data()),
+      bodies_(static_cast<std::size_t>(system.layout().bodies)),
+      measured_(system.layout().has_forest() ? std::make_unique<Measured>(system) : nullptr) {}
+
+void BodyMotion::set_design(const Equations<double>& equations) {
+  const Constants<double>& constants = equations.constants();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b] = {constants.bodies[b].mass, constants.bodies[b].J};
+  if (!measured_) return;
+  measured_->equations.set_design(equations.parameters());
+  measured_->is_known = false;
+}
+
+void BodyMotion::measure(const VectorX<double>& q, const VectorX<double>& v, In<double> a) const {
+  Measured& m = *measured_;
+  m.at.q = q, m.at.v = v;
+  std::copy(a.begin(), a.end(), m.at.z.data());
+  m.equations.energies(m.at, &m.energies, &m.bodies);
+  m.is_known = true;
 }
 
 void BodyMotion::move(const VectorX<double>& q, const VectorX<double>& v) const {
-  if (system_.layout().has_forest() && !(is_known_ && q == q_ && v == v_)) sweep(q, v, rest_.data());
+  if (measured_ && !(measured_->is_known && q == measured_->at.q && v == measured_->at.v)) measure(q, v, {});
 }
 
 double BodyMotion::distance(int body, const VectorX<double>& q) const {
-  return system_.layout().has_forest() ? forest_.body(body).r.norm() : q.segment<3>(kBodySize * body).norm();
+  return measured_ ? of_body(body, 0).norm() : q.segment<3>(kBodySize * body).norm();
 }
 
 BodySpeed BodyMotion::speed(int body, const VectorX<double>& v) const {
-  if (system_.layout().has_forest()) return {forest_.body(body).velocity.norm(), forest_.body(body).omega.norm()};
+  if (measured_) return {of_body(body, 3).norm(), of_body(body, 6).norm()};
   // |omega| = 2 |p'|, since p' is orthogonal to the unit vector p.
   return {v.segment<3>(kBodySize * body).norm(), 2.0 * v.segment<4>(kBodySize * body + 3).norm()};
 }
 
 BodyEnergy BodyMotion::energy(const VectorX<double>& q, const VectorX<double>& v) const {
-  BodyEnergy energy;
-  const auto add = [&](const Body& body, const Vector3d& r, const Vector3d& velocity, const Vector3d& omega) {
-    energy.kinetic += 0.5 * (body.mass * velocity.squaredNorm() + omega.dot(body.J * omega));
-    energy.potential -= body.mass * gravity_.dot(r);
-  };
-  if (system_.layout().has_forest()) {
+  if (measured_) {
     move(q, v);
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
-      add(bodies_[b], forest_.bodies[b].r, forest_.bodies[b].velocity, forest_.bodies[b].omega);
-    return energy;
+    return {measured_->energies[0], measured_->energies[1]};
   }
+  BodyEnergy energy;
   const double *r = q.data(), *rate = v.data();
   for (const Body& body : bodies_) {
-    add(body, vector(r), vector(rate), spin(r + 3, rate + 3));
+    const Vector3d velocity = vector(rate), omega = spin(r + 3, rate + 3);
+    energy.kinetic += 0.5 * (body.mass * velocity.squaredNorm() + omega.dot(body.J * omega));
+    energy.potential -= body.mass * gravity_.dot(vector(r));
     r += kBodySize;
     rate += kBodySize;
   }
@@ -87,15 +78,11 @@ BodyEnergy BodyMotion::energy(const VectorX<double>& q, const VectorX<double>& v
 // The velocity terms 8 G'^T J G p' of (9) and omega x J omega have no power.
 double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, In<double> z) const {
   assert(q.size() == v.size() && z.size() >= v.size());
-  double power = 0.0;
-  if (system_.layout().has_forest()) {
-    sweep(q, v, z.data());
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const AxesMotion<double>& m = forest_.bodies[b];
-      power += bodies_[b].mass * m.velocity.dot(m.acceleration) + m.omega.dot(bodies_[b].J * m.alpha);
-    }
-    return power;
+  if (measured_) {
+    measure(q, v, z.first(v.size()));
+    return measured_->energies[2];
   }
+  double power = 0.0;
   const double *r = q.data(), *rate = v.data(), *a = z.data();
   for (const Body& body : bodies_) {
     power += body.mass * vector(rate).dot(vector(a) - gravity_) + spin(r + 3, rate + 3).dot(body.J * spin(r + 3, a + 3));

@@ -1,8 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "integration/rosenbrock_step.h"
-#include "system/forest_motion.h"
 
 namespace codesign {
 
@@ -23,7 +25,8 @@ class BodyMotion {
  public:
   explicit BodyMotion(const CompiledSystem& system);
 
-  void set_design(const Constants<double>& constants);
+  /// @param equations hold the design.
+  void set_design(const Equations<double>& equations);
   BodyEnergy energy(const VectorX<double>& q, const VectorX<double>& v) const;
   /// W' of (17a), v^T M a - sum of m g . r' [W]: the power of all forces but gravity, if the motion satisfies the constraints.
   /// @param z of the state, or its first n entries, the accelerations.
@@ -41,16 +44,22 @@ class BodyMotion {
     double mass = 0.0;
     Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   };
-  void sweep(const VectorX<double>& q, const VectorX<double>& v, const double* a) const;
+  /// body_energies() at a state, of which at_ has q and v.
+  struct Measured {
+    explicit Measured(const CompiledSystem& system);
 
-  const CompiledSystem& system_;
+    CompiledEquations<double> equations;
+    State<double> at;
+    VectorX<double> energies, bodies;
+    bool is_known = false;  ///< whether the results belong to `at` and the design
+  };
+  void measure(const VectorX<double>& q, const VectorX<double>& v, In<double> a) const;
+  /// Entry `first` of a body's numbers in Measured::bodies and the next two.
+  Eigen::Vector3d of_body(int body, int first) const { return measured_->bodies.segment<3>(9 * body + first); }
+
   Eigen::Vector3d gravity_;
   std::vector<Body> bodies_;
-  Constants<double> constants_;          ///< with a forest only
-  mutable ForestMotion<double> forest_;  ///< at the last q and v
-  mutable VectorX<double> q_, v_;
-  mutable bool is_known_ = false;  ///< whether forest_ belongs to q_, v_ and the design
-  Eigen::VectorXd rest_;           ///< zeros
+  const std::unique_ptr<Measured> measured_;  ///< with a forest only
 };
 
 /// Work of all forces but gravity over one step, by Simpson's rule with the method's dense output in the middle of the step.

@@ -166,7 +166,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   start_sensitivities(parameters);
   restart_solver();
   watch_.start(equations(), initial_);
-  run_watch_.start(equations().constants(), initial_);
+  run_watch_.start(equations(), initial_);
   singularity_.start(watch_singularities_, initial_);
   work_ = 0.0;
   pace_.start(initial_.t);
@@ -252,7 +252,7 @@ Status IdasIntegrator::Implementation::go_on(double time, const std::vector<doub
   span_of(psi_.get())[0] = reached;
   equations_.start();
   equations_.count_turns_from(state_);
-  run_watch_.go_on(equations().constants(), state_);
+  run_watch_.go_on(equations(), state_);
   drift_size_ = 0.0;
   has_stepped_ = false;
   return begin_anew([] { return true; });

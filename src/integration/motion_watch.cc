@@ -91,7 +91,7 @@ double MotionWatch::target(const Equations<double>& equations) const {
 void MotionWatch::start(const Equations<double>& equations, const State<double>& initial) {
   mark_time_ = initial.t;
   mark_work_ = 0;
-  motion_.set_design(equations.constants());
+  motion_.set_design(equations);
   linear_bound_ = angular_bound_ = system_.study().solver.maximum_speed;
   // A mechanism without controllers cannot gain energy, so it needs no automatic limit.
   if (linear_bound_ > 0.0 || system_.study().controllers.empty()) return;

@@ -43,7 +43,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
-  run_watch_.start(step_.equations().constants(), initial_);
+  run_watch_.start(step_.equations(), initial_);
   work_.start(initial_, run_watch_.motion());
   singularity_.start(watch_singularities_, initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
@@ -107,7 +107,7 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
   if (Status status = continuation_.cross(parameters, between, &assembly_, &step_.equations(), &behind); !status.ok()) return status;
   step_.start(behind, reached);
   if (changes) step_.choose_pivots(proposal_);
-  run_watch_.go_on(step_.equations().constants(), behind);
+  run_watch_.go_on(step_.equations(), behind);
   work_.start(behind, run_watch_.motion());
   return {};
 }

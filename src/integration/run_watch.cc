@@ -75,22 +75,22 @@ void RunWatch::note_reach(const VectorX<double>& change, const VectorX<double>& 
   }
 }
 
-void RunWatch::start(const Constants<double>& constants, const State<double>& initial) {
+void RunWatch::start(const Equations<double>& equations, const State<double>& initial) {
   start_q_ = initial.q;
   reach_ = 0.0;
   note_reach(initial.v, initial.v);
-  motion_.set_design(constants);
+  motion_.set_design(equations);
   const BodyEnergy energy = motion_.energy(initial.q, initial.v);
   start_potential_ = potential_ = energy.potential;
   start_energy_ = energy.total();
   work_ = turnover_ = worst_error_ = imbalance_ = 0.0;
   worst_drift_time_ = worst_error_time_ = initial.t;
   unbalanced_steps_ = 0;
-  scale_ = std::max(energy.kinetic, smallest_scale(constants, initial));
+  scale_ = std::max(energy.kinetic, smallest_scale(equations.constants(), initial));
 }
 
-void RunWatch::go_on(const Constants<double>& constants, const State<double>& state) {
-  motion_.set_design(constants);
+void RunWatch::go_on(const Equations<double>& equations, const State<double>& state) {
+  motion_.set_design(equations);
   const BodyEnergy energy = motion_.energy(state.q, state.v);
   start_energy_ = energy.total() - work_ - imbalance_;
   // The energy that the change of the design itself adds does not count as turnover.

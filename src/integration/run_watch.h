@@ -22,10 +22,10 @@ class RunWatch {
  public:
   explicit RunWatch(const CompiledSystem& system);
 
-  /// @param constants of the design. @param initial its initial state.
-  void start(const Constants<double>& constants, const State<double>& initial);
+  /// @param equations must hold the design. @param initial its initial state.
+  void start(const Equations<double>& equations, const State<double>& initial);
   /// Continues after an instant at which design or inputs jump; the energy that the jump adds or removes does not count as an error.
-  void go_on(const Constants<double>& constants, const State<double>& state);
+  void go_on(const Equations<double>& equations, const State<double>& state);
   const BodyMotion& motion() const { return motion_; }
 
   /// The drift d of (17a) [-]: the largest projection correction of a coordinate or velocity over its error tolerance.

@@ -33,7 +33,7 @@ std::string branches() {
                turned("6", "e", "f", "0 0 1", "", "prismatic"));
 }
 
-const char* const kStudy = R"(duration: 1.0
+const char* const kBranchesStudy = R"(duration: 1.0
 controllers:
   servo: {type: pid, input: 1/position, setpoint: {type: sine, amplitude: 0.3, frequency: 2.0}, output: "1", gains: {p: 20.0, i: 3.0, d: 1.0},
           derivative_filter: 0.01}
@@ -41,8 +41,8 @@ objective: {integral: [{signal: servo/output, weight: 0.5}, {signal: 5/velocity}
 )";
 
 /// A system in joint coordinates at a generic state.
-struct Generic : Compiled {
-  Generic(const std::string& urdf, const std::string& study, const std::string& solver = "coordinates: joint, method: rodas5p")
+struct Branches : Compiled {
+  Branches(const std::string& urdf, const std::string& study, const std::string& solver = "coordinates: joint, method: rodas5p")
       : Compiled(urdf, study + "solver: {" + solver + "}\n") {
     equations.set_design(system.parameters());
     state.resize(system.layout());
@@ -56,7 +56,7 @@ struct Generic : Compiled {
 };
 
 /// What the program for the derivatives gives, which complex numbers always use.
-Linearization<Complex> recorded(const Generic& at) {
+Linearization<Complex> recorded(const Branches& at) {
   Equations<Complex> equations(at.system);
   const std::vector<double> parameters = at.system.parameters();
   equations.set_design({parameters.begin(), parameters.end()});
@@ -77,7 +77,7 @@ void expect_near(const Numbers& numbers, const Expected& expected) {
 }
 
 TEST(CompressedJacobian, EqualsTheProgramForTheDerivatives) {
-  Generic tree(branches(), kStudy);
+  Branches tree(branches(), kBranchesStudy);
   ASSERT_TRUE(tree.system.compresses_jacobian());
   ASSERT_GT(tree.system.layout().positions(), tree.system.layout().n) << "extra states";
   const Linearization<Complex> expected = recorded(tree);
@@ -92,7 +92,7 @@ TEST(CompressedJacobian, EqualsTheProgramForTheDerivatives) {
 }
 
 TEST(CompressedJacobian, RatesAreTheResidualAndOneOfItsMatrices) {
-  Generic tree(branches(), kStudy);
+  Branches tree(branches(), kBranchesStudy);
   Linearization<double> derivatives, rates;
   for (Linearization<double>* d : {&derivatives, &rates}) d->resize(tree.system.patterns());
   VectorX<double> G, expected_G;
@@ -106,7 +106,7 @@ TEST(CompressedJacobian, RatesAreTheResidualAndOneOfItsMatrices) {
 }
 
 TEST(CompressedJacobian, FollowsTheDesignAndIsTheSameWithoutMachineCode) {
-  Generic tree(branches(), kStudy), loop(branches(), kStudy);
+  Branches tree(branches(), kBranchesStudy), loop(branches(), kBranchesStudy);
   loop.equations.compiled().allow(false);
   for (double factor : {1.0, 2.0}) {
     std::vector<double> parameters = tree.system.parameters();
@@ -125,8 +125,8 @@ TEST(CompressedJacobian, FollowsTheDesignAndIsTheSameWithoutMachineCode) {
 }
 
 TEST(CompressedJacobian, ServesTreesOfSomeSizeInJointCoordinates) {
-  EXPECT_FALSE(Generic(branches(), kStudy, "coordinates: absolute").system.compresses_jacobian());
-  EXPECT_FALSE(Generic(double_pendulum(), "duration: 1.0\n").system.compresses_jacobian());
+  EXPECT_FALSE(Branches(branches(), kBranchesStudy, "coordinates: absolute").system.compresses_jacobian());
+  EXPECT_FALSE(Branches(double_pendulum(), "duration: 1.0\n").system.compresses_jacobian());
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ TEST(BodyMotion, EnergyIsThatOfTheState) {
   RosenbrockIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({}).ok());
   BodyMotion motion(*system);
-  motion.set_design(integrator.equations().constants());
+  motion.set_design(integrator.equations());
   const BodyEnergy energy = motion.energy(integrator.state().q, integrator.state().v);
   integrator.equations().formulas().load(integrator.state());
   const Energy expected = mechanical_energy(integrator.equations());
@@ -36,7 +36,7 @@ TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
     RosenbrockIntegrator integrator(*system);
     ASSERT_TRUE(integrator.start({}).ok());
     BodyMotion motion(*system);
-    motion.set_design(integrator.equations().constants());
+    motion.set_design(integrator.equations());
     const State<double>& state = integrator.state();
     EXPECT_NEAR(motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11);
   }
@@ -54,7 +54,7 @@ TEST(StepWork, OfFrictionIsWhatTheLawTakes) {
     RosenbrockIntegrator integrator(*system);
     ASSERT_TRUE(integrator.start({}).ok());
     BodyMotion motion(*system);
-    motion.set_design(integrator.equations().constants());
+    motion.set_design(integrator.equations());
     StepWork steps(*system);
     steps.start(integrator.state(), motion);
     double work = 0.0;

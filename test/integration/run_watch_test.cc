@@ -26,7 +26,7 @@ class WatchedPendulum : public ::testing::Test {
         integrator_(*system_),
         watch_(*system_) {
     EXPECT_TRUE(integrator_.start({}).ok());
-    watch_.start(integrator_.equations().constants(), integrator_.state());
+    watch_.start(integrator_.equations(), integrator_.state());
     state_ = integrator_.state();
   }
 
