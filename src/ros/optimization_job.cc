@@ -13,7 +13,6 @@
 #include "jobs/ensemble_records.h"
 #include "jobs/job_files.h"
 #include "jobs/journal.h"
-#include "jobs/json_records.h"
 #include "jobs/optimization_records.h"
 #include "jobs/output_error.h"
 #include "jobs/result_folder.h"
@@ -171,15 +170,10 @@ class Job {
   /// The folder beside the bag. It has no runs if the job was cancelled and a client waits for the answer.
   void write_folder(const std::atomic<bool>& cancel) {
     const ResultFolder folder(files_.folder(), problem_);
-    Json object = optimization_json(problem_, result_);
-    Warnings all = problem_.warnings();
-    append(warnings(), &all);
-    object["setup_seconds"] = problem_.setup_seconds();
-    object["warnings"] = to_json(all);
-    if (!result_.status.ok()) object["error"] = to_json(result_.status);
+    const std::string json = optimization_report(problem_, result_, warnings());
     try {
       std::filesystem::create_directory(files_.folder());
-      folder_failures_ = folder.write_design(object, result_);
+      folder_failures_ = folder.write_design(json, result_);
       write_whole_file(folder.in_folder("convergence.csv"), convergence_text(folder.in_folder("convergence.csv")));
     } catch (const std::exception& error) {
       folder_failures_.push_back({"output_failed", error.what()});
