@@ -143,10 +143,10 @@ class Job {
     const bool is_evaluated = result_.gradient.size() > 0;
     has_ended_ = !is_evaluated && !is_interrupted();
     if (has_ended_) return;
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    if (!is_evaluated) outcome_->result.initial_objective = kUnknown;
+    constexpr double kUnevaluated = std::numeric_limits<double>::quiet_NaN();
+    if (!is_evaluated) outcome_->result.initial_objective = kUnevaluated;
     // Screening computes objectives without gradients.
-    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnknown;
+    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnevaluated;
     Patience patience(cancel);
     Scenario nominal;
     nominal.system = problem_.system();
