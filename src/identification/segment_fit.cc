@@ -22,7 +22,8 @@ constexpr double kResolved = 1e-14;  // of the sum of squares of the recorded va
 /// Columns scaled to length one, so that the rank does not depend on units.
 class StartColumns {
  public:
-  explicit StartColumns(const Eigen::MatrixXd& columns) : lengths_(lengths_of(columns)), scaled_(columns * lengths_.cwiseInverse().asDiagonal()) {}
+  explicit StartColumns(const Eigen::MatrixXd& columns)
+      : lengths_(lengths_of(columns)), scaled_(columns * lengths_.cwiseInverse().asDiagonal()) {}
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
     if (lengths_.size() == 0) return Eigen::MatrixXd::Zero(0, right.cols());

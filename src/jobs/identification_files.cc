@@ -36,13 +36,8 @@ std::vector<IdentificationFile> identification_files(const Problem& problem, con
 
 IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const std::string& json,
                                        ComparedMotion motion) {
-  IdentificationShow show{problem.study_text().text,
-                          json,
-                          identified_urdf(problem, result),
-                          std::move(motion),
-                          result.data_series,
-                          result.holdout_series,
-                          {}};
+  IdentificationShow show{problem.study_text().text, json, identified_urdf(problem, result), std::move(motion), result.data_series,
+                          result.holdout_series,     {}};
   for (const OutputFit& fit : result.data) show.joints.push_back(fit.joint);
   return show;
 }

@@ -54,7 +54,8 @@ class BagFile {
  private:
   template <class Action>
   void guard(const Action& action);
-  void write_bytes(const std::string& topic, const ros::Time& time, const BagBytes& content, const boost::shared_ptr<ros::M_string>& header);
+  void write_bytes(const std::string& topic, const ros::Time& time, const BagBytes& content,
+                   const boost::shared_ptr<ros::M_string>& header);
   [[noreturn]] void fail(int cause);
   void abandon() noexcept;
   bool divert() const noexcept;

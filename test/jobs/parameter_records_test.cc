@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "jobs/json.h"
 #include "jobs/parameter_records.h"
 
 #include <gtest/gtest.h>
 
+#include "jobs/json.h"
 #include "jobs/tuned_pendulum.h"
 
 namespace codesign {

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "jobs/json.h"
 #include "jobs/result_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "jobs/json.h"
 #include "jobs/optimization_records.h"
 #include "jobs/saved_result.h"
 #include "jobs/tuned_pendulum.h"
