@@ -62,7 +62,7 @@ function(codesign_optimize target)
 endfunction()
 
 # Code that runs once for a file, a request or a trial, not for each step. -O1 takes a third less time to compile than -O2, if the precompiled
-# header is compiled with it too: GCC ignores one of another level, and that costs what -O1 saves. doc/decisions/0011-processor.md
+# header is compiled with it too: GCC ignores one of another level, and that costs what -O1 saves. doc/decisions/0046-build.md
 function(codesign_optimize_little target)
   target_compile_options(${target} PRIVATE "$<$<NOT:$<CONFIG:Debug>>:-O1>")
 endfunction()
