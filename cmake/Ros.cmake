@@ -58,6 +58,7 @@ target_include_directories(codesign_bags PUBLIC ${PROJECT_SOURCE_DIR}/include ${
 target_include_directories(codesign_bags SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS} ${rosbag_storage_INCLUDE_DIRS})
 target_link_libraries(codesign_bags PUBLIC codesign_core ${bag_libraries})
 codesign_warnings(codesign_bags)
+codesign_optimize_little(codesign_bags)
 codesign_unite(codesign_bags ros_bags ${bag_sources})
 codesign_sanitize(codesign_bags)
 
@@ -79,14 +80,14 @@ target_include_directories(codesign_ros
 target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include ${catkin_INCLUDE_DIRS})
 target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_LIBRARIES} PRIVATE yaml-cpp)
 codesign_warnings(codesign_ros)
-# Two units, for two processors.
-set(ros_jobs ${ros_sources})
-list(FILTER ros_jobs INCLUDE REGEX "(job|bag|record|request|progress|apply|gain)[^/]*$")
-list(REMOVE_ITEM ros_sources ${ros_jobs})
-codesign_unite(codesign_ros ros_jobs ${ros_jobs})
-codesign_unite(codesign_ros ros_nodes ${ros_sources})
+codesign_optimize_little(codesign_ros)
+# One unit: two of them, with a precompiled header, parsed and instantiated most of it twice. A precompiled header for one unit costs more than
+# it saves.
+codesign_unite(codesign_ros ros ${ros_sources})
 codesign_sanitize(codesign_ros)
-codesign_precompile(codesign_ros <ros/ros.h>)
+if(NOT CODESIGN_UNITY)
+  codesign_precompile(codesign_ros <ros/ros.h>)
+endif()
 
 # Each x_node_main.cc becomes the executable x.
 set(codesign_nodes)

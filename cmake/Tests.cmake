@@ -109,7 +109,8 @@ endif()
 
 include(${PROJECT_SOURCE_DIR}/cmake/Fuzz.cmake)
 
-add_test(NAME layering_of_objects COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_symbols.py ${PROJECT_BINARY_DIR}/src/CMakeFiles/codesign_core.dir)
+add_test(NAME layering_of_objects COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_symbols.py ${PROJECT_BINARY_DIR}/src/CMakeFiles/codesign_core.dir
+  ${PROJECT_BINARY_DIR}/src/CMakeFiles/codesign_steps.dir)
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 

@@ -39,8 +39,8 @@ class Motions {
   /// A motion without inertia, as one rate per independent coordinate; empty if there is none.
   Eigen::VectorXd undetermined() const {
     if (allowed_.cols() == 0) return {};
-    const Eigen::MatrixXd projected = allowed_.transpose() * scale_.asDiagonal() * M_ * scale_.asDiagonal() * allowed_;
-    const SymmetricEigen eigen = symmetric_eigen(projected);
+    const Eigen::MatrixXd scaled = scale_.asDiagonal() * allowed_;
+    const SymmetricEigen eigen = symmetric_eigen(transposed_product(scaled, product(M_, scaled)));
     const Eigen::VectorXd& values = eigen.values;
     if (values[0] > kSingular * std::max(values[values.size() - 1], 0.0)) return {};
     return scale_.asDiagonal() * (allowed_ * eigen.vectors.col(0));
@@ -111,7 +111,7 @@ class Motions {
     const std::vector<Eigen::Triplet<double>> entries = acceleration_block(system_, equations_, state_, 0, system_.layout().n);
     Eigen::SparseMatrix<double> M(system_.layout().n, system_.layout().n);
     M.setFromTriplets(entries.begin(), entries.end());
-    M_ = V_.transpose() * (M * V_);
+    M_ = transposed_product(V_, M * V_);
     choose_scale();
   }
 

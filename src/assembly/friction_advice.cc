@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "elements/signals.h"
 #include "math/dense.h"
 #include "math/to_index.h"
 
@@ -50,7 +49,7 @@ class Search {
       stressed.z.segment(system_.layout().n, system_.layout().constraints()) = basis_.col(k);
       equations->formulas().load(stressed);
       Vector3<double> F, T;
-      pair_reaction(equations->formulas().view(), pair, &F, &T);
+      equations->formulas().reaction(pair, &F, &T);
       forces.col(k) = F;
       torques.col(k) = T;
     }
@@ -174,7 +173,7 @@ double effect_of_sharing(const CompiledSystem& system, const Redundancy& redunda
     for (int p : redundancy.sharing.pairs) {
       const int joint = system.topology().pairs[to_index(p)].friction_joint;
       const std::vector<int>& chosen = redundancy.chosen_joints;
-      if (std::find(chosen.begin(), chosen.end(), joint) != chosen.end()) forces.push_back(normal_force(equations->formulas().view(), p));
+      if (std::find(chosen.begin(), chosen.end(), joint) != chosen.end()) forces.push_back(equations->formulas().normal_force(p));
     }
     return forces;
   };

@@ -66,7 +66,7 @@ int dimension_at(const Forms& forms, const Eigen::VectorXd& y, int starts) {
   for (Eigen::Index c = rank; c < rows.rows(); ++c) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(y.size(), y.size());
     for (std::size_t k = 0; k < forms.size(); ++k) sum += svd.U(static_cast<Eigen::Index>(k), c) * forms[k];
-    left.emplace_back(tangents.transpose() * sum * tangents);
+    left.push_back(product(transposed_product(tangents, sum), tangents));
   }
   return 1 + dimension(left, tangents.cols(), std::max(4, starts / 4));
 }
@@ -108,7 +108,7 @@ int motions_lost_to_curvature(const std::vector<double>& parameters, const Assem
   Forms forms(static_cast<std::size_t>(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
   for (Eigen::Index a = 0; a < N.cols(); ++a) {
     const VectorX<double> ahead = theta + kStep * N.col(a), behind = theta - kStep * N.col(a);
-    const Eigen::MatrixXd products = U.transpose() * (jacobian(ahead) - jacobian(behind)) * N / (2.0 * kStep);
+    const Eigen::MatrixXd products = product(transposed_product(U, jacobian(ahead) - jacobian(behind)), N) / (2.0 * kStep);
     for (Eigen::Index u = 0; u < U.cols(); ++u) forms[static_cast<std::size_t>(u)].row(a) = products.row(u);
   }
   for (Eigen::MatrixXd& form : forms) form = Eigen::MatrixXd(0.5 * (form + form.transpose()));

@@ -77,7 +77,7 @@ bool SingularStart::is_motion(const VectorX<double>& x) {
 
 // Newton's method on J x = 0 (without the nearly dependent part L L^T J) and L^T (J x)_theta x = 0, with steps of least norm.
 bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
-  const Eigen::MatrixXd J = J_ - L_ * (L_.transpose() * J_);
+  const Eigen::MatrixXd J = J_ - product(L_, transposed_product(L_, J_));
   const auto count = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd A(J.rows() + L_.cols(), count);
   VectorX<double> error(A.rows());

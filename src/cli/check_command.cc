@@ -5,6 +5,7 @@
 #include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "jobs/json.h"
 #include "jobs/limit_watch.h"
 #include "mechanism_codesign/simulation.h"
 

@@ -13,6 +13,7 @@
 #include "excitation/excite.h"
 #include "jobs/csv_writer.h"
 #include "jobs/excitation_records.h"
+#include "jobs/json.h"
 #include "jobs/whole_file.h"
 #include "text/number_text.h"
 

@@ -4,6 +4,7 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "ensemble/ensemble.h"
+#include "jobs/json.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {

@@ -15,6 +15,7 @@
 #include "identification/identify.h"
 #include "jobs/identification_files.h"
 #include "jobs/identification_records.h"
+#include "jobs/json.h"
 #include "jobs/trial_lines.h"
 #include "jobs/whole_file.h"
 #include "text/number_text.h"
@@ -83,7 +84,7 @@ void try_to(Write write, std::vector<Failure>* failures) {
 /// After an earlier interrupt the bag is written in full, since a second interrupt ends the program. If a motion cannot be shown, a warning
 /// says so; the identification does not fail.
 void write_show(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result,
-                const Json& object, const std::string& path, const Console& console, std::vector<Failure>* failures) {
+                const std::string& json, const std::string& path, const Console& console, std::vector<Failure>* failures) {
   const bool is_told_before = console.cancel;
   ComparedMotion motion = compare_motion(problem, recordings, result, kShownRate, [&] { return !is_told_before && console.cancel; });
   for (const ComparedRecording& recording : motion.recordings) {
@@ -95,18 +96,18 @@ void write_show(const Arguments& arguments, const Problem& problem, const StudyR
       console.err << "codesign " << arguments.command << ": warning: " << sentence << std::endl;
   }
   for (const std::string& earlier : {path, path + ".active"}) unlink(earlier.c_str());
-  console.identification_bag(path, identification_show(problem, result, object, std::move(motion)));
+  console.identification_bag(path, identification_show(problem, result, json, std::move(motion)));
 }
 
 std::vector<Failure> write_folder(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings,
-                                  const IdentificationResult& result, const Json& object, const Console& console) {
+                                  const IdentificationResult& result, const std::string& json, const Console& console) {
   std::vector<Failure> failures;
   const std::filesystem::path folder(arguments.output);
-  for (const IdentificationFile& file : identification_files(problem, result, object))
+  for (const IdentificationFile& file : identification_files(problem, result, json))
     try_to([&] { write_whole_file((folder / file.name).string(), file.text()); }, &failures);
   const std::string bag = (folder / "identification.bag").string();
   if (console.identification_bag)
-    try_to([&] { write_show(arguments, problem, recordings, result, object, bag, console, &failures); }, &failures);
+    try_to([&] { write_show(arguments, problem, recordings, result, json, bag, console, &failures); }, &failures);
   return failures;
 }
 
@@ -134,7 +135,7 @@ int identify(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
-  if (!arguments.output.empty() && known) failures = write_folder(arguments, problem, recordings, result, object, console);
+  if (!arguments.output.empty() && known) failures = write_folder(arguments, problem, recordings, result, to_text(object), console);
   return finish(arguments, result.status, std::move(object), console, failures);
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/inputs.h"
 #include "cli/output_file.h"
+#include "jobs/json.h"
 #include "jobs/result_folder.h"
 #include "jobs/whole_file.h"
 
@@ -94,7 +95,7 @@ std::vector<Failure> JobFolder::finish(const Json& object, const OptimizationRes
   if (!journal_->failure().empty()) failures_.push_back({"output_failed", journal_->failure()});
   const std::size_t before = failures_.size();
   const ResultFolder folder(path_, problem_);
-  add_failures(folder.write_design(object, result));
+  add_failures(folder.write_design(to_text(object), result));
   if (failures_.size() == before) best_.remove();
   add_failures(folder.write_runs(result, watched));
   return failures_;

@@ -3,6 +3,7 @@
 
 #include <ostream>
 
+#include "jobs/json.h"
 #include "jobs/json_records.h"
 
 namespace codesign::cli {

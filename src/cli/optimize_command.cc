@@ -10,6 +10,7 @@
 #include "cli/table.h"
 #include "engine/dispatcher.h"
 #include "jobs/ensemble_records.h"
+#include "jobs/json.h"
 #include "jobs/optimization_records.h"
 #include "jobs/trial_lines.h"
 #include "jobs/watched_records.h"

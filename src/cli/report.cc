@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/report.h"
 
+#include "jobs/json.h"
+
 namespace codesign::cli {
 
 std::ostream& progress_of(const Arguments& arguments, const Console& console) {

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
+#include "jobs/json.h"
 #include "reading/urdf/stick_figure.h"
 #include "reading/urdf/urdf_reader.h"
 

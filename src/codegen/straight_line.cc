@@ -8,6 +8,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "codegen/machine_code.h"
 #include "math/to_index.h"
 #endif
 

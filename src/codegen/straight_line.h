@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "codegen/machine_code.h"
+#include "codegen/place.h"
 
 namespace codesign {
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "codegen/machine_code.h"
 #include "math/to_index.h"
 #endif
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "codegen/machine_code.h"
+#include "codegen/place.h"
 #include "codegen/recording.h"
 
 namespace codesign {

@@ -85,6 +85,8 @@ class Formulas {
   /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, theory (11); the child feels -F'' and -T''. Components that
   /// the pair does not constrain are zero.
   void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;
+  /// The normal force N [N] in the bearing of a pair, theory (12); its joint must have a BearingLaw.
+  T normal_force(int pair) const;
   /// The part of a reaction signal, theory (11a), that comes from multipliers: constraint rows and couplings.
   T multiplier_reaction(const SignalReference& term) const;
 

@@ -103,6 +103,11 @@ void Formulas<T>::reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const {
 }
 
 template <class T>
+T Formulas<T>::normal_force(int pair) const {
+  return codesign::normal_force(view_, pair);
+}
+
+template <class T>
 T Formulas<T>::multiplier_reaction(const SignalReference& term) const {
   return codesign::multiplier_reaction(view_, term);
 }

@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "equations/mass_solution.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "codegen/operate.h"
 #include "description/expression.h"
+#include "math/dense.h"
 #include "math/to_index.h"
 
 namespace codesign {
@@ -45,7 +45,7 @@ bool is_mass_matrix(const System& system, const Recording& recording, const Spar
     }
   const Eigen::VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
   A = scale.asDiagonal() * A * scale.asDiagonal();
-  return A.allFinite() && (A - A.transpose()).cwiseAbs().maxCoeff() < kRounding && A.llt().info() == Eigen::Success;
+  return A.allFinite() && (A - A.transpose()).cwiseAbs().maxCoeff() < kRounding && is_positive_definite(A);
 }
 
 MassSolution record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries, const VectorX<Traced>& b) {

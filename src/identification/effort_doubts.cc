@@ -166,7 +166,7 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
   const Eigen::VectorXd lengths = columns.colwise().norm().cwiseMax(1e-300);
   columns = columns * lengths.cwiseInverse().asDiagonal();
   const Eigen::VectorXd about_mean = recorded.array() - recorded.mean();
-  const Eigen::MatrixXd squares = columns.transpose() * columns;
+  const Eigen::MatrixXd squares = transposed_product(columns, columns);
   const Eigen::VectorXd products = columns.transpose() * about_mean;
   DriveLineFit best;
   double most = 0.0;

@@ -1,8 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/motion_projection.h"
 
-#include <Eigen/Cholesky>
-
+#include "math/dense.h"
 #include "math/to_index.h"
 
 namespace codesign {
@@ -77,9 +76,9 @@ Eigen::MatrixXd MotionProjection::slopes(DrivenMotion* motion, const State<doubl
 Eigen::VectorXd MotionProjection::correction(const Eigen::MatrixXd& K, const Eigen::VectorXd& drive_misses,
                                              const Eigen::VectorXd& surplus_misses) const {
   const Eigen::MatrixXd weighted = K.transpose() * surplus_weights_.asDiagonal();
-  Eigen::MatrixXd normal = weighted * K;
+  Eigen::MatrixXd normal = product(weighted, K);
   normal.diagonal() += drive_weights_;
-  return normal.llt().solve(Eigen::VectorXd(drive_weights_.cwiseProduct(drive_misses) + weighted * surplus_misses));
+  return solve_positive_definite(normal, drive_weights_.cwiseProduct(drive_misses) + weighted * surplus_misses);
 }
 
 Status MotionProjection::project(const Eigen::VectorXd (&measured)[3], Eigen::VectorXd (*drives)[3], DrivenMotion* motion,

@@ -1,13 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/segment_fit.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "identification/residual_fit.h"
+#include "math/dense.h"
 #include "math/triangular_root.h"
 #include "optimization/levenberg_marquardt.h"
 
@@ -22,24 +22,27 @@ constexpr double kResolved = 1e-14;  // of the sum of squares of the recorded va
 /// Columns scaled to length one, so that the rank does not depend on units.
 class StartColumns {
  public:
-  explicit StartColumns(const Eigen::MatrixXd& columns) : lengths_(columns.colwise().norm().transpose()) {
-    lengths_ = lengths_.unaryExpr([](double length) { return length > 0.0 ? length : 1.0; });
-    qr_.compute(columns * lengths_.cwiseInverse().asDiagonal());
-  }
+  explicit StartColumns(const Eigen::MatrixXd& columns)
+      : lengths_(lengths_of(columns)), scaled_(columns * lengths_.cwiseInverse().asDiagonal()) {}
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
     if (lengths_.size() == 0) return Eigen::MatrixXd::Zero(0, right.cols());
-    return lengths_.cwiseInverse().asDiagonal() * qr_.solve(right);
+    return lengths_.cwiseInverse().asDiagonal() * scaled_.solve(right);
   }
   /// Decrease of the sum of squares by the best start, to first order.
   double promise(const Eigen::VectorXd& residuals) const {
     if (lengths_.size() == 0) return 0.0;
-    return (qr_.householderQ().transpose() * residuals).head(qr_.rank()).squaredNorm();
+    return scaled_.explained(residuals);
   }
 
  private:
+  static Eigen::VectorXd lengths_of(const Eigen::MatrixXd& columns) {
+    const Eigen::VectorXd lengths = columns.colwise().norm().transpose();
+    return lengths.unaryExpr([](double length) { return length > 0.0 ? length : 1.0; });
+  }
+
   Eigen::VectorXd lengths_;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  PivotedLeastSquares scaled_;
 };
 
 /// The cost of a segment as a function of its start. Keeps the best point and, if derivatives by x are computed, its derivative by x.
@@ -120,7 +123,7 @@ class StartCost final : public LeastSquaresModel {
     best_.correction = columns.solve(weighted.residuals.reshaped());
     if (lanes_ != SegmentLanes::kAll) return;
     best_.slope = columns.solve(weighted.jacobian.leftCols(problem_.x.size()));
-    best_.jacobian = by_all_.leftCols(problem_.x.size()) - by_all_.rightCols(problem_.of.starts) * best_.slope;
+    best_.jacobian = by_all_.leftCols(problem_.x.size()) - product(by_all_.rightCols(problem_.of.starts), best_.slope);
   }
 
   const SegmentProblem& problem_;

@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/SparseLU>
 #include <complex>
 #include <memory>
 
@@ -33,7 +32,9 @@ template <>
 class StageMatrix<std::complex<double>> {
  public:
   using Scalar = std::complex<double>;
-  explicit StageMatrix(const CompiledSystem& system) : system_(system), lu_(std::make_unique<Eigen::SparseLU<Matrix>>()) {}
+  explicit StageMatrix(const CompiledSystem& system);
+  ~StageMatrix();
+  StageMatrix(StageMatrix&&) noexcept;
 
   bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s);
   void forget() {}
@@ -42,11 +43,10 @@ class StageMatrix<std::complex<double>> {
   void solve(VectorX<Scalar>* x) const;
 
  private:
-  using Matrix = Eigen::SparseMatrix<Scalar>;
+  struct Factors;  // Eigen's template, which takes seconds to compile
 
   const CompiledSystem& system_;
-  std::unique_ptr<Eigen::SparseLU<Matrix>> lu_;
-  bool analyzed_ = false;  ///< whether lu_ knows the pattern, which does not change
+  std::unique_ptr<Factors> factors_;
 };
 
 }  // namespace codesign

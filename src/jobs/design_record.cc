@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "jobs/csv_writer.h"
+#include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/limit_watch.h"
 #include "jobs/run_recorder.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ensemble/scenario.h"
+#include "jobs/json.h"
 #include "jobs/sentences.h"
 #include "text/decimal.h"
 #include "text/number_text.h"

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "jobs/json.h"
+#include "jobs/json_type.h"
 #include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "text/decimal.h"
 #include "text/fingerprint.h"

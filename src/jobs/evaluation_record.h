@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "jobs/json.h"
 #include "mechanism_codesign/gradient.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "description/study.h"
+#include "jobs/json.h"
 #include "text/decimal.h"
 #include "text/number_text.h"
 

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "excitation/excitation_result.h"
-#include "jobs/json.h"
+#include "jobs/json_type.h"
 #include "mechanism_codesign/problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -26,23 +26,18 @@ std::string identified_urdf(const Problem& problem, const IdentificationResult& 
 
 }  // namespace
 
-std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const Json& json) {
-  return {{"identification.json", [&json] { return to_text(json); }},
+std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const std::string& json) {
+  return {{"identification.json", [&json] { return json; }},
           {"identified_overlay.urdf", [&problem, &result] { return identified_overlay(problem, result); }},
           {"identified.urdf", [&problem, &result] { return identified_urdf(problem, result); }},
           {"residuals.csv", [&result] { return residuals_text(result); }},
           {"job_study.yaml", [&problem] { return problem.study_text().text; }}};
 }
 
-IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const Json& json,
+IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const std::string& json,
                                        ComparedMotion motion) {
-  IdentificationShow show{problem.study_text().text,
-                          to_text(json),
-                          identified_urdf(problem, result),
-                          std::move(motion),
-                          result.data_series,
-                          result.holdout_series,
-                          {}};
+  IdentificationShow show{problem.study_text().text, json, identified_urdf(problem, result), std::move(motion), result.data_series,
+                          result.holdout_series,     {}};
   for (const OutputFit& fit : result.data) show.joints.push_back(fit.joint);
   return show;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "identification/compared_motion.h"
-#include "jobs/json.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -17,9 +17,9 @@ struct IdentificationFile {
 };
 
 /// The text files of an identification with numbers: identification.json, identified_overlay.urdf,
-/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may throw. @param json identification_json()
-/// with all additions of the front end. All three arguments must outlive the texts.
-std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const Json& json);
+/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may throw. @param json the text of
+/// identification_json() with all additions of the front end. All three arguments must outlive the texts.
+std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const std::string& json);
 
 /// The contents of the bag of an identification; doc/ros_api.md.
 struct IdentificationShow {
@@ -30,7 +30,8 @@ struct IdentificationShow {
 };
 
 /// @param json as above. @param motion compare_motion()
-IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const Json& json, ComparedMotion motion);
+IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const std::string& json,
+                                       ComparedMotion motion);
 
 /// Callback that writes an identification into a bag, for replay in rviz. The caller provides it, since this library does not depend on
 /// ROS.

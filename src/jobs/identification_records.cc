@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "jobs/json.h"
+#include "jobs/json_records.h"
 #include "text/decimal.h"
 #include "text/number_text.h"
 
@@ -152,6 +154,12 @@ std::vector<std::string> identification_sentences(const IdentificationResult& re
     sentences.push_back("optimum " + std::to_string(k + 1) + ": mean spread of the residuals " + readable(optima[k].objective) +
                         ", found by " + std::to_string(optima[k].found) + " of " + std::to_string(result.searches.starts.size()) + " fits");
   return sentences;
+}
+
+std::string identification_report(const Problem& problem, const IdentificationResult& result, const Warnings& of_run) {
+  Json object = identification_json(problem, result);
+  add_outcome(problem, of_run, result.status, &object);
+  return to_text(object);
 }
 
 std::vector<std::string> residual_columns(const IdentificationResult& result) {

@@ -2,6 +2,7 @@
 #include "jobs/json_records.h"
 
 #include "assembly/count_equations.h"
+#include "jobs/json.h"
 
 namespace codesign {
 namespace {
@@ -63,6 +64,14 @@ void add_statistics(const Statistics& statistics, Json* object) {
   (*object)["cpu_seconds"] = statistics.cpu_seconds;
   (*object)["constraint_drift"] = statistics.constraint_drift;
   (*object)["energy_error"] = statistics.energy_error;
+}
+
+void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status, Json* object) {
+  Warnings warnings = problem.warnings();
+  append(of_run, &warnings);
+  (*object)["setup_seconds"] = problem.setup_seconds();
+  (*object)["warnings"] = to_json(warnings);
+  if (!status.ok()) (*object)["error"] = to_json(status);
 }
 
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/json.h"
+#include "jobs/json_type.h"
 #include "jobs/limit_watch.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/error.h"
@@ -26,6 +26,8 @@ Json to_json(const Status& status);
 Json to_json(const Warnings& warnings);
 /// Sets `steps`, `rejected_steps`, `explicit_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
 void add_statistics(const Statistics& statistics, Json* object);
+/// Sets `setup_seconds`, `warnings`, those of the problem before those of the run, and `error` if the run failed.
+void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status, Json* object);
 /// Sets `counts` for the design at `parameters`, if it can be assembled.
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
 

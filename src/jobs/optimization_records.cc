@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jobs/ensemble_records.h"
+#include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/watched_records.h"
 
@@ -83,6 +84,12 @@ Json optimization_json(const Problem& problem, const OptimizationResult& result)
   add_ensemble(problem, result, &object);
   if (has_design(problem, result)) add_counts(problem, problem.parameters(result.rho), &object);
   return object;
+}
+
+std::string optimization_report(const Problem& problem, const OptimizationResult& result, const Warnings& of_run) {
+  Json object = optimization_json(problem, result);
+  add_outcome(problem, of_run, result.status, &object);
+  return to_text(object);
 }
 
 }  // namespace codesign

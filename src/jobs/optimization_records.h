@@ -1,8 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "jobs/json.h"
+#include <string>
+
+#include "jobs/json_type.h"
 #include "mechanism_codesign/optimization.h"
+#include "mechanism_codesign/warning.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -17,5 +21,8 @@ bool has_design(const Problem& problem, const OptimizationResult& result);
 
 /// The output of `codesign optimize --json` and the content of result.json, except `setup_seconds`, `warnings` and `error`; doc/results.md.
 Json optimization_json(const Problem& problem, const OptimizationResult& result);
+
+/// The same as text, with the outcome that add_outcome() adds.
+std::string optimization_report(const Problem& problem, const OptimizationResult& result, const Warnings& of_run);
 
 }  // namespace codesign

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ensemble/ensemble.h"
+#include "jobs/json.h"
 #include "jobs/optimization_records.h"
 #include "jobs/sentences.h"
 #include "text/number_text.h"

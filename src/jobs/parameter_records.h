@@ -3,8 +3,9 @@
 
 #include <atomic>
 
-#include "jobs/json.h"
+#include "jobs/json_type.h"
 #include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/recording_records.h"
 
+#include "jobs/json.h"
+
 namespace codesign {
 
 RecordingSummary summary_of(const JointRecording& recording, const MeasuredMotion& motion) {

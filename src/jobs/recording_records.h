@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/json.h"
+#include "jobs/json_type.h"
 #include "recordings/measured_motion.h"
 
 namespace codesign {

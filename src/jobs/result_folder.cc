@@ -8,6 +8,7 @@
 #include "jobs/design_record.h"
 #include "jobs/ensemble_records.h"
 #include "jobs/gains_yaml.h"
+#include "jobs/json.h"
 #include "jobs/parameter_records.h"
 #include "jobs/sentences.h"
 #include "jobs/whole_file.h"
@@ -54,14 +55,14 @@ const std::vector<std::string>& ResultFolder::file_names() {
 
 std::string ResultFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
 
-std::vector<Failure> ResultFolder::write_design(const Json& object, const OptimizationResult& result) const {
+std::vector<Failure> ResultFolder::write_design(const std::string& json, const OptimizationResult& result) const {
   std::vector<Failure> failures;
   const auto write = [&](const char* name, const Text& text) { write_file(in_folder(name), text, &failures); };
   const std::vector<double> initial = problem_.parameters(result.initial_rho), tuned = problem_.parameters(result.rho);
   const auto urdf_at = [this](const std::vector<double>& parameters) {
     return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters, std::nullopt, problem_.robot().laws);
   };
-  write("result.json", [&] { return to_text(object); });
+  write("result.json", [&] { return json; });
   write("tuned.urdf", [&] { return urdf_at(tuned); });
   write("initial.urdf", [&] { return urdf_at(initial); });
   write("initial.json", [&] { return to_text({{"parameters", parameters_json(problem_, initial)}}); });

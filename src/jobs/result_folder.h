@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "jobs/failure.h"
-#include "jobs/json.h"
 #include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -24,9 +24,9 @@ class ResultFolder {
   static const std::vector<std::string>& file_names();
 
   /// Writes result.json, tuned.urdf, initial.urdf, initial.json, job_study.yaml with the files that it names by relative paths, gains.yaml
-  /// if the study has `hardware:`, starts.csv and scenarios.csv if the study has starts or scenarios. @param object for result.json.
+  /// if the study has `hardware:`, starts.csv and scenarios.csv if the study has starts or scenarios. @param json the text of result.json.
   /// @returns one failure for each file that is missing.
-  std::vector<Failure> write_design(const Json& object, const OptimizationResult& result) const;
+  std::vector<Failure> write_design(const std::string& json, const OptimizationResult& result) const;
 
   /// Runs both designs and checks the gradient if that takes seconds; writes initial.csv, tuned.csv and details.json.
   /// @param cancel ends the runs early. @returns one failure for each file that is missing, or incomplete because its run failed.

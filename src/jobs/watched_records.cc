@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "jobs/json.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "math/dense.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -42,6 +43,27 @@ PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold) {
   return {qr.rank(), std::vector<int>(indices.data(), indices.data() + indices.size()), qr.matrixQR().diagonal().cwiseAbs()};
 }
 
+struct PivotedLeastSquares::Implementation {
+  Qr qr;
+};
+
+PivotedLeastSquares::PivotedLeastSquares(const Eigen::MatrixXd& A) : implementation_(std::make_unique<Implementation>()) {
+  implementation_->qr.compute(A);
+}
+PivotedLeastSquares::~PivotedLeastSquares() = default;
+PivotedLeastSquares::PivotedLeastSquares(PivotedLeastSquares&&) noexcept = default;
+
+Eigen::MatrixXd PivotedLeastSquares::solve(const Eigen::MatrixXd& b) const { return implementation_->qr.solve(b); }
+
+double PivotedLeastSquares::explained(const Eigen::VectorXd& b) const {
+  const Qr& qr = implementation_->qr;
+  return (qr.householderQ().transpose() * b).head(qr.rank()).squaredNorm();
+}
+
+bool is_positive_definite(const Eigen::MatrixXd& A) { return A.llt().info() == Eigen::Success; }
+
+Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) { return A.llt().solve(b); }
+
 Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A) {
   const Eigen::Index rows = std::min(A.rows(), A.cols());
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(A.cols(), A.cols());
@@ -74,6 +96,10 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A * B; }
+
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.transpose() * B; }
 
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J, Eigen::EigenvaluesOnly).eigenvalues();

@@ -52,6 +52,28 @@ class PivotedQr {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Least squares A x = b by the same decomposition, with Eigen's default threshold.
+class PivotedLeastSquares {
+ public:
+  explicit PivotedLeastSquares(const Eigen::MatrixXd& A);
+  ~PivotedLeastSquares();
+  PivotedLeastSquares(PivotedLeastSquares&&) noexcept;
+
+  /// @param b one right-hand side per column. @returns one solution per column; columns beyond the rank have zeros.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// By how much the best x decreases |b|^2.
+  double explained(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Whether the Cholesky decomposition of a symmetric matrix, whose lower triangle is read, exists.
+bool is_positive_definite(const Eigen::MatrixXd& A);
+/// A^-1 b by this decomposition.
+Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
 /// R of the QR decomposition A = Q R, square and upper triangular with diagonal entries of 0 or more; rows of zeros where A has fewer rows
 /// than columns. R^T R = A^T A.
 Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A);
@@ -108,6 +130,11 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
+
+/// A B and A^T B. An expression with such a product compiles Eigen's kernels again in its file; where speed does not depend on it, it calls
+/// these.
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
 /// Principal moments, ascending, of an inertia tensor [kg m^2].
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J);

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "jobs/json.h"
+#include "jobs/apply_record.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -135,18 +135,10 @@ std::string apply_table(const mechanism_codesign::ApplyResponse& response) {
 }
 
 std::string apply_json(const mechanism_codesign::ApplyResponse& response) {
-  Json object, changes = Json::array();
+  ApplyRecord record{response.success != 0, response.code, response.message, {}, response.rollback_seconds};
   for (const auto& change : response.changes)
-    changes.push_back(
-        {{"server", change.server}, {"name", change.name}, {"before", change.before}, {"after", change.after}, {"now", change.now}});
-  object["success"] = response.success != 0;
-  object["changes"] = std::move(changes);
-  object["rollback_seconds"] = response.rollback_seconds;
-  if (response.success)
-    object["message"] = response.message;
-  else
-    object["error"] = {{"code", response.code}, {"message", response.message}};
-  return to_text(object);
+    record.changes.push_back({change.server, change.name, change.before, change.after, change.now});
+  return apply_text(record);
 }
 
 }  // namespace codesign

@@ -27,7 +27,7 @@ using Request = mechanism_codesign::ApplyRequest;
 using Response = mechanism_codesign::ApplyResponse;
 
 /// How long servers and topics may take to appear [s].
-constexpr double kPatience = 5.0;
+constexpr double kAnswerPatience = 5.0;
 
 /// An exception that ends the job with a code and a sentence.
 struct Refusal {
@@ -77,7 +77,7 @@ class Application {
     find_servers(orders);
     plan(orders);
     RobotWatch watcher(robot_.node(), ranges, watch);
-    if (const std::string fault = watcher.begin(kPatience); !fault.empty()) throw Refusal{"unsafe", "nothing was sent: " + fault};
+    if (const std::string fault = watcher.begin(kAnswerPatience); !fault.empty()) throw Refusal{"unsafe", "nothing was sent: " + fault};
     if (cancel_) throw Refusal{"cancelled", "cancelled before anything was sent"};
     if (request_.dry_run)
       response_.message = "tried only: " + amount() + " would change";
@@ -90,7 +90,7 @@ class Application {
     for (const GainOrder& order : orders)
       clients_.push_back(std::make_unique<ReconfigureClient>(robot_.node(), robot_.node().resolveName(order.server)));
     for (const std::unique_ptr<ReconfigureClient>& client : clients_) {
-      const std::string missing = client->wait(kPatience, cancel_);
+      const std::string missing = client->wait(kAnswerPatience, cancel_);
       if (cancel_) throw Refusal{"cancelled", "cancelled before anything was sent"};
       if (!missing.empty())
         throw Refusal{"no_server", client->name() + " is no running server of dynamic_reconfigure: " + missing +

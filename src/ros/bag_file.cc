@@ -2,16 +2,67 @@
 #include "ros/bag_file.h"
 
 #include <fcntl.h>
+#include <rosbag/bag.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 
 #include "jobs/output_error.h"
 #include "jobs/whole_file.h"
 
+// What rosbag asks of a type of message.
+namespace ros {
+namespace message_traits {
+
+template <>
+struct IsMessage<codesign::BagBytes> : TrueType {};
+
+template <>
+struct MD5Sum<codesign::BagBytes> {
+  static const char* value(const codesign::BagBytes& content) { return content.md5sum; }
+};
+
+template <>
+struct DataType<codesign::BagBytes> {
+  static const char* value(const codesign::BagBytes& content) { return content.type; }
+};
+
+template <>
+struct Definition<codesign::BagBytes> {
+  static const char* value(const codesign::BagBytes& content) { return content.definition; }
+};
+
+}  // namespace message_traits
+
+namespace serialization {
+
+template <>
+struct Serializer<codesign::BagBytes> {
+  template <class Stream>
+  static void write(Stream& stream, const codesign::BagBytes& content) {
+    std::copy(content.bytes.begin(), content.bytes.end(), stream.advance(serializedLength(content)));
+  }
+  static std::uint32_t serializedLength(const codesign::BagBytes& content) { return static_cast<std::uint32_t>(content.bytes.size()); }
+};
+
+}  // namespace serialization
+}  // namespace ros
+
 namespace codesign {
+
+template <class Action>
+void BagFile::guard(const Action& action) {
+  errno = 0;
+  try {
+    action();
+  } catch (const rosbag::BagException&) {
+    fail(errno);
+  }
+}
 
 BagFile::BagFile(const std::string& path) : path_(path), active_(path + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
   if (access(path.c_str(), F_OK) == 0) throw OutputError::of_system(path, EEXIST);
@@ -29,6 +80,11 @@ BagFile::~BagFile() {
   if (!bag_) return;
   abandon();
   unlink(active_.c_str());
+}
+
+void BagFile::write_bytes(const std::string& topic, const ros::Time& time, const BagBytes& content,
+                          const boost::shared_ptr<ros::M_string>& header) {
+  guard([&] { bag_->write(topic, time, content, header); });
 }
 
 void BagFile::finish() {

@@ -1,14 +1,26 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/bag.h>
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
 #include <sys/types.h>
 
-#include <cerrno>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
+
+namespace rosbag {
+class Bag;
+}
 
 namespace codesign {
+
+/// A message as a bag keeps it: what the bag says about its type, and its bytes.
+struct BagBytes {
+  const char *type, *md5sum, *definition;
+  std::vector<std::uint8_t> bytes;
+};
 
 /// A bag that is written as `path`.active and renamed to `path` when it is complete.
 ///
@@ -24,10 +36,16 @@ class BagFile {
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
 
+  // The message becomes bytes here, so that rosbag's own templates, which take seconds to compile, are compiled in one file.
   /// @throws OutputError; the bag is then removed and must not be used any more.
   template <class Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message, const boost::shared_ptr<ros::M_string>& header = {}) {
-    guard([&] { bag_->write(topic, time, message, header); });
+    using namespace ros::message_traits;
+    BagBytes content{datatype(message), md5sum(message), definition(message), {}};
+    content.bytes.resize(ros::serialization::serializationLength(message));
+    ros::serialization::OStream stream(content.bytes.data(), static_cast<std::uint32_t>(content.bytes.size()));
+    ros::serialization::serialize(stream, message);
+    write_bytes(topic, time, content, header);
   }
 
   /// Writes the index and renames the bag to `path`, which must not exist. @throws OutputError; the bag is then removed.
@@ -35,14 +53,9 @@ class BagFile {
 
  private:
   template <class Action>
-  void guard(Action&& action) {
-    errno = 0;
-    try {
-      action();
-    } catch (const rosbag::BagException&) {
-      fail(errno);
-    }
-  }
+  void guard(const Action& action);
+  void write_bytes(const std::string& topic, const ros::Time& time, const BagBytes& content,
+                   const boost::shared_ptr<ros::M_string>& header);
   [[noreturn]] void fail(int cause);
   void abandon() noexcept;
   bool divert() const noexcept;

@@ -11,7 +11,6 @@
 #include "jobs/identification_files.h"
 #include "jobs/identification_records.h"
 #include "jobs/job_files.h"
-#include "jobs/json_records.h"
 #include "jobs/output_error.h"
 #include "jobs/trial_lines.h"
 #include "jobs/whole_file.h"
@@ -63,9 +62,9 @@ class IdentificationJob {
       if (!recording.status.ok())
         warnings_.push_back({"run_ends_early", recording.element + " ends early in the bag: " + describe(recording.status), {}});
     set_warnings();
-    const Json object = report();
-    write_texts(object);
-    write_bag(request, identification_show(problem_, result_, object, std::move(motion)));
+    const std::string json = identification_report(problem_, result_, warnings_);
+    write_texts(json);
+    write_bag(request, identification_show(problem_, result_, json, std::move(motion)));
     feedback_.finish();
     if (!failure_.empty()) refuse("output_failed", failure_, &outcome_->result);
   }
@@ -82,16 +81,6 @@ class IdentificationJob {
 
   void set_warnings() { outcome_->result.warnings = warning_messages(problem_.warnings(), warnings_); }
 
-  Json report() const {
-    Json object = identification_json(problem_, result_);
-    Warnings warnings = problem_.warnings();
-    append(warnings_, &warnings);
-    object["setup_seconds"] = problem_.setup_seconds();
-    object["warnings"] = to_json(warnings);
-    if (!result_.status.ok()) object["error"] = to_json(result_.status);
-    return object;
-  }
-
   /// The path of a file if it was written, else empty.
   template <class Write>
   std::string try_to(Write write, const std::string& path) {
@@ -104,13 +93,13 @@ class IdentificationJob {
     }
   }
 
-  void write_texts(const Json& object) {
+  void write_texts(const std::string& json) {
     mechanism_codesign::IdentifyResult& result = outcome_->result;
     const std::pair<const char*, std::string*> told[] = {{"identification.json", &result.report},
                                                          {"identified_overlay.urdf", &result.overlay},
                                                          {"identified.urdf", &result.urdf},
                                                          {"residuals.csv", &result.residuals}};
-    for (const IdentificationFile& file : identification_files(problem_, result_, object)) {
+    for (const IdentificationFile& file : identification_files(problem_, result_, json)) {
       const std::string path = files_.stem() + "." + file.name;
       const std::string written = try_to([&] { write_whole_file(path, file.text()); }, path);
       for (const auto& [name, place] : told)

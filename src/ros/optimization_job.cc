@@ -13,7 +13,6 @@
 #include "jobs/ensemble_records.h"
 #include "jobs/job_files.h"
 #include "jobs/journal.h"
-#include "jobs/json_records.h"
 #include "jobs/optimization_records.h"
 #include "jobs/output_error.h"
 #include "jobs/result_folder.h"
@@ -144,10 +143,10 @@ class Job {
     const bool is_evaluated = result_.gradient.size() > 0;
     has_ended_ = !is_evaluated && !is_interrupted();
     if (has_ended_) return;
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    if (!is_evaluated) outcome_->result.initial_objective = kUnknown;
+    constexpr double kUnevaluated = std::numeric_limits<double>::quiet_NaN();
+    if (!is_evaluated) outcome_->result.initial_objective = kUnevaluated;
     // Screening computes objectives without gradients.
-    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnknown;
+    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnevaluated;
     Patience patience(cancel);
     Scenario nominal;
     nominal.system = problem_.system();
@@ -171,15 +170,10 @@ class Job {
   /// The folder beside the bag. It has no runs if the job was cancelled and a client waits for the answer.
   void write_folder(const std::atomic<bool>& cancel) {
     const ResultFolder folder(files_.folder(), problem_);
-    Json object = optimization_json(problem_, result_);
-    Warnings all = problem_.warnings();
-    append(warnings(), &all);
-    object["setup_seconds"] = problem_.setup_seconds();
-    object["warnings"] = to_json(all);
-    if (!result_.status.ok()) object["error"] = to_json(result_.status);
+    const std::string json = optimization_report(problem_, result_, warnings());
     try {
       std::filesystem::create_directory(files_.folder());
-      folder_failures_ = folder.write_design(object, result_);
+      folder_failures_ = folder.write_design(json, result_);
       write_whole_file(folder.in_folder("convergence.csv"), convergence_text(folder.in_folder("convergence.csv")));
     } catch (const std::exception& error) {
       folder_failures_.push_back({"output_failed", error.what()});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/slider_crank.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "cli/slider_crank.h"
 #include "integration/mechanisms.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

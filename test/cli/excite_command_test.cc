@@ -3,6 +3,7 @@
 
 #include "cli/run_fixture.h"
 #include "excitation/excited_cases.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "cli/run_fixture.h"
 #include "identification/swinging_arm.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

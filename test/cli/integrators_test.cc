@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/slider_crank.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "child_process.h"
 #include "cli/slider_crank.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/slider_crank.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

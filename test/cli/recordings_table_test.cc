@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cli/run_fixture.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

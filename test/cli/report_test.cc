@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "jobs/json.h"
 #include "mechanism_codesign/version.h"
 
 namespace codesign::cli {

@@ -8,6 +8,7 @@
 
 #include "child_process.h"
 #include "cli/resumable.h"
+#include "jobs/json.h"
 
 namespace codesign::cli {
 namespace {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/run_fixture.h"
+#include "jobs/json.h"
 #include "mechanism_codesign/version.h"
 
 namespace codesign::cli {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/slider_crank.h"
+#include "jobs/json.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {

@@ -8,6 +8,7 @@
 
 #include "identification/identify.h"
 #include "jobs/identification_records.h"
+#include "jobs/json.h"
 #include "problem/load_problem.h"
 
 namespace codesign {

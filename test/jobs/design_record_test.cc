@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jobs/json.h"
 #include "jobs/tuned_pendulum.h"
 #include "mechanism_codesign/simulation.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ensemble/ensemble_fixture.h"
+#include "jobs/json.h"
 
 namespace codesign {
 namespace {

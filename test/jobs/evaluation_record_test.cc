@@ -9,6 +9,7 @@
 #include <random>
 
 #include "jobs/edited_line.h"
+#include "jobs/json.h"
 
 namespace codesign {
 namespace {

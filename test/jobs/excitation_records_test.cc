@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "excitation/excited_cases.h"
+#include "jobs/json.h"
 
 namespace codesign {
 namespace {

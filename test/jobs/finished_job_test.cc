@@ -35,7 +35,7 @@ class FinishedPendulum : public testing::Test {
       return true;
     });
     const ResultFolder folder(path(), problem_);
-    EXPECT_TRUE(folder.write_design(optimization_json(problem_, result_), result_).empty());
+    EXPECT_TRUE(folder.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
     EXPECT_TRUE(folder.write_runs(result_, nullptr).empty());
     write_whole_file(path("convergence.csv"), csv_text(convergence_columns(problem_.tuned_names()), rows, "convergence.csv"));
   }

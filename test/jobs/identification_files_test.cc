@@ -6,6 +6,7 @@
 #include "identification/identify.h"
 #include "identification/swinging_arm.h"
 #include "jobs/identification_records.h"
+#include "jobs/json.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
@@ -17,11 +18,11 @@ TEST(IdentificationFiles, TextsOfOneResult) {
   recordings.data = {SwingingRig().record("identify.data[0]")};
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
   ASSERT_TRUE(result.status.ok());
-  const Json json = identification_json(problem, result);
+  const std::string json = to_text(identification_json(problem, result));
   const std::vector<IdentificationFile> files = identification_files(problem, result, json);
   ASSERT_EQ(files.size(), 5U);
   EXPECT_EQ(files[0].name, "identification.json");
-  EXPECT_EQ(files[0].text(), to_text(json));
+  EXPECT_EQ(files[0].text(), json);
   EXPECT_EQ(files[1].name, "identified_overlay.urdf");
   EXPECT_EQ(files[2].name, "identified.urdf");
   EXPECT_EQ(read_urdf({"identified", files[2].text()}).parameters[1].value, result.numbers[1].value);

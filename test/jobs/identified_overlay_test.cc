@@ -7,6 +7,7 @@
 
 #include "identification/identify.h"
 #include "jobs/identification_records.h"
+#include "jobs/json.h"
 #include "problem/load_problem.h"
 #include "reading/urdf/urdf_reader.h"
 

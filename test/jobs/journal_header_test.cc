@@ -5,6 +5,7 @@
 
 #include "ensemble/ensemble_fixture.h"
 #include "jobs/edited_line.h"
+#include "jobs/json.h"
 
 namespace codesign {
 namespace {

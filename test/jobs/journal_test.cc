@@ -8,6 +8,7 @@
 
 #include "ensemble/ensemble_fixture.h"
 #include "jobs/edited_line.h"
+#include "jobs/json.h"
 #include "temporary_directory.h"
 
 namespace codesign {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "jobs/json.h"
 #include "jobs/tuned_pendulum.h"
 
 namespace codesign {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/recording_records.h"
 
+#include "jobs/json.h"
 #include "recordings/some_recording.h"
 
 namespace codesign {

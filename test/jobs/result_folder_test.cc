@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "jobs/json.h"
 #include "jobs/optimization_records.h"
 #include "jobs/saved_result.h"
 #include "jobs/tuned_pendulum.h"
@@ -25,7 +26,7 @@ class TakenAway : public testing::Test {
 
 /// The state of a colleague who gets only the folder.
 TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
-  EXPECT_TRUE(folder_.write_design(optimization_json(problem_, result_), result_).empty());
+  EXPECT_TRUE(folder_.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
   for (const auto& [model, design, objective] :
        {std::tuple{"tuned.urdf", "result.json", result_.objective}, std::tuple{"initial.urdf", "result.json", result_.objective},
         std::tuple{"initial.urdf", "initial.json", result_.initial_objective}}) {
@@ -39,7 +40,7 @@ TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
 }
 
 TEST_F(TakenAway, EveryFileIsThere) {
-  EXPECT_TRUE(folder_.write_design(optimization_json(problem_, result_), result_).empty());
+  EXPECT_TRUE(folder_.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
   EXPECT_TRUE(folder_.write_runs(result_, nullptr).empty());
   for (const std::string& name : ResultFolder::file_names()) {
     const bool is_of_ensembles = name == "starts.csv" || name == "scenarios.csv";
@@ -62,7 +63,7 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
     const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, {}, files);
     OptimizationResult result;
     result.rho = result.initial_rho = problem.start();
-    return ResultFolder(directory_.path().string(), problem).write_design(Json::object(), result).size();
+    return ResultFolder(directory_.path().string(), problem).write_design("{}\n", result).size();
   };
   EXPECT_EQ(written("rig/i.json", "/elsewhere/rig/i.json"), 0U);
   EXPECT_EQ(read_source(path("rig/i.json")).text, identification);
@@ -77,7 +78,7 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
 
 TEST_F(TakenAway, AFolderThatIsGoneIsTold) {
   std::filesystem::remove_all(directory_.path());
-  const std::vector<Failure> failures = folder_.write_design(optimization_json(problem_, result_), result_);
+  const std::vector<Failure> failures = folder_.write_design(to_text(optimization_json(problem_, result_)), result_);
   ASSERT_EQ(failures.size(), 6U) << "one for each file";
   EXPECT_EQ(failures[0].code, "output_failed");
   EXPECT_NE(failures[0].message.find("result.json"), std::string::npos) << failures[0].message;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "jobs/json.h"
+
 namespace codesign {
 namespace {
 

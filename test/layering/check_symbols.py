@@ -2,7 +2,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Checks the order of the rooms in the compiled library: no object uses a function that an object of a room above it defines.
 
-Usage: check_symbols.py OBJECT_DIRECTORY. Its folders are the rooms; units of several files are named unity_ROOM..., in Unity/. Templates and inline functions, which every object holds, are left out.
+Usage: check_symbols.py OBJECT_DIRECTORY... Their folders are the rooms; units of several files are named unity_ROOM..., in Unity/. Templates and inline functions, which every object holds, are left out.
 """
 import pathlib
 import subprocess
@@ -41,11 +41,11 @@ def check(used_by, defined_by):
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) < 2:
         sys.exit(__doc__)
-    root = pathlib.Path(sys.argv[1])
-    used_by, defined_by, objects = {}, {}, sorted(root.glob("**/*.o"))
-    for path in objects:
+    roots = [pathlib.Path(name) for name in sys.argv[1:]]
+    used_by, defined_by, objects = {}, {}, [(path, root) for root in roots for path in sorted(root.glob("**/*.o"))]
+    for path, root in objects:
         room = room_of(path, root)
         if room is None:
             continue
@@ -53,7 +53,7 @@ def main():
         used_by.setdefault(room, set()).update(undefined)
         defined_by.update({name: room for name in defined})
     if not used_by:
-        sys.exit(f"no objects below {root}")
+        sys.exit(f"no objects below {sys.argv[1:]}")
     violations = check(used_by, defined_by)
     print(f"{len(objects)} objects, {len(defined_by)} functions")
     for violation in violations:
