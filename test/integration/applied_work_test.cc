@@ -14,32 +14,62 @@ std::shared_ptr<const CompiledSystem> swinging(const std::string& urdf, const st
   return compile(urdf, motion_study(1.0, initial, signal, solver));
 }
 
-TEST(BodyMotion, EnergyIsThatOfTheState) {
-  const auto system =
-      swinging(double_pendulum(), "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}", "elbow/velocity", kTight);
-  RosenbrockIntegrator integrator(*system);
-  ASSERT_TRUE(integrator.start({}).ok());
-  BodyMotion motion(*system);
-  motion.set_design(integrator.equations());
-  const BodyEnergy energy = motion.energy(integrator.state().q, integrator.state().v);
-  integrator.equations().formulas().load(integrator.state());
-  const Energy expected = mechanical_energy(integrator.equations());
-  EXPECT_NEAR(energy.kinetic, expected.kinetic, 1e-13);
-  EXPECT_NEAR(energy.potential, expected.potential, 1e-13);
+std::string tight(const std::string& coordinates) {
+  std::string solver = kTight;
+  return solver.insert(solver.find('{') + 1, "coordinates: " + coordinates + ", ");
 }
 
-// Without springs and friction nothing but gravity has power; a damper of 0.5 N m s at 3 rad/s takes 4.5 W.
-TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
-  for (double damping : {0.0, 0.5}) {
-    const auto system = swinging(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"),
-                                 "{hinge: {position: 0.7, velocity: 3.0}}", "hinge/velocity", kTight);
+TEST(BodyMotion, EnergyIsThatOfTheState) {
+  for (const char* coordinates : {"absolute", "joint"}) {
+    const auto system = swinging(double_pendulum(), "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}", "elbow/velocity",
+                                 tight(coordinates));
     RosenbrockIntegrator integrator(*system);
     ASSERT_TRUE(integrator.start({}).ok());
     BodyMotion motion(*system);
     motion.set_design(integrator.equations());
-    const State<double>& state = integrator.state();
-    EXPECT_NEAR(motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11);
+    const BodyEnergy energy = motion.energy(integrator.state().q, integrator.state().v);
+    integrator.equations().formulas().load(integrator.state());
+    const Energy expected = mechanical_energy(integrator.equations());
+    EXPECT_NEAR(energy.kinetic, expected.kinetic, 1e-13) << coordinates;
+    EXPECT_NEAR(energy.potential, expected.potential, 1e-13) << coordinates;
   }
+}
+
+TEST(BodyMotion, SpeedsAndDistancesAreTheSameInBothCoordinates) {
+  const auto measured = [](const char* coordinates) {
+    const auto system = swinging(double_pendulum(), "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}", "elbow/velocity",
+                                 tight(coordinates));
+    RosenbrockIntegrator integrator(*system);
+    EXPECT_TRUE(integrator.start({}).ok());
+    BodyMotion motion(*system);
+    motion.set_design(integrator.equations());
+    const State<double>& state = integrator.state();
+    motion.move(state.q, state.v);
+    Eigen::VectorXd numbers(6);
+    for (int body = 0; body < 2; ++body) {
+      const auto [linear, angular] = motion.speed(body, state.v);
+      numbers.segment<3>(3 * body) << motion.distance(body, state.q), linear, angular;
+    }
+    return numbers;
+  };
+  const Eigen::VectorXd joint = measured("joint");
+  EXPECT_LT((joint - measured("absolute")).norm(), 1e-12);
+  EXPECT_GT(joint.minCoeff(), 0.4);
+}
+
+// Without springs and friction nothing but gravity has power; a damper of 0.5 N m s at 3 rad/s takes 4.5 W.
+TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
+  for (const char* coordinates : {"absolute", "joint"})
+    for (double damping : {0.0, 0.5}) {
+      const auto system = swinging(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"),
+                                   "{hinge: {position: 0.7, velocity: 3.0}}", "hinge/velocity", tight(coordinates));
+      RosenbrockIntegrator integrator(*system);
+      ASSERT_TRUE(integrator.start({}).ok());
+      BodyMotion motion(*system);
+      motion.set_design(integrator.equations());
+      const State<double>& state = integrator.state();
+      EXPECT_NEAR(motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11) << coordinates;
+    }
 }
 
 // The work of friction, by Gauss quadrature of the power that the friction law reports.
