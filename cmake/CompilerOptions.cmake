@@ -75,12 +75,22 @@ function(codesign_precompile target)
     target_precompile_headers(${target} PRIVATE ${codesign_headers} ${ARGN})
   endif()
 endfunction()
+# The same for a library that is a single unit if files are united: for one unit a precompiled header costs more than it saves.
+function(codesign_precompile_files target)
+  if(NOT codesign_unites)
+    codesign_precompile(${target} ${ARGN})
+  endif()
+endfunction()
 
 # Small files that are not in the time loop compile together: most of their time goes into headers that all of them include.
 option(CODESIGN_UNITY "Compile the small files of a room together" ON)
+set(codesign_unites OFF)
+if(CODESIGN_UNITY AND NOT CODESIGN_SANITIZE AND NOT CMAKE_VERSION VERSION_LESS 3.18)
+  set(codesign_unites ON)
+endif()
 # codesign_unite(TARGET GROUP FILE...): the files become one translation unit. GROUP begins with the name of the room.
 function(codesign_unite target group)
-  if(CODESIGN_UNITY AND NOT CODESIGN_SANITIZE AND NOT CMAKE_VERSION VERSION_LESS 3.18)
+  if(codesign_unites)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
     # In such a unit GCC takes each file for a header, whose anonymous namespace would be another one in every unit.

@@ -81,13 +81,10 @@ target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/inc
 target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_LIBRARIES} PRIVATE yaml-cpp)
 codesign_warnings(codesign_ros)
 codesign_optimize_little(codesign_ros)
-# One unit: two of them, with a precompiled header, parsed and instantiated most of it twice. A precompiled header for one unit costs more than
-# it saves.
+# One unit: two of them, with a precompiled header, parsed and instantiated most of it twice.
 codesign_unite(codesign_ros ros ${ros_sources})
 codesign_sanitize(codesign_ros)
-if(NOT CODESIGN_UNITY)
-  codesign_precompile(codesign_ros <ros/ros.h>)
-endif()
+codesign_precompile_files(codesign_ros <ros/ros.h>)
 
 # Each x_node_main.cc becomes the executable x.
 set(codesign_nodes)

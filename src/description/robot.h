@@ -132,6 +132,14 @@ struct SpringDamperDescription {
 
 /// A mechanism as the annotated URDF describes it; nothing is derived from it yet.
 struct RobotDescription {
+  // Defined in one file: the members of all lists would else be compiled wherever one is copied or destroyed.
+  RobotDescription();
+  RobotDescription(const RobotDescription&);
+  RobotDescription(RobotDescription&&) noexcept;
+  RobotDescription& operator=(const RobotDescription&);
+  RobotDescription& operator=(RobotDescription&&) noexcept;
+  ~RobotDescription();
+
   std::string name;
   std::vector<Parameter> parameters;
   std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file depends, visuals included

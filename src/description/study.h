@@ -101,6 +101,14 @@ struct LimitOptions {
 
 /// A study as its file describes it: the simulations and optimizations of a mechanism.
 struct Study {
+  // Defined in one file: the members of all lists would else be compiled wherever one is copied or destroyed.
+  Study();
+  Study(const Study&);
+  Study(Study&&) noexcept;
+  Study& operator=(const Study&);
+  Study& operator=(Study&&) noexcept;
+  ~Study();
+
   double duration = 0.0;                           ///< [s]
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
