@@ -1,11 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
+#include "identification/effort_model.h"
 #include "identification/effort_residuals.h"
 #include "identification/motion_residuals.h"
 #include "identification/residual_fit.h"
@@ -120,9 +122,63 @@ double add_fit(int fitted, const std::string& name, const JointRecording& record
   return std::max(in_simulations, whole_in_simulations);
 }
 
+/// Every hinge of the arm on a sine of its own for `seconds`, at kRate.
+MotionSamples sines(double seconds) {
+  constexpr double kAmplitude = 0.4, kOffset = 0.5, kTurn = 6.283185307179586;
+  const auto samples = static_cast<Eigen::Index>(seconds * kRate);
+  MotionSamples motion;
+  for (Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration}) part->resize(kArm, samples);
+  for (int k = 0; k < kArm; ++k) {
+    const double rate = kTurn * (0.5 + 0.13 * k);
+    const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(samples, 0.0, static_cast<double>(samples - 1)) * (rate / kRate);
+    motion.position.row(k) = kOffset + kAmplitude * phase.sin();
+    motion.velocity.row(k) = kAmplitude * rate * phase.cos();
+    motion.acceleration.row(k) = -kAmplitude * rate * rate * phase.sin();
+  }
+  return motion;
+}
+
+/// Times of the efforts of half a minute. @param coordinates of the study's solver
+void add_efforts(const std::string& coordinates, int fitted, Table* table) {
+  constexpr double kMotion = 30.0;
+  constexpr int kRepetitions = 5;
+  GeneratedCase arm = parametric_chain(kArm, fitted);
+  const std::string absolute = "coordinates: absolute";
+  arm.study.text.replace(arm.study.text.find(absolute), absolute.size(), "coordinates: " + coordinates);
+  const Problem problem = load_problem(arm.urdf, {}, arm.study);
+  std::vector<MeasuredJoint> joints;
+  for (int k = 0; k < kArm; ++k) joints.push_back({hinge_name(k), true, 1.0, {}});
+  const CpuTimer setup;
+  EffortModel model(*problem.system(), joints, sines(kMotion));
+  if (Status status = model.begin(problem.parameters()); !status.ok()) throw std::runtime_error(status.cause);
+  std::vector<std::string> row = {coordinates, std::to_string(fitted), three_digits(1e3 * setup.seconds())};
+  Eigen::MatrixXd efforts;
+  RowJacobian jacobian;
+  for (RowJacobian* derivatives : {static_cast<RowJacobian*>(nullptr), &jacobian}) {
+    double first = 0.0, least = std::numeric_limits<double>::infinity();
+    for (int repetition = 0; repetition < kRepetitions; ++repetition) {
+      const CpuTimer timer;
+      if (Status status = model.evaluate(problem.parameters(), &efforts, derivatives); !status.ok()) throw std::runtime_error(status.cause);
+      least = std::min(least, timer.seconds());
+      if (repetition == 0) first = timer.seconds();
+    }
+    row.push_back(three_digits(1e3 * first));
+    row.push_back(three_digits(1e3 * least));
+  }
+  table->rows.push_back(row);
+}
+
 }  // namespace
 
 void measure_identification(Report* report) {
+  Table efforts{"efforts",
+                "Efforts of 30 s of an arm of six joints with friction that depends on reactions, at 100 Hz",
+                {"coordinates", "parameters", "set up and followed, ms", "efforts at first, ms", "efforts, ms",
+                 "with derivatives at first, ms", "with derivatives, ms"},
+                {}};
+  for (const std::string coordinates : {"absolute", "joint"})
+    for (int fitted : kFitted) add_efforts(coordinates, fitted, &efforts);
+  report->tables.push_back(efforts);
   Table table{"motion_residuals",
               "Fit of an arm of six joints in motion, under recorded efforts at 100 Hz: eight segments of 0.25 s, 12 numbers of each start",
               {"parameters", "recording", "simulation of all segments, ms", "iterations", "runs with all derivatives, per iteration",

@@ -3,6 +3,7 @@
 
 #include "codegen/number_types.h"
 #include "math/span.h"
+#include "mechanism/joint_steps.h"
 
 namespace codesign {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/euler_parameters.h"
+#include "mechanism/joint_steps.h"
 
 namespace codesign {
 namespace {

@@ -61,17 +61,6 @@ ControlValues<T> error_values(const StateView<T>& view, int controller) {
   return x;
 }
 
-/// The load tau_k of (C4) [N or N m] along the coordinate that the controller drives.
-/// @param accelerations one per node of the driven tree, or none for (C5): everything at rest. With accelerations the caller must fill
-/// ControlMemory::rates before.
-template <class T>
-T inverse_dynamics_load(const StateView<T>& view, int controller, In<T> accelerations) {
-  // ControlMemory has room for the largest tree.
-  const auto nodes = static_cast<std::ptrdiff_t>(view.controller(controller).tree.nodes.size());
-  return view.control.inverse_dynamics[to_index(controller)].load(view.design.constants, view.kinematics, view.design.gravity,
-                                                                  accelerations, In<T>(view.control.rates).first(nodes));
-}
-
 /// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller demands of its joint.
 template <class T>
 T wanted_acceleration(const StateView<T>& view, int controller) {
@@ -80,15 +69,21 @@ T wanted_acceleration(const StateView<T>& view, int controller) {
 }
 
 /// u_k = tau_k(alpha) of (C6). The controllers of this kind form one law: alpha holds the accelerations that all of them demand, and zero
-/// for joints without a demand.
+/// for joints without a demand. Motions are those of the state; the turns of cut pairs follow from the axes of their bodies.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller) {
   const std::vector<DrivenTree::Node>& nodes = view.controller(controller).tree.nodes;
+  InverseDynamics<T>& dynamics = view.inverse_dynamics[to_index(controller)];
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    view.control.accelerations[k] = nodes[k].controller < 0 ? T(0.0) : wanted_acceleration(view, nodes[k].controller);
-    if (nodes[k].rotor) view.control.rates[k] = view.coordinate(nodes[k].pair, 0, CoordinateDetail::kRate).rate;
+    const DrivenTree::Node& node = nodes[k];
+    const Matrix3<T>& A_i = view.body(view.pair(node.pair).body_i).A;
+    DrivenJoint<T>& joint = dynamics.joint(k);
+    joint.pose = view.layout.is_cut(node.pair) ? joint_pose_of(A_i, view.body(node.body).A) : view.motion.poses[to_index(node.body)];
+    if (node.slides) joint.position = view.coordinate_value(node.pair, 0);
+    joint.rate = view.coordinate(node.pair, 0, CoordinateDetail::kRate).rate;
+    joint.acceleration = node.controller < 0 ? T(0.0) : wanted_acceleration(view, node.controller);
   }
-  return inverse_dynamics_load(view, controller, In<T>(view.control.accelerations).first(static_cast<std::ptrdiff_t>(nodes.size())));
+  return dynamics.load(view.design.constants, view.design.gravity);
 }
 
 /// u_0(t) - sum of K_i (x_i - r_i(t)), theory (C7).
@@ -107,7 +102,8 @@ ControlValues<T> control_values(const StateView<T>& view, int controller) {
   const ControlLaw& law = *view.controller(controller).kind;
   ControlValues<T> x;
   if (law.has_error() && law.load != ControlLoad::kDemanded) x = error_values(view, controller);
-  if (law.load == ControlLoad::kAtRest) x.load = inverse_dynamics_load(view, controller, {});
+  if (law.load == ControlLoad::kAtRest)
+    x.load = gravity_load(view.controller(controller).tree, view.design.constants, view.kinematics, view.design.gravity);
   if (law.load == ControlLoad::kDemanded) x.load = computed_torque(view, controller);
   if (law.input == ControlInput::kFeedback) x.given = state_feedback(view, controller);
   if (law.input == ControlInput::kShape) x.given = view.controller_numbers(controller).shape.at(view.state->t).value;

@@ -26,9 +26,7 @@ void add_load_on_bodies(const StateView<T>& view, Workspace<T>* workspace, int p
   for (Side side : {Side::kI, Side::kJ}) {
     const int body = side == Side::kI ? p.body_i : p.body_j;
     if (body < 0 || view.layout.is_free(body)) continue;
-    const Wrench<T> wrench = load_on_side(view.body(body), side, J, load);
-    workspace->own[to_index(body)].force += wrench.force;
-    workspace->own[to_index(body)].moment += wrench.moment;
+    workspace->own[to_index(body)] += load_on_side(view.body(body), side, J, load);
   }
 }
 

@@ -46,10 +46,10 @@ Wrench<T> own_wrench(const StateView<T>& view, const Workspace<T>& workspace, in
   const AxesMotion<T>& m = view.motion.bodies[b];
   const BodyLoad<T>& load = workspace.loads[b];
   const Matrix3<T> U = m.A.transpose() * load.W;  // its axial vector is the sum of the s x A^T b of (7)
+  const Wrench<T> inertia = inertia_wrench(c.mass, c.J, m);
   Wrench<T> wrench = workspace.own[b];
-  wrench.force += c.mass * m.acceleration + m.A.transpose() * load.force;
-  wrench.moment +=
-      c.J * m.alpha + cross<T>(m.omega, Vector3<T>(c.J * m.omega)) + Vector3<T>(U(2, 1) - U(1, 2), U(0, 2) - U(2, 0), U(1, 0) - U(0, 1));
+  wrench.force += inertia.force + m.A.transpose() * load.force;
+  wrench.moment += inertia.moment + Vector3<T>(U(2, 1) - U(1, 2), U(0, 2) - U(2, 0), U(1, 0) - U(0, 1));
   return wrench;
 }
 
@@ -63,16 +63,12 @@ void sweep_back(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G
     const int body = layout.forest.order[k], c = layout.column(body);
     const auto b = to_index(body), pair = to_index(layout.forest.pair_above[b]);
     const PairConstants<T>& constants = view.design.constants.pairs[pair];
-    const Wrench<T> own = own_wrench(view, *workspace, body);
-    transmitted[b].force += own.force;
-    transmitted[b].moment += own.moment;
+    transmitted[b] += own_wrench(view, *workspace, body);
     std::array<T, 6> rows;
     const Wrench<T> below = carry_back(transmitted[b], constants, view.motion.poses[b], view.state->q.data() + c, rows.data());
     for (std::size_t step = 0; step < constants.steps.size(); ++step) (*G)[c + static_cast<int>(step)] += rows[step];
     const int parent = view.system.topology().pairs[pair].body_i;
-    if (parent < 0) continue;
-    transmitted[to_index(parent)].force += below.force;
-    transmitted[to_index(parent)].moment += below.moment;
+    if (parent >= 0) transmitted[to_index(parent)] += below;
   }
   for (int body = 0; body < layout.bodies && layout.has_forest(); ++body) {
     if (!layout.is_free(body)) continue;

@@ -16,13 +16,6 @@
 
 namespace codesign {
 
-/// Workspace of the controllers that use inverse dynamics, theory (C4). The vectors have one entry per node of the largest driven tree.
-template <class T>
-struct ControlMemory {
-  std::vector<InverseDynamics<T>> inverse_dynamics;  ///< per controller
-  std::vector<T> accelerations, rates;               ///< alpha of (C6); joint rates, set only for nodes with a rotor
-};
-
 /// Memory for the wrenches that the joints of a forest transmit, which elements and signals request when they need them.
 template <class T>
 struct ForestMemory {
@@ -80,11 +73,11 @@ struct StateView {
   const System& system;
   const Layout& layout;
   Design<T> design;
-  std::vector<std::array<int, kLocalSize>> columns;  ///< per pair, see column()
-  const State<T>* state = nullptr;                   ///< set by load(); time, extra states, multipliers and turns are read from it
-  std::vector<BodyKinematics<T>> kinematics;         ///< one per body, the ground last
-  ForestMotion<T> motion;                            ///< of the bodies of a forest and of their parents
-  mutable ControlMemory<T> control;
+  std::vector<std::array<int, kLocalSize>> columns;          ///< per pair, see column()
+  const State<T>* state = nullptr;                           ///< set by load(); time, extra states, multipliers and turns are read from it
+  std::vector<BodyKinematics<T>> kinematics;                 ///< one per body, the ground last
+  ForestMotion<T> motion;                                    ///< of the bodies of a forest and of their parents
+  mutable std::vector<InverseDynamics<T>> inverse_dynamics;  ///< per controller, theory (C4)
   mutable ForestMemory<T> forest;
   std::uint64_t version = 0;  ///< counts changes of design and state
 
@@ -99,12 +92,7 @@ template <class T>
 StateView<T>::StateView(const System& of) : system(of), layout(of.layout()), motion(of.layout()), forest(of) {
   kinematics.resize(to_index(layout.bodies) + 1);
   kinematics.back().at_rest = true;
-  std::size_t nodes = 0;
-  for (const Controller& controller : system.controllers()) {
-    control.inverse_dynamics.emplace_back(controller.tree);
-    nodes = std::max(nodes, controller.tree.nodes.size());
-  }
-  for (std::vector<T>* of_nodes : {&control.accelerations, &control.rates}) of_nodes->resize(nodes, T(0.0));
+  for (const Controller& controller : system.controllers()) inverse_dynamics.emplace_back(controller.tree);
   for (const Pair& pair : system.topology().pairs) {
     std::array<int, kLocalSize>& of_pair = columns.emplace_back();
     for (int local = 0; local < kLocalSize; ++local) {

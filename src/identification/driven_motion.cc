@@ -15,7 +15,7 @@ constexpr double kRounding = 4e-15;       // a relative step below this is round
 constexpr double kConverged = 1e-11;      // a relative step below this that no longer shrinks is rounding, too
 constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose rounding is divided by a compliance of 1e-9
 constexpr double kSlow = 0.05;            // if a step is larger than this fraction of the previous one, the matrix is factorized anew
-constexpr double kFar = 0.25;             // a larger step of an Euler parameter, half a radian, might leave the branch
+constexpr double kFar = 0.5;              // [rad] a larger turn of a body or joint might leave the branch
 constexpr int kMostDivisions = 12;
 
 /// Convergence of a Newton iteration by the sizes of its steps, relative to the unknowns.
@@ -36,12 +36,6 @@ class Convergence {
   bool slow_ = false;
 };
 
-double largest_turn(const VectorX<double>& step, int bodies) {
-  double largest = 0.0;
-  for (int body = 0; body < bodies; ++body) largest = std::max(largest, step.segment<4>(kBodySize * body + 3).cwiseAbs().maxCoeff());
-  return largest;
-}
-
 Status singular() { return {StatusCode::kSingularMatrix, 0.0, "the matrix of the equations of the driven motion is singular"}; }
 
 Status not_closed() { return {StatusCode::kAssemblyFailed, 0.0, "the loops and couplings cannot follow the measured positions"}; }
@@ -50,8 +44,38 @@ Status not_closed() { return {StatusCode::kAssemblyFailed, 0.0, "the loops and c
 
 DrivenMotion::DrivenMotion(const DrivenSystem& driven)
     : system_(*driven.system), drives_(static_cast<int>(driven.drives.size())), equations_(system_), matrix_(system_) {
+  const Layout& layout = system_.layout();
   derivatives_.resize(system_.patterns());
-  step_.setZero(system_.layout().columns());
+  step_.setZero(layout.columns());
+  turns_.setZero(layout.n);
+  for (int body = 0; body < layout.bodies; ++body) note_turns(body);
+  uncertain_.setOnes(layout.columns());
+  const std::vector<Coupling>& couplings = system_.topology().couplings;
+  for (int k = 0; k < drives_; ++k) {
+    const CouplingTerm& at = couplings[couplings.size() - to_index(drives_ - k)].terms.front();
+    turn_slots_.push_back(layout.turn(at.pair, at.element));
+    columns_.push_back(layout.element_column(at.pair, at.element));
+    if (columns_.back() >= 0) uncertain_[layout.lambda_column(system_.drive_row(k))] = 0.0;
+  }
+  all_given_ = layout.n == drives_ && layout.m == drives_ && std::count(columns_.begin(), columns_.end(), -1) == 0;
+}
+
+// A small turn is twice the change of an Euler parameter.
+void DrivenMotion::note_turns(int body) {
+  const Layout& layout = system_.layout();
+  const int c = layout.column(body);
+  if (layout.is_free(body)) {
+    turns_.segment<4>(c + 3).setConstant(2.0);
+    return;
+  }
+  const auto pair = to_index(layout.forest.pair_above[to_index(body)]);
+  if (layout.forest.is_plane[pair]) {
+    turns_[c + 2] = 1.0;
+    return;
+  }
+  int column = c;
+  for (const ChainElement& element : system_.topology().pairs[pair].chain)
+    turns_[column++] = is_turn(system_.robot().joints[to_index(element.joint)].type) ? 1.0 : 0.0;
 }
 
 void DrivenMotion::set_design(const std::vector<double>& parameters) { equations_.set_design(parameters); }
@@ -59,16 +83,21 @@ void DrivenMotion::set_design(const std::vector<double>& parameters) { equations
 void DrivenMotion::forget() {
   matrix_.forget();
   equations_.compiled().forget();
+  is_factored_ = false;
 }
 
-int DrivenMotion::turn_slot(int k) const {
-  const Coupling& drive = system_.topology().couplings[system_.topology().couplings.size() - to_index(drives_) + to_index(k)];
-  return system_.layout().turn(drive.terms.front().pair, drive.terms.front().element);
+void DrivenMotion::give(In<double> given, VectorX<double>* x) const {
+  for (int k = 0; k < drives_; ++k)
+    if (const int column = columns_[to_index(k)]; column >= 0) (*x)[column] = given[k];
 }
 
+// Where all coordinates are given, the solutions are those of the unit columns of the drives, the same at all states.
 Status DrivenMotion::linearize(const State<double>& state) {
-  equations_.linearize(state, &derivatives_);
-  return matrix_.factor(derivatives_, 0.0, 0.0, 0.0) ? Status() : singular();
+  if (all_given_ && is_factored_) return {};
+  double g = 0.0;
+  equations_.rates(state, &step_, &g, &derivatives_);
+  is_factored_ = matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+  return is_factored_ ? Status() : singular();
 }
 
 // Like the projection (17): the rows of G below the rows of the bodies are Phi_q times the unknown, so that one matrix serves positions,
@@ -85,12 +114,13 @@ void DrivenMotion::find_correction(Part part, In<double> given, const State<doub
 
 Status DrivenMotion::solve_positions(In<double> given, State<double>* state) {
   const Layout& layout = system_.layout();
-  for (int k = 0; k < drives_; ++k) state->turns[to_index(turn_slot(k))] = given[k];
+  for (int k = 0; k < drives_; ++k) state->turns[to_index(turn_slots_[to_index(k)])] = given[k];
+  give(given, &state->q);
   Convergence convergence(kConverged);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     find_correction(Part::kPositions, given, *state);
     const double size = step_.head(layout.n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!std::isfinite(size) || largest_turn(step_, layout.bodies) > kFar) return not_closed();
+    if (!std::isfinite(size) || step_.head(layout.n).cwiseProduct(turns_).cwiseAbs().maxCoeff() > kFar) return not_closed();
     state->q -= step_.head(layout.n);
     if (convergence.done(size / (1.0 + state->q.cwiseAbs().maxCoeff()))) return {};
     if (iteration > 0 && convergence.slow())
@@ -101,6 +131,7 @@ Status DrivenMotion::solve_positions(In<double> given, State<double>* state) {
 
 Status DrivenMotion::solve_velocities(In<double> given, State<double>* state) {
   const Layout& layout = system_.layout();
+  give(given, &state->v);
   Convergence convergence(kConverged);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     find_correction(Part::kVelocities, given, *state);
@@ -116,12 +147,13 @@ Status DrivenMotion::solve_velocities(In<double> given, State<double>* state) {
 
 Status DrivenMotion::solve_rates(In<double> given, State<double>* state) {
   double g = 0.0;
+  give(given, &state->z);
   Convergence convergence(system_.compliance() == 0.0 ? kConverged : kSharedRounding);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     equations_.residual(*state, &step_, &g);
     for (int k = 0; k < drives_; ++k) step_[system_.layout().lambda_column(system_.drive_row(k))] -= given[k];
     matrix_.lu().solve(step_);
-    const double size = step_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    const double size = step_.cwiseProduct(uncertain_).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(size)) return {StatusCode::kNonFinite, 0.0, "the equations of the driven motion are not finite"};
     state->z -= step_;
     if (convergence.done(size / (1.0 + state->z.cwiseAbs().maxCoeff()))) return {};
@@ -150,7 +182,7 @@ Status DrivenMotion::move_to(In<double> given, int depth, State<double>* state) 
   }
   if (depth == kMostDivisions) return status;
   std::vector<double> half;
-  for (int k = 0; k < drives_; ++k) half.push_back(0.5 * (given[k] + state->turns[to_index(turn_slot(k))]));
+  for (int k = 0; k < drives_; ++k) half.push_back(0.5 * (given[k] + state->turns[to_index(turn_slots_[to_index(k)])]));
   if (Status first = move_to(half, depth + 1, state); !first.ok()) return first;
   return move_to(given, depth + 1, state);
 }

@@ -18,6 +18,9 @@ struct DriveMotion {
 /// Positions, velocities, accelerations, reactions and efforts of a driven mechanism at one design; doc/theory.md (28). A workspace: no
 /// allocation once warm, not thread-safe.
 ///
+/// Coordinates of the forest that are driven are set; everything else follows by Newton's method, which has nothing to do for a tree all of
+/// whose joints are driven: the efforts are then those of one residual, inverse dynamics.
+///
 /// Statuses: kAssemblyFailed (no position near the start satisfies the given positions of the drives), kSingularMatrix, kNonFinite,
 /// kInitialReactionsFailed (no reactions satisfy the equations with friction).
 class DrivenMotion {
@@ -48,16 +51,27 @@ class DrivenMotion {
 
  private:
   enum class Part { kPositions, kVelocities };
+  /// Sets the driven coordinates in q, v or z.
+  void give(In<double> given, VectorX<double>* x) const;
   Status solve_positions(In<double> given, State<double>* state);
   Status solve_velocities(In<double> given, State<double>* state);
   Status solve_rates(In<double> given, State<double>* state);
   /// Computes the correction of q or v for the errors of the constraints, in the first n entries of step_.
   void find_correction(Part part, In<double> given, const State<double>& state);
   Status move_to(In<double> given, int depth, State<double>* state);
-  int turn_slot(int k) const;
+  /// Sets the entries of turns_ of one body.
+  void note_turns(int body);
 
   const CompiledSystem& system_;
   const int drives_;
+  std::vector<int> turn_slots_;  ///< per drive: the entry of State::turns
+  std::vector<int> columns_;     ///< per drive: its coordinate, or -1 if it drives a cut pair
+  bool all_given_ = false;       ///< whether all coordinates are driven and nothing else is unknown
+  bool is_factored_ = false;     ///< since forget()
+  VectorX<double> turns_;        ///< n: turn [rad] per change of a coordinate
+  /// 0 for the efforts of driven coordinates, else 1: G is affine in these efforts, with constant columns, so that an error of one of them
+  /// alone is removed by one step.
+  VectorX<double> uncertain_;
   Equations<double> equations_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;

@@ -40,8 +40,11 @@ std::vector<int> find_joints(const RobotDescription& robot, const std::vector<Me
   return joints;
 }
 
-/// The study without everything that depends on time or drives joints.
+/// The study without everything that depends on time or drives joints. A driven motion needs derivatives by positions and velocities only
+/// along directions: with this method their matrices are not recorded.
 Study without_control(Study study) {
+  study.solver.integrator = IntegratorKind::kRosenbrock;
+  study.solver.method = RosenbrockMethod::kAuto;
   study.controllers.clear();
   study.integral.clear();
   study.terminal.clear();
@@ -65,7 +68,6 @@ Study study_near(const StartWorkspace& usual, const CompiledSystem& of, const st
                  const std::vector<int>& held) {
   Study study = without_control(of.study());
   study.initial_state.clear();
-  study.solver.coordinates = CoordinatesKind::kAbsolute;  // as the driven system, which takes over the start
   for (std::size_t joint = 0; joint < of.robot().joints.size(); ++joint) {
     const JointDescription& description = of.robot().joints[joint];
     if (description.is_loop || !has_one_coordinate(description.type)) continue;

@@ -51,24 +51,18 @@ Eigen::VectorXd MotionProjection::values(int order, DrivenMotion* motion, const 
   return result;
 }
 
-// K = d theta_surplus / d theta_drives: the displacement of the bodies for a unit displacement of each drive.
+// K = d theta_surplus / d theta_drives: the rates of the surplus joints for a unit rate of each drive.
 Eigen::MatrixXd MotionProjection::slopes(DrivenMotion* motion, const State<double>& state) const {
-  const CompiledSystem& system = motion->system();
+  const System& system = motion->system();
   Eigen::MatrixXd K(static_cast<Eigen::Index>(surplus_.size()), motion->drives());
-  Formulas<double>& formulas = motion->equations().formulas();
-  formulas.load(state);
+  State<double> moved = state;
   VectorX<double> unit(system.layout().columns());
   for (int drive = 0; drive < motion->drives(); ++drive) {
     unit.setZero();
     unit[system.layout().lambda_column(system.drive_row(drive))] = 1.0;
     motion->lu().solve(unit);
-    for (std::size_t k = 0; k < surplus_.size(); ++k) {
-      const CoordinateMotion<double>& at = formulas.coordinate(surplus_[k].pair, surplus_[k].element);
-      double slope = 0.0;
-      for (int local = 0; local < kLocalSize; ++local)
-        if (const int column = formulas.view().column(surplus_[k].pair, local); column >= 0) slope += at.J[local] * unit[column];
-      K(static_cast<Eigen::Index>(k), drive) = slope;
-    }
+    moved.v = unit.head(system.layout().n);
+    K.col(drive) = values(1, motion, moved);
   }
   return K;
 }

@@ -35,7 +35,19 @@ struct AxesMotion {
 template <class T>
 struct Wrench {
   Vector3<T> force = Vector3<T>::Zero(), moment = Vector3<T>::Zero();
+
+  Wrench& operator+=(const Wrench& other) {
+    force += other.force;
+    moment += other.moment;
+    return *this;
+  }
 };
+
+/// m (r'' - g) and J omega' + omega x J omega, the wrench that a body's own motion needs.
+template <class T>
+Wrench<T> inertia_wrench(const T& mass, const Matrix3<T>& J, const AxesMotion<T>& m) {
+  return {mass * m.acceleration, J * m.alpha + cross<T>(m.omega, Vector3<T>(J * m.omega))};
+}
 
 /// The turns of a pair at its position.
 template <class T>
@@ -44,8 +56,6 @@ struct JointPose {
   std::array<Matrix3<T>, kMostTurns> turn;  ///< per turn, in order: the axes after it in those before it; the last one includes R_ij
   Matrix3<T> R = Matrix3<T>::Identity();    ///< axes of body j in those of body i
 };
-
-namespace internal {
 
 /// exp(angle u~) R for a unit vector u. Three constant matrices, so that only their combination depends on the angle.
 template <class T>
@@ -60,6 +70,8 @@ Matrix3<T> turned(const Vector3<T>& u, const Matrix3<T>& R, const T& angle) {
   }
   return result;
 }
+
+namespace internal {
 
 /// The number of turns of a pair, and the axis of one of its coordinates in the axes that move with it: those of body i before the last
 /// turn, and those of body j from the last turn on (of a pair without turns: always). At zero position both differ by R_ij only.
@@ -92,22 +104,43 @@ void go_to(const Vector3<T>& s, AxesMotion<T>* m) {
 
 }  // namespace internal
 
-/// The motion of body j from that of body i and the pair's coordinates. @param q, v, a one entry per step of the pair, here and below.
+/// The turns of a pair at its position. @param q, v, a one entry per step of the pair, here and below.
 template <class T>
-AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pair, const T* q, const T* v, const T* a,
-                         JointPose<T>* pose) {
+JointPose<T> joint_pose(const PairConstants<T>& pair, const T* q) {
+  JointPose<T> pose;
+  pose.R = pair.R_ij;
+  std::size_t left = internal::turns_of(pair), turn = 0;
+  for (std::size_t k = 0; k < pair.steps.size(); ++k) {
+    if (!pair.steps[k].turns) continue;
+    Matrix3<T>& R = pose.turn[turn];
+    R = turned<T>(pair.steps[k].axis, left == 1 ? pair.R_ij : Matrix3<T>(Matrix3<T>::Identity()), q[k]);
+    pose.R = turn == 0 ? R : Matrix3<T>(pose.turn[0] * R);
+    --left, ++turn;
+  }
+  return pose;
+}
+
+/// The same of a pair of one step, from the axes of its bodies.
+template <class T>
+JointPose<T> joint_pose_of(const Matrix3<T>& A_i, const Matrix3<T>& A_j) {
+  JointPose<T> pose;
+  pose.R = A_i.transpose() * A_j;
+  pose.turn[0] = pose.R;
+  return pose;
+}
+
+/// The motion of body j from that of body i, the pair's pose and its coordinates. @param q only the entries of slides are read.
+template <class T>
+AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pair, const JointPose<T>& pose, const T* q, const T* v,
+                         const T* a) {
   AxesMotion<T> m = parent;
   internal::go_to(pair.s_i, &m);
   std::size_t left = internal::turns_of(pair), turn = 0;
-  pose->R = pair.R_ij;
   if (left == 0) internal::change_axes(pair.R_ij, &m);
   bool turned_since = left == 0;  // whether N is out of date
   for (std::size_t k = 0; k < pair.steps.size(); ++k) {
     if (pair.steps[k].turns) {
-      Matrix3<T>& R = pose->turn[turn];
-      R = internal::turned<T>(pair.steps[k].axis, left == 1 ? pair.R_ij : Matrix3<T>(Matrix3<T>::Identity()), q[k]);
-      pose->R = turn == 0 ? R : Matrix3<T>(pose->turn[0] * R);
-      internal::change_axes(R, &m);
+      internal::change_axes(pose.turn[turn], &m);
       --left, ++turn;
       const Vector3<T> u = internal::moving_axis(pair, k, left), rate = u * v[k];
       m.alpha += u * a[k] + cross<T>(m.omega, rate);
@@ -143,7 +176,8 @@ Vector4<T> joint_parameters(const PairConstants<T>& pair, const T* q) {
 }
 
 /// Carries the wrench that the pair transmits to body j back to its coordinates, and to body i.
-/// @param wrench about the centre of body j. @param rows receives the loads along the coordinates, one per step; overwritten.
+/// @param wrench about the centre of body j. @param q only the entries of slides are read. @param rows receives the loads along the
+/// coordinates, one per step; overwritten.
 /// @returns the wrench about the centre of body i, in its axes.
 template <class T>
 Wrench<T> carry_back(const Wrench<T>& wrench, const PairConstants<T>& pair, const JointPose<T>& pose, const T* q, T* rows) {

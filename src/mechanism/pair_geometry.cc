@@ -5,6 +5,7 @@
 
 #include "codegen/number_types.h"
 #include "mechanism/chain_geometry.h"
+#include "mechanism/joint_steps.h"
 
 namespace codesign {
 namespace {
@@ -44,7 +45,7 @@ class PairBuilder {
     }
     if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
     result_.R_ij = geometry_.X_ij.R;
-    if (!pair_.is_loop) place_steps();
+    if (!pair_.is_loop && pair_.kind->in_forest) place_steps();
     if (pair_.friction_joint >= 0) result_.friction = friction();
     if (pair_.friction_joint >= 0) place_slip();
   }
@@ -131,15 +132,10 @@ class PairBuilder {
   }
 
   void place_steps() {
-    for (std::size_t k = 0; k < pair_.chain.size(); ++k) {
-      const JointType type = joint(k).type;
-      if (is_turn(type) || type == JointType::kPrismatic) result_.steps.push_back({is_turn(type), axis(k)});
-      if (type != JointType::kPlanar) continue;
-      const Vector3<T> z = axis_at(joint(k).axis, parameters_), x = transverse_axis<T>(z, std::nullopt), y = cross(z, x);
-      result_.steps.push_back({false, geometry_.frames[k].R * x});
-      result_.steps.push_back({false, geometry_.frames[k].R * y});
-      result_.steps.push_back({true, axis(k)});
-    }
+    for (std::size_t k = 0; k < pair_.chain.size(); ++k)
+      visit_steps(joint(k), parameters_, [&](bool turns, const Vector3<T>& axis) {
+        result_.steps.push_back({turns, geometry_.frames[k].R * axis});
+      });
   }
 
   // A single cylindrical loop has two coordinates, a turn and a slide.

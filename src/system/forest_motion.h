@@ -48,8 +48,9 @@ void sweep_out(const System& system, const Constants<T>& constants, const Vector
   for (int b : layout.forest.order) {
     const int pair = layout.forest.pair_above[static_cast<std::size_t>(b)], c = layout.column(b);
     const AxesMotion<T>& parent = motion->body(system.topology().pairs[static_cast<std::size_t>(pair)].body_i);
-    motion->body(b) = move_child(parent, constants.pairs[static_cast<std::size_t>(pair)], q + c, v + c, a + c,
-                                 &motion->poses[static_cast<std::size_t>(b)]);
+    JointPose<T>& pose = motion->poses[static_cast<std::size_t>(b)];
+    pose = joint_pose(constants.pairs[static_cast<std::size_t>(pair)], q + c);
+    motion->body(b) = move_child(parent, constants.pairs[static_cast<std::size_t>(pair)], pose, q + c, v + c, a + c);
   }
 }
 

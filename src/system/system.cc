@@ -78,9 +78,8 @@ std::vector<double> System::parameters() const { return start_parameters(study_)
 
 std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study_, rho); }
 
-// Drives prescribe motions of absolute coordinates, theory (28).
 void System::choose_forest() {
-  if (study_.solver.coordinates != CoordinatesKind::kJoint || drives_ > 0) return;
+  if (study_.solver.coordinates != CoordinatesKind::kJoint) return;
   if (const SignalDescription* signal = mechanism_friction())
     throw InputError({study_.solver.coordinates_where, "solver.coordinates",
                       "a controller that reads the friction of the whole mechanism: not available in joint coordinates", signal->text,

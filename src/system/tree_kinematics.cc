@@ -1,13 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "system/tree_kinematics.h"
 
-#include <cmath>
 #include <functional>
 #include <queue>
 #include <utility>
 
 #include "codegen/number_types.h"
+#include "joints/joint_sweep.h"
 #include "math/span.h"
+#include "mechanism/joint_steps.h"
 #include "system/forest_motion.h"
 
 namespace codesign {
@@ -29,19 +30,6 @@ int coordinates_of(JointType type) {
 
 namespace {
 
-/// Rotation by `angle` about a unit axis (Rodrigues).
-template <class T>
-Matrix3<T> axis_rotation(const Vector3<T>& axis, const T& angle) {
-  using std::cos;
-  using std::sin;
-  const T c = cos(angle), s = sin(angle);
-  Matrix3<T> R = c * Matrix3<T>::Identity() + (T(1.0) - c) * (axis * axis.transpose());
-  Matrix3<T> skew;
-  skew << T(0.0), -axis[2], axis[1], axis[2], T(0.0), -axis[0], -axis[1], axis[0], T(0.0);
-  R += s * skew;
-  return R;
-}
-
 /// Pose and twist of a joint's child frame relative to the joint frame, which is the child frame at theta = 0.
 template <class T>
 struct JointMotion {
@@ -52,37 +40,17 @@ struct JointMotion {
 template <class T>
 JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters, In<T> theta, In<T> rate) {
   JointMotion<T> m;
-  const auto slide = [&m, theta, rate](const Vector3<T>& axis, int k) {
-    m.X.t += axis * theta[k];
-    m.velocity += axis * rate[k];
-  };
-  const auto turn = [&m, theta, rate](const Vector3<T>& axis, int k) {
-    m.omega += m.X.R * axis * rate[k];
-    m.X.R = m.X.R * axis_rotation(axis, theta[k]);
-  };
-  switch (joint.type) {
-    case JointType::kRevolute:
-    case JointType::kContinuous:
-      turn(axis_at(joint.axis, parameters), 0);
-      break;
-    case JointType::kPrismatic:
-      slide(axis_at(joint.axis, parameters), 0);
-      break;
-    case JointType::kPlanar: {
-      const PlaneAxes<T> plane = plane_axes(joint, parameters);
-      slide(plane.x, 0);
-      slide(plane.y, 1);
-      turn(axis_at(joint.axis, parameters), 2);
-      break;
-    }
-    case JointType::kFloating:
-      for (int k = 0; k < 3; ++k) slide(Vector3<T>(Vector3<T>::Unit(k)), k);
-      for (int k = 0; k < 3; ++k) turn(Vector3<T>(Vector3<T>::Unit(k)), 3 + k);
-      m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
-      break;
-    default:
-      break;
-  }
+  int k = 0;
+  visit_steps(joint, parameters, [&](bool turns, const Vector3<T>& axis) {
+    const Vector3<T> u = m.X.R * axis;
+    (turns ? m.omega : m.velocity) += u * rate[k];
+    if (turns)
+      m.X.R = turned<T>(u, m.X.R, theta[k]);
+    else
+      m.X.t += u * theta[k];
+    ++k;
+  });
+  if (joint.type == JointType::kFloating) m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
   return m;
 }
 

@@ -21,18 +21,6 @@ struct TreeLayout {
   explicit TreeLayout(const RobotDescription& robot);
 };
 
-/// The two unit directions along which a planar joint slides, in the joint frame.
-template <class T>
-struct PlaneAxes {
-  Vector3<T> x, y;
-};
-
-template <class T>
-PlaneAxes<T> plane_axes(const JointDescription& joint, const std::vector<T>& parameters) {
-  const Vector3<T> z = axis_at(joint.axis, parameters), x = transverse_axis<T>(z, std::nullopt);
-  return {x, cross(z, x)};
-}
-
 /// How many coordinates a joint of the tree has.
 int coordinates_of(JointType type);
 

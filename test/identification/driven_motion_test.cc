@@ -84,6 +84,27 @@ TEST_F(DrivenMotionTest, ForgettingMakesResultsRepeatToTheLastBit) {
   EXPECT_EQ(motion.effort(state, 0), first);
 }
 
+// A tree all of whose joints are driven has nothing to iterate: its coordinates are set, and one residual gives the efforts.
+TEST(DrivenMotion, ATreeFollowsAnyMotionAtOnce) {
+  const auto system = compiled(double_pendulum(pin_friction()), let_go("{shoulder: {position: 0.3}}", "shoulder/velocity"));
+  const std::vector<MeasuredJoint> joints = measured({"elbow", "shoulder"});
+  const DrivenSystem driven = make_driven_system(*system, joints);
+  DrivenMotion motion(driven);
+  motion.set_design(system->parameters());
+  State<double> state;
+  ASSERT_TRUE(assemble_driven(*system, joints, driven, system->parameters(), Eigen::Vector2d(0.0, 0.3), &state).ok());
+  const Eigen::Vector2d position(-40.0, 9.0), velocity(3.0, -0.02), acceleration(-7.0, 11.0);
+  ASSERT_TRUE(motion.follow({position, velocity, acceleration}, &state).ok());
+  EXPECT_EQ(state.q, position.reverse());  // the coordinates have the order of the bodies
+  EXPECT_EQ(state.v, velocity.reverse());
+  EXPECT_EQ(state.z.head(2), acceleration.reverse());
+  VectorX<double> G;
+  double g = 0.0;
+  motion.equations().residual(state, &G, &g);
+  EXPECT_LT(G.head(2).cwiseAbs().maxCoeff(), 1e-13 * state.z.cwiseAbs().maxCoeff());
+  EXPECT_EQ(motion.follow({position, velocity, Eigen::Vector2d(0.0, std::nan(""))}, &state).code, StatusCode::kNonFinite);
+}
+
 TEST_F(DrivenMotionTest, APositionThatIsNoNumberIsAStatus) {
   EXPECT_EQ(follow(std::nan(""), 0.0, 0.0).code, StatusCode::kAssemblyFailed);
   EXPECT_EQ(follow(0.3, std::nan(""), 0.0).code, StatusCode::kInitialVelocityFailed);

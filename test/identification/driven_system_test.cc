@@ -31,7 +31,14 @@ TEST(DrivenSystem, EveryMeasuredJointOfATreeIsDriven) {
   EXPECT_EQ(first.name, "elbow");
   EXPECT_TRUE(first.is_drive);
   EXPECT_EQ(driven.system->drive_row(0), driven.system->layout().coupling_row(0));
-  EXPECT_EQ(driven.system->layout().m, 2 * 5 + 2 + 2) << "rows of hinges, unit Euler parameters, drives";
+  EXPECT_EQ(driven.system->layout().n, 2);
+  EXPECT_EQ(driven.system->layout().m, 2) << "the drives";
+  Study study = system->study();
+  study.solver.coordinates = CoordinatesKind::kAbsolute;
+  const CompiledSystem absolute(system->robot(), study);
+  const Layout& layout = make_driven_system(absolute, measured({"elbow", "shoulder"})).system->layout();
+  EXPECT_EQ(layout.n, 2 * 7);
+  EXPECT_EQ(layout.m, 2 * 5 + 2 + 2) << "rows of hinges, unit Euler parameters, drives";
 }
 
 TEST(DrivenSystem, InALoopTheJointWithAnEffortIsPreferred) {

@@ -269,6 +269,33 @@ TEST(EffortModel, APassiveJointNeedsNoEffort) {
   EXPECT_LT(efforts.row(1).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+/// Compares efforts and derivatives in joint coordinates with those in absolute ones, along a motion in joint coordinates.
+void expect_absolute_coordinates_agree(const RobotDescription& robot, Study study, const std::vector<std::string>& joints,
+                                       int coordinates) {
+  study.solver.coordinates = CoordinatesKind::kJoint;
+  const auto joint = make_system(robot, study, nullptr);
+  study.solver.coordinates = CoordinatesKind::kAbsolute;
+  const auto absolute = make_system(robot, study, nullptr);
+  const RecordedMotion recorded = record_motion(*joint, joints, 60, 0.01);
+  EffortModel model(*joint, measured(joints), recorded.motion), other(*absolute, measured(joints), recorded.motion);
+  EXPECT_EQ(model.driven().system->layout().n, coordinates);
+  EXPECT_EQ(other.driven().system->layout().n, 7 * other.driven().system->layout().bodies);
+  RowJacobian jacobian, other_jacobian;
+  const Eigen::MatrixXd efforts = efforts_of(&model, *joint, &jacobian);
+  const Eigen::MatrixXd difference = efforts - efforts_of(&other, *absolute, &other_jacobian);
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-9 * (1.0 + efforts.cwiseAbs().maxCoeff()));
+  EXPECT_LT(compare_jacobians(jacobian, other_jacobian).largest, 1e-9);
+}
+
+TEST(EffortModel, EffortsDoNotDependOnTheCoordinates) {
+  const Shipped arm("two_link_arm"), crank("slider_crank");
+  expect_absolute_coordinates_agree(arm.robot, arm.study, {"shoulder", "elbow"}, 2);
+  expect_absolute_coordinates_agree(crank.robot, crank.study, {"crank_joint"}, 9);
+  const RobotDescription four = read_urdf({"test.urdf", tunable_four_bar()});
+  const std::string study = let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", driven_four_bar());
+  expect_absolute_coordinates_agree(four, read_study({"test.yaml", study}, four), {"left_hinge"}, 21);
+}
+
 TEST(EffortModel, TheSameBitsForAnyNumberOfThreads) {
   const auto system = compiled(tunable_four_bar(), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity", driven_four_bar()));
   const RecordedMotion recorded = record_motion(*system, {"left_hinge"}, 200, 0.01);

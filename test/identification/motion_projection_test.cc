@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cases/shipped.h"
 #include "equations/compiled.h"
 #include "identification/recorded_motion.h"
 
@@ -102,6 +103,30 @@ TEST_F(MotionProjectionTest, AccelerationsOfEqualWeightAreShared) {
   // With the slope K of the right hinge by the left one, an error e of the right one changes the left one by K e / (1 + K^2).
   const double before = recorded.motion.velocity(1, 10) / recorded.motion.velocity(0, 10);
   EXPECT_NEAR(model.velocity()(0, 10) - recorded.motion.velocity(0, 10), 0.3 * before / (1.0 + before * before), 1e-9);
+}
+
+TEST(MotionProjection, DoesNotDependOnTheCoordinates) {
+  const Shipped shipped("slider_crank");
+  const std::vector<MeasuredJoint> joints = measured({"crank_joint"}, {"slider_joint"});
+  MotionSamples motion;
+  std::vector<std::unique_ptr<EffortModel>> models;
+  std::vector<std::shared_ptr<const CompiledSystem>> systems;
+  for (CoordinatesKind coordinates : {CoordinatesKind::kJoint, CoordinatesKind::kAbsolute}) {
+    Study study = shipped.study;
+    study.solver.coordinates = coordinates;
+    systems.push_back(make_system(shipped.robot, study, nullptr));
+    if (models.empty()) {
+      motion = record_motion(*systems[0], {"crank_joint", "slider_joint"}, 30, 0.01).motion;
+      for (int k = 0; k < motion.position.cols(); ++k) motion.position(1, k) += 0.001 * std::sin(1.7 * k);
+    }
+    models.push_back(std::make_unique<EffortModel>(*systems.back(), joints, motion));
+    const Status status = models.back()->begin(systems.back()->parameters());
+    ASSERT_TRUE(status.ok()) << status.cause;
+  }
+  EXPECT_LT((models[0]->position() - models[1]->position()).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_LT((models[0]->velocity() - models[1]->velocity()).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((models[0]->acceleration() - models[1]->acceleration()).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_GT((models[0]->position() - motion.position.row(0)).cwiseAbs().maxCoeff(), 1e-6) << "nothing was projected";
 }
 
 }  // namespace
