@@ -7,21 +7,15 @@
 #include <memory>
 #include <utility>
 
-#include "codegen/operate.h"
+#include "equations/code_inputs.h"
 #include "equations/compressed_jacobian.h"
-#include "equations/design_products.h"
-#include "equations/equation_code.h"
+#include "equations/transposed_code.h"
 #include "math/to_index.h"
 
 namespace codesign {
 namespace {
 
 using Arrays = EquationArrays;
-
-template <class T>
-constexpr int kLanesOf = 0;
-template <int N>
-constexpr int kLanesOf<Lanes<N>> = N;
 
 template <class T>
 constexpr bool kIsComplex = std::is_same_v<T, std::complex<double>>;
@@ -54,9 +48,6 @@ int run_values(const CompiledFunction& code, const CodeArrays<std::complex<doubl
 }  // namespace
 
 template <class T>
-CompiledEquations<T>::Variant::Variant(const EquationCode* of) : code(of), numbered(&of->numbered(kLanesOf<T> > 0)) {}
-
-template <class T>
 CompiledEquations<T>::CompiledEquations(const CompiledSystem& system, EquationPart part) : system_(system), part_(part) {}
 
 template <class T>
@@ -76,7 +67,7 @@ void CompiledEquations<T>::for_each_other(const Visit& visit) const {
 template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
-  for (Variant& variant : variants_) variant.ready = false;
+  for (CodeInputs<T>& variant : variants_) variant.forget_design();
   multiplied_.clear();
   current_ = 0;
   for_each_other([&](auto* other) { other->set_design(parameters); });
@@ -127,95 +118,6 @@ CompressedJacobian& CompiledEquations<T>::compressed() {
 }
 
 template <class T>
-void CompiledEquations<T>::take_design(Variant* variant) {
-  if (variant->ready) return;
-  fill_numbers(variant);
-  set_functions(variant);
-  if constexpr (std::is_same_v<T, double>)
-    if (variant->products) variant->products->start(parameters_);
-  variant->ready = true;
-}
-
-// The numbers of the transposed code begin with those of the values.
-template <class T>
-void CompiledEquations<T>::take_products(Variant* variant) {
-  if (!variant->products) {
-    const TransposedCode& code = variant->code->transposed();
-    variant->products = std::make_unique<DesignProducts>(system_, code);
-    variant->numbered = &code.numbered();
-    variant->ready = false;
-  }
-  take_design(variant);
-}
-
-template <class T>
-void CompiledEquations<T>::set_functions(Variant* variant) const {
-  const auto& sources = variant->numbered->recording.timed_sources();
-  variant->functions.resize(sources.size());
-  const auto set = [&](auto* function, std::size_t k, const auto& description) {
-    using Function = std::remove_pointer_t<decltype(function)>;
-    if (!function) function = &variant->functions[k].template emplace<Function>();
-    function->set(description, parameters_);
-  };
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    if (const auto* basis = sources[k].template as<BasisDescription>())
-      set(std::get_if<ShapedInput<T>>(&variant->functions[k]), k, *basis);
-    else
-      set(std::get_if<Reference<T>>(&variant->functions[k]), k, *sources[k].template as<ReferenceDescription>());
-  }
-}
-
-template <class T>
-void CompiledEquations<T>::fill_numbers(Variant* variant) {
-  const NumberedRecording& numbered = *variant->numbered;
-  const Recording& recording = numbered.recording;
-  std::vector<T>& values = nodes_;
-  values.assign(to_index(recording.size()), T(0.0));
-  variant->numbers.assign(numbered.numbers.size(), T(0.0));
-  for (std::size_t k = 0; k < variant->numbers.size(); ++k) {
-    const int n = numbered.numbers[k];
-    const Recording::Node& node = recording.node(n);
-    T& value = values[to_index(n)];
-    if (node.operation == Operation::kLiteral)
-      value = T(node.literal);
-    else if (node.operation != Operation::kLeaf)
-      value = operate<T>(node.operation, values[to_index(node.a)], node.b < 0 ? T(0.0) : values[to_index(node.b)]);
-    else if (node.a == Recording::kSupplied && node.b >= 0)
-      value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), parameters_);
-    variant->numbers[k] = value;
-  }
-  variant->failed = -1;
-  for (const Recording::Guard& guard : variant->code->design_guards()) {
-    const bool outcome = value_of(values[to_index(guard.a)]) < value_of(values[to_index(guard.b)]);
-    if (outcome != guard.outcome && (variant->failed < 0 || guard.decision < variant->failed)) variant->failed = guard.decision;
-  }
-}
-
-template <class T>
-void CompiledEquations<T>::set_instant(const Instant& instant, Variant* variant) const {
-  const NumberedRecording& numbered = *variant->numbered;
-  for (std::size_t k = 0; k < variant->functions.size(); ++k) {
-    const ReferenceMotion<T> motion = std::visit([&](const auto& function) { return function.at(instant.t); }, variant->functions[k]);
-    const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
-    for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
-      if (const int entry = numbered.functions[k][order]; entry >= 0) variant->numbers[to_index(entry)] = *orders[order];
-  }
-  for (const auto& [slot, entry] : numbered.turns) variant->numbers[to_index(entry)] = T(instant.turns[to_index(slot)]);
-}
-
-template <class T>
-void CompiledEquations<T>::seed_time(double t, Variant* variant) const {
-  if constexpr (kLanesOf < T >> 0)
-    for (std::size_t k = 0; k < variant->functions.size(); ++k) {
-      const ReferenceMotion<T> motion = std::visit([&](const auto& function) { return function.at(t); }, variant->functions[k]);
-      const T* const next[] = {&motion.rate, &motion.acceleration, &motion.jerk};
-      for (std::size_t order = 0; order < std::size(next); ++order)
-        if (const int entry = variant->numbered->functions[k][order]; entry >= 0)
-          variant->numbers[to_index(entry)].directions()[0] = value_of(*next[order]);
-    }
-}
-
-template <class T>
 bool CompiledEquations<T>::adopt() {
   const EquationCode* const code = system_.equation_code(variants_.size(), part_);
   if (code) variants_.emplace_back(code);
@@ -224,18 +126,18 @@ bool CompiledEquations<T>::adopt() {
 
 template <class T>
 template <class Run>
-int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run, Variant* variant) {
+int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run, CodeInputs<T>* variant) {
   const bool transposed = instant.mode == Mode::kTransposed;
-  transposed ? take_products(variant) : take_design(variant);
-  if (variant->failed >= 0) return variant->failed;
+  transposed ? variant->take_products(system_, parameters_) : variant->take_design(parameters_);
+  if (variant->failed() >= 0) return variant->failed();
   const CompiledFunction& code =
-      transposed ? variant->code->transposed().function(instant.function, interpreted)
-                 : variant->code->function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit, interpreted || kIsComplex<T>});
+      transposed ? variant->code().transposed().function(instant.function, interpreted)
+                 : variant->code().function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit, interpreted || kIsComplex<T>});
   const std::size_t slots = code.slots * sizeof(CodeNumber<T>) / sizeof(double);
   if (slots_.size() < slots) slots_.resize(slots);
   if (rows_.size() < code.rows) rows_.resize(code.rows);
-  set_instant(instant, variant);
-  return run(code, inner_arrays<T>(variant->numbers, slots_, rows_), variant);
+  variant->set_instant(instant.t, instant.turns);
+  return run(code, inner_arrays<T>(variant->numbers(), slots_, rows_), variant);
 }
 
 template <class T>
@@ -261,7 +163,7 @@ void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
   std::vector<bool> outcomes;
   for (;;) {
     std::unique_ptr<EquationCode> code = system_.record_variant(outcomes, part_);
-    Variant variant(code.get());
+    CodeInputs<T> variant(code.get());
     const int failed = attempt(instant, true, run, &variant);
     // A decision within rounding that fails again stays as it is: both branches give the same there.
     if (failed < static_cast<int>(outcomes.size())) {
@@ -279,7 +181,7 @@ template <class T>
 void CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
                                const Out<T> (&results)[4]) {
   const auto numbers = [](In<T> array) { return reinterpret_cast<const CodeNumber<T>*>(array.data()); };
-  evaluate({function, Mode::kValues, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant*) {
+  evaluate({function, Mode::kValues, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
     std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
     std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
     const int failed = run_values(code, arrays);
@@ -296,7 +198,7 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t, const s
                     [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   if constexpr (kLanesOf < T >> 0) {
     const auto first = [](In<double> array) { return array.data(); };
-    holder(function).evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant*) {
+    holder(function).evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
       std::transform(std::begin(values), std::end(values), arrays.begin(), first);
       if (const int failed = run_values(code, arrays); failed >= 0) return failed;
       std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
@@ -314,22 +216,23 @@ bool CompiledEquations<T>::residual_tangents(const State<double>& state, const s
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     const auto first = [](In<double> array) { return array.data(); };
     const EquationFunction function = EquationFunction::kResidual;
-    evaluate({function, Mode::kSplit, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant* variant) {
-      std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
-      if (const int failed = run_values(code, arrays); failed >= 0) return failed;
-      const auto run_pass = [&](const Pass& pass) {
-        std::transform(std::begin(pass.directions), std::end(pass.directions), arrays.begin(), first);
-        std::transform(std::begin(pass.results), std::end(pass.results), arrays.begin() + Arrays::kResults, first);
-        code.tangents->run(arrays);
-      };
-      for (const Pass& pass : passes) run_pass(pass);
-      depends_on_time = !variant->functions.empty();
-      if (along_time && depends_on_time) {
-        seed_time(state.t, variant);
-        run_pass(*along_time);
-      }
-      return -1;
-    });
+    evaluate({function, Mode::kSplit, state.t, state.turns},
+             [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>* variant) {
+               std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
+               if (const int failed = run_values(code, arrays); failed >= 0) return failed;
+               const auto run_pass = [&](const Pass& pass) {
+                 std::transform(std::begin(pass.directions), std::end(pass.directions), arrays.begin(), first);
+                 std::transform(std::begin(pass.results), std::end(pass.results), arrays.begin() + Arrays::kResults, first);
+                 code.tangents->run(arrays);
+               };
+               for (const Pass& pass : passes) run_pass(pass);
+               depends_on_time = variant->depends_on_time();
+               if (along_time && depends_on_time) {
+                 variant->seed_time(state.t);
+                 run_pass(*along_time);
+               }
+               return -1;
+             });
   }
   return depends_on_time;
 }
@@ -344,22 +247,22 @@ void CompiledEquations<T>::add_transposed(EquationFunction function, const State
     }
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     const auto first = [](In<double> array) { return array.data(); };
-    evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, Variant*) {
+    evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
       std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
       std::transform(std::begin(weights), std::end(weights), arrays.begin() + Arrays::kResults, first);
       return run_values(code, arrays);
     });
-    Variant& variant = variants_[current_];
-    take_products(&variant);
+    CodeInputs<T>& variant = variants_[current_];
+    variant.take_products(system_, parameters_);
     if (std::find(multiplied_.begin(), multiplied_.end(), current_) == multiplied_.end()) multiplied_.push_back(current_);
-    variant.products->add(function, state.t, {rows_.data(), static_cast<std::ptrdiff_t>(rows_.size())}, adjoint);
+    variant.products().add(function, state.t, {rows_.data(), static_cast<std::ptrdiff_t>(rows_.size())}, adjoint);
   }
 }
 
 template <class T>
 void CompiledEquations<T>::add_gradient(Out<double> gradient) {
   if constexpr (std::is_same_v<T, double>)
-    for (std::size_t k : multiplied_) variants_[k].products->add_to(variants_[k].numbers, gradient);
+    for (std::size_t k : multiplied_) variants_[k].products().add_to(variants_[k].numbers(), gradient);
   for (const auto& other : others_)
     if (other) other->add_gradient(gradient);
 }
@@ -402,7 +305,7 @@ template <class T>
 const MassFactor* CompiledEquations<T>::mass_factor() {
   CompiledEquations& at = holder(EquationFunction::kAccelerations);
   if (at.variants_.empty()) at.adopt();
-  const EquationCode& code = *at.variants_[at.current_].code;
+  const EquationCode& code = at.variants_[at.current_].code();
   return code.has_accelerations() ? &code.mass_factor() : nullptr;
 }
 
@@ -466,7 +369,7 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
   T value(0.0);
   run(with_gradient(function), state, {{&value, 1}, entries_, {}, {}});
   gradient->clear();
-  const std::vector<int>& columns = variants_[current_].code->gradient_columns(with_gradient(function));
+  const std::vector<int>& columns = variants_[current_].code().gradient_columns(with_gradient(function));
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const int c = columns[k];
     if (c < velocity)

@@ -4,12 +4,8 @@
 #include <array>
 #include <complex>
 #include <memory>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
-#include "control/reference.h"
-#include "control/shaped_input.h"
 #include "equations/compiled_system.h"
 #include "equations/equation_function.h"
 #include "math/line_vector.h"
@@ -20,8 +16,9 @@
 namespace codesign {
 
 class CompressedJacobian;
-class DesignProducts;
 class EquationCode;
+template <class T>
+class CodeInputs;
 struct MassFactor;
 struct CompiledFunction;
 struct NumberedRecording;
@@ -101,18 +98,6 @@ class CompiledEquations {
   void add_gradient(Out<double> gradient);
 
  private:
-  /// A variant with its inputs for the present design.
-  struct Variant {
-    explicit Variant(const EquationCode* of);
-
-    const EquationCode* code;
-    const NumberedRecording* numbered;
-    bool ready = false;                                                 ///< whether the members below belong to the present design
-    int failed = -1;                                                    ///< the first decision that the design makes otherwise, -1 if none
-    std::vector<T> numbers;                                             ///< array EquationArrays::kNumbers
-    std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions;  ///< functions of time, order of the recording
-    std::unique_ptr<DesignProducts> products;                           ///< of add_transposed(), if it was called
-  };
   /// What of a function is evaluated: values (with tangents, for Lanes), tangents along given directions, or transposed products.
   enum class Mode { kValues, kSplit, kTransposed };
   /// Where a function is evaluated.
@@ -133,20 +118,11 @@ class CompiledEquations {
   /// Calls visit for those others.
   template <class Visit>
   void for_each_other(const Visit& visit) const;
-  void take_design(Variant* variant);
-  /// Prepares a variant for transposed products.
-  void take_products(Variant* variant);
-  void fill_numbers(Variant* variant);
-  void set_functions(Variant* variant) const;
-  /// Evaluates the functions of time and copies the turn references to the code's inputs.
-  void set_instant(const Instant& instant, Variant* variant) const;
-  /// Makes time the first direction of the functions of time; for Lanes, until the next set_instant().
-  void seed_time(double t, Variant* variant) const;
   /// Takes over one more of the variants that the system knows; false if there is none.
   bool adopt();
   /// The first decision of a variant that the point makes otherwise; -1 if the results are valid. Machine code does not tell which one, 0.
   template <class Run>
-  int attempt(const Instant& instant, bool interpreted, const Run& run, Variant* variant);
+  int attempt(const Instant& instant, bool interpreted, const Run& run, CodeInputs<T>* variant);
   template <class Run>
   void evaluate(const Instant& instant, const Run& run);
   template <class Run>
@@ -162,12 +138,11 @@ class CompiledEquations {
   bool interpreted_ = false;
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
   std::unique_ptr<CompressedJacobian> compressed_;                         ///< for double, if the system compresses its Jacobian
-  std::vector<Variant> variants_;                                          ///< the first ones that the system knows, in its order
+  std::vector<CodeInputs<T>> variants_;                                    ///< the first ones that the system knows, in its order
   std::size_t current_ = 0;                                                ///< the variant that served last
   std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
   std::vector<T> entries_;               ///< workspace of signal() and track_turns()
   VectorX<T> s_;                         ///< workspace of sample()
-  std::vector<T> nodes_;                 ///< workspace of fill_numbers(): values of the recording's nodes
   LineVector slots_, rows_;              ///< workspace of the code
 };
 

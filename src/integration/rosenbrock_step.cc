@@ -67,11 +67,6 @@ void RosenbrockStep<T>::linearize_start() {
 }
 
 template <class T>
-bool RosenbrockStep<T>::needs_matrix() {
-  return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.mass_factor();
-}
-
-template <class T>
 void RosenbrockStep<T>::linearize_end() {
   equations_.linearize(end_, &derivatives_);
   has_derivatives_ = true;

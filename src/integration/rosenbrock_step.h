@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "equations/equations.h"
@@ -104,7 +105,7 @@ class RosenbrockStep {
   /// The derivatives with which a step of a Rosenbrock method begins, at end_.
   void linearize_end();
   /// Whether steps solve with a matrix: implicit ones do, and explicit ones where no expression gives the accelerations.
-  bool needs_matrix();
+  bool needs_matrix() { return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.mass_factor(); }
   bool attempt_explicitly();
   std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
   /// Solves G = 0 for the z of a state, beginning with the z that it has. @param g integrand there.
