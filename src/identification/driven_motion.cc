@@ -181,8 +181,8 @@ Status DrivenMotion::move_to(In<double> given, int depth, State<double>* state) 
     return status;
   }
   if (depth == kMostDivisions) return status;
-  std::vector<double> half;
-  for (int k = 0; k < drives_; ++k) half.push_back(0.5 * (given[k] + state->turns[to_index(turn_slots_[to_index(k)])]));
+  std::vector<double> half(given.begin(), given.end());
+  for (std::size_t k = 0; k < half.size(); ++k) half[k] = 0.5 * (half[k] + state->turns[to_index(turn_slots_[k])]);
   if (Status first = move_to(half, depth + 1, state); !first.ok()) return first;
   return move_to(given, depth + 1, state);
 }
@@ -191,7 +191,7 @@ Status DrivenMotion::follow(const DriveMotion& given, State<double>* state) {
   if (Status status = move_to(given.position, 0, state); !status.ok()) return status;
   if (Status status = linearize(*state); !status.ok()) return status;
   if (Status status = solve_velocities(given.velocity, state); !status.ok()) return status;
-  const Status status = solve_rates(given.acceleration, state);
+  Status status = solve_rates(given.acceleration, state);
   if (status.code != StatusCode::kInitialReactionsFailed) return status;
   state->z.setZero();  // try again, beginning with the reactions without friction
   if (Status again = linearize(*state); !again.ok()) return again;
