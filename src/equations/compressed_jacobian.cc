@@ -96,7 +96,10 @@ CompressedJacobian::Compression CompressedJacobian::compress(const ByVariable<co
   return result;
 }
 
-void CompressedJacobian::set_design(const std::vector<double>& parameters) { tangents_.set_design({parameters.begin(), parameters.end()}); }
+void CompressedJacobian::set_design(const std::vector<double>& parameters) {
+  parameters_.assign(parameters.begin(), parameters.end());
+  tangents_.set_design(parameters_);
+}
 
 void CompressedJacobian::add_passes(Compression* compression) {
   const std::ptrdiff_t of_G = (rows_ - 1) * kLanes;

@@ -51,6 +51,7 @@ class CompressedJacobian {
   const CompiledSystem& system_;
   const int rows_;  ///< of G, and one of g
   Tangents tangents_;
+  std::vector<Lanes<kLanes>> parameters_;
   Compression all_, rates_;
   Tangents::Pass time_;
   LineVector results_;  ///< per pass and row kLanes numbers

@@ -30,7 +30,7 @@ std::string branches() {
   return robot(links + turned("1", "ground", "a", "0 1 0", "<codesign:actuator gear_ratio='20' rotor_inertia='1e-4'/>") +
                turned("2", "a", "b", "1 0 0", pin_friction()) + turned("3", "b", "c", "0 0.6 0.8", kLugre) +
                turned("4", "a", "d", "1 0 0", "<dynamics damping='0.1' friction='0.2'/>") + turned("5", "d", "e", "0 1 0", "") +
-               turned("6", "e", "f", "0 0 1", "", "prismatic"));
+               turned("6", "e", "f", "0 0 1", "<limit lower='-1' upper='1' effort='100' velocity='10'/>", "prismatic"));
 }
 
 const char* const kBranchesStudy = R"(duration: 1.0
