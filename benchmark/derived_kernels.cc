@@ -8,6 +8,7 @@
 #include "codegen/adjoints.h"
 #include "codegen/jacobian.h"
 #include "codegen/partials.h"
+#include "equations/equation_code.h"
 
 namespace codesign {
 namespace {
@@ -118,38 +119,57 @@ class KernelRecording {
 
 }  // namespace
 
+struct KernelProgram::Parts {
+  Parts(const std::vector<Traced>& results, NumberedRecording* numbered) {
+    Recording* const recording = &numbered->recording;
+    ValueTask task;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const Traced result = folded(recording, results[k]);
+      if (!result.is(0.0)) task.outputs.push_back({result.node_in(recording), {Arrays::kResults, static_cast<int>(k)}});
+    }
+    numbered->number_nodes();
+    task.homes = numbered->homes;
+    // The constants of the design are literals here, so that nothing else is a number.
+    for (int n : numbered->numbers) numbers.push_back(recording->node(n).literal);
+    const ValueProgram program(*recording, task);
+    instructions = static_cast<int>(program.instructions.size());
+    code = compile_values(*recording, task, program, false);
+    slots.resize(code->slots);
+  }
+
+  std::unique_ptr<CompiledFunction> code;
+  std::vector<double> numbers, slots;
+  int instructions;
+};
+
 KernelProgram KernelProgram::recorded(KernelOperation operation, const CompiledSystem& system, const Constants<double>& constants) {
   KernelRecording kernels(system, constants);
-  return {kernels.by_hand(operation), kernels.recording()};
+  return KernelProgram(std::make_unique<Parts>(kernels.by_hand(operation), kernels.recording()));
 }
 
 KernelProgram KernelProgram::derived(KernelOperation operation, const CompiledSystem& system, const Constants<double>& constants) {
   KernelRecording kernels(system, constants);
-  return {kernels.derived(operation), kernels.recording()};
+  return KernelProgram(std::make_unique<Parts>(kernels.derived(operation), kernels.recording()));
 }
 
-KernelProgram::KernelProgram(const std::vector<Traced>& results, NumberedRecording* numbered) {
-  Recording* const recording = &numbered->recording;
-  ValueTask task;
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    const Traced result = folded(recording, results[k]);
-    if (!result.is(0.0)) task.outputs.push_back({result.node_in(recording), {Arrays::kResults, static_cast<int>(k)}});
-  }
-  numbered->number_nodes();
-  task.homes = numbered->homes;
-  // The constants of the design are literals here, so that nothing else is a number.
-  for (int n : numbered->numbers) numbers_.push_back(recording->node(n).literal);
-  const ValueProgram program(*recording, task);
-  instructions_ = static_cast<int>(program.instructions.size());
-  code_ = compile_values(*recording, task, program, false);
-  slots_.resize(code_->slots);
-}
+KernelProgram::KernelProgram(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+KernelProgram::KernelProgram(KernelProgram&& other) noexcept = default;
+KernelProgram::~KernelProgram() = default;
+
+int KernelProgram::instructions() const { return parts_->instructions; }
 
 void KernelProgram::run(const double* q, const double* v, const double* lambda, double* results) {
   ValueCode::Arrays arrays{};
   arrays[Arrays::kQ] = q, arrays[Arrays::kV] = v, arrays[Arrays::kZ] = lambda;
-  arrays[Arrays::kNumbers] = numbers_.data(), arrays[Arrays::kResults] = results, arrays[Arrays::kSlots] = slots_.data();
-  code_->values->run(arrays);
+  arrays[Arrays::kNumbers] = parts_->numbers.data(), arrays[Arrays::kResults] = results, arrays[Arrays::kSlots] = parts_->slots.data();
+  parts_->code->values->run(arrays);
+}
+
+std::vector<KernelProgram> derived_kernels(const CompiledSystem& system, const Constants<double>& constants) {
+  std::vector<KernelProgram> programs;
+  for (int k = 0; k < kKernelOperations; ++k)
+    programs.push_back(KernelProgram::derived(static_cast<KernelOperation>(k), system, constants));
+  return programs;
 }
 
 }  // namespace codesign

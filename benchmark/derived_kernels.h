@@ -4,9 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "codegen/traced.h"
 #include "equations/compiled_system.h"
-#include "equations/equation_code.h"
 #include "mechanism/constants.h"
 
 namespace codesign {
@@ -24,16 +22,21 @@ class KernelProgram {
   /// Derived from a recording of the constraints' values alone, as the library derives its equations.
   static KernelProgram derived(KernelOperation operation, const CompiledSystem& system, const Constants<double>& constants);
 
-  int instructions() const { return instructions_; }
+  KernelProgram(KernelProgram&& other) noexcept;
+  ~KernelProgram();
+
+  int instructions() const;
   /// @param results must hold zeros where a result is always zero.
   void run(const double* q, const double* v, const double* lambda, double* results);
 
  private:
-  KernelProgram(const std::vector<Traced>& results, NumberedRecording* recording);
+  struct Parts;
+  explicit KernelProgram(std::unique_ptr<Parts> parts);
 
-  std::unique_ptr<CompiledFunction> code_;
-  std::vector<double> numbers_, slots_;
-  int instructions_;
+  std::unique_ptr<Parts> parts_;
 };
+
+/// The derived programs of all operations.
+std::vector<KernelProgram> derived_kernels(const CompiledSystem& system, const Constants<double>& constants);
 
 }  // namespace codesign

@@ -8,9 +8,7 @@
 #include "benchmark/core_access.h"
 #include "benchmark/derived_kernels.h"
 #include "benchmark/dual.h"
-#include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
-#include "benchmark/robots.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
 
@@ -54,52 +52,36 @@ struct ForwardMode {
   std::vector<T> q, v, Phi;
 };
 
-/// Where kernels are evaluated.
-struct KernelPoint {
-  std::vector<double> q, v, lambda;
-};
-
-/// The four operations at one point, in all ways. All results are lists of m, n or entries() numbers.
+/// One state of the slider-crank on its way, and the four operations at it in five ways. All results are lists of m, n or entries()
+/// numbers.
 class KernelBench {
  public:
-  KernelBench(const CompiledSystem& system, KernelPoint at)
+  KernelBench(const CompiledSystem& system, const State<double>& state)
       : by_hand_(system, constants(system)),
         wide_(system, constants(system)),
         dual_(system, constants(system)),
         n_(by_hand_.columns()),
         m_(by_hand_.rows()),
         entries_(by_hand_.entries()),
-        q_(std::move(at.q)),
-        v_(std::move(at.v)),
-        lambda_(std::move(at.lambda)),
-        out_(entries_.size()),
-        moved_(q_),
-        upper_(static_cast<std::size_t>(m_)),
-        lower_(upper_),
-        middle_(upper_),
-        jacobian_(static_cast<std::size_t>(m_ * n_)) {
-    for (int k = 0; k < kKernelOperations; ++k) {
-      recorded_.push_back(KernelProgram::recorded(static_cast<KernelOperation>(k), system, constants(system)));
-      derived_.push_back(KernelProgram::derived(static_cast<KernelOperation>(k), system, constants(system)));
-    }
+        derived_(derived_kernels(system, constants(system))) {
+    q_.assign(state.q.data(), state.q.data() + n_);
+    v_.assign(state.v.data(), state.v.data() + n_);
+    lambda_.assign(state.z.data() + n_, state.z.data() + n_ + m_);
+    out_.resize(entries_.size());
+    moved_ = q_;
+    upper_.resize(static_cast<std::size_t>(m_));
+    lower_ = middle_ = upper_;
+    jacobian_.resize(static_cast<std::size_t>(m_ * n_));
   }
 
-  int rows() const { return m_; }
-  int columns() const { return n_; }
   const std::vector<double>& out() const { return out_; }
   void clear_out() { std::fill(out_.begin(), out_.end(), 0.0); }
-  int instructions_recorded(KernelOperation operation) const { return recorded_[static_cast<std::size_t>(operation)].instructions(); }
-  int instructions_derived(KernelOperation operation) const { return derived_[static_cast<std::size_t>(operation)].instructions(); }
 
   void jacobian_by_hand() { by_hand_.jacobian(q_.data(), out_.data()); }
   void product_by_hand() { by_hand_.jacobian_times(q_.data(), v_.data(), out_.data()); }
   void transposed_by_hand() { by_hand_.transposed_times(q_.data(), lambda_.data(), out_.data()); }
   void curvature_by_hand() { by_hand_.curvature(q_.data(), v_.data(), out_.data()); }
 
-  template <KernelOperation operation>
-  void recorded() {
-    recorded_[static_cast<std::size_t>(operation)].run(q_.data(), v_.data(), lambda_.data(), out_.data());
-  }
   template <KernelOperation operation>
   void derived() {
     derived_[static_cast<std::size_t>(operation)].run(q_.data(), v_.data(), lambda_.data(), out_.data());
@@ -201,149 +183,87 @@ class KernelBench {
   ForwardMode<Dual> dual_;
   int n_, m_;
   std::vector<ConstraintKernels<double>::Entry> entries_;
+  std::vector<KernelProgram> derived_;
   std::vector<double> q_, v_, lambda_, out_, moved_, upper_, lower_, middle_, jacobian_;
-  std::vector<KernelProgram> recorded_, derived_;
 };
-
-using KernelFunction = void (KernelBench::*)();
 
 struct Kernel {
   const char* name;
-  KernelOperation operation;
   double manual, automatic, symbolic;  ///< the paper's Table 1 [us]
-  KernelFunction by_hand, recorded, derived, wide, dual, differences;
+  void (KernelBench::*by_hand)();
+  void (KernelBench::*derived)();
+  void (KernelBench::*wide)();
+  void (KernelBench::*dual)();
+  void (KernelBench::*differences)();
 };
 
-constexpr Kernel kKernels[kKernelOperations] = {
-    {"Phi_q", KernelOperation::kJacobian, 22.0, 178.0, 1042.0, &KernelBench::jacobian_by_hand,
-     &KernelBench::recorded<KernelOperation::kJacobian>, &KernelBench::derived<KernelOperation::kJacobian>,
+constexpr Kernel kKernels[] = {
+    {"Phi_q", 22.0, 178.0, 1042.0, &KernelBench::jacobian_by_hand, &KernelBench::derived<KernelOperation::kJacobian>,
      &KernelBench::jacobian_forward<Wide>, &KernelBench::jacobian_forward<Dual>, &KernelBench::jacobian_by_differences},
-    {"Phi_q v", KernelOperation::kProduct, 16.6, 152.0, 858.0, &KernelBench::product_by_hand,
-     &KernelBench::recorded<KernelOperation::kProduct>, &KernelBench::derived<KernelOperation::kProduct>, nullptr,
+    {"Phi_q v", 16.6, 152.0, 858.0, &KernelBench::product_by_hand, &KernelBench::derived<KernelOperation::kProduct>, nullptr,
      &KernelBench::product_forward, &KernelBench::product_by_differences},
-    {"Phi_q^T lambda", KernelOperation::kTransposedProduct, 30.3, 178.0, 996.0, &KernelBench::transposed_by_hand,
-     &KernelBench::recorded<KernelOperation::kTransposedProduct>, &KernelBench::derived<KernelOperation::kTransposedProduct>,
+    {"Phi_q^T lambda", 30.3, 178.0, 996.0, &KernelBench::transposed_by_hand, &KernelBench::derived<KernelOperation::kTransposedProduct>,
      &KernelBench::transposed_forward<Wide>, &KernelBench::transposed_forward<Dual>, &KernelBench::transposed_by_differences},
-    {"(Phi_q v)_q v", KernelOperation::kCurvature, 18.2, 159.0, 938.0, &KernelBench::curvature_by_hand,
-     &KernelBench::recorded<KernelOperation::kCurvature>, &KernelBench::derived<KernelOperation::kCurvature>, nullptr,
+    {"(Phi_q v)_q v", 18.2, 159.0, 938.0, &KernelBench::curvature_by_hand, &KernelBench::derived<KernelOperation::kCurvature>, nullptr,
      &KernelBench::curvature_forward, &KernelBench::curvature_by_differences}};
 
-/// A way to compute all kernels, and how near it must come to by hand.
-struct Way {
-  const char* name;
-  KernelFunction Kernel::*function;
-  double tolerance;
-};
-
 /// What is fast must also be right.
-void require_same(KernelBench* bench, const Kernel& kernel, const Way& way) {
+void require_same(KernelBench* bench, const Kernel& kernel, void (KernelBench::*other)(), double tolerance) {
   bench->clear_out();
   (bench->*kernel.by_hand)();
   const std::vector<double> expected = bench->out();
   bench->clear_out();
-  (bench->*(kernel.*way.function))();
+  (bench->*other)();
   for (std::size_t k = 0; k < expected.size(); ++k)
-    if (!(std::abs(bench->out()[k] - expected[k]) <= way.tolerance * (1.0 + std::abs(expected[k]))))
-      throw std::runtime_error(std::string("by hand and ") + way.name + ", " + kernel.name + " differs");
+    if (!(std::abs(bench->out()[k] - expected[k]) <= tolerance * (1.0 + std::abs(expected[k]))))
+      throw std::runtime_error(std::string("two ways to compute ") + kernel.name + " disagree");
 }
 
-/// Microseconds per kernel and way; NaN where a kernel is not computed in this way.
-std::vector<std::vector<double>> time_kernels(const std::vector<Way>& ways, KernelBench* bench) {
-  std::vector<Job> jobs;
-  for (const Kernel& kernel : kKernels)
-    for (const Way& way : ways) {
-      const KernelFunction function = kernel.*way.function;
-      if (!function) continue;
-      require_same(bench, kernel, way);
-      jobs.push_back(make_job(std::string(kernel.name) + ": " + way.name, [bench, function] {
-        (bench->*function)();
-        benchmark::DoNotOptimize(bench->out().data());
-        benchmark::ClobberMemory();
-      }));
-    }
-  const std::vector<double> seconds = median_cpu_seconds(jobs);
-  std::vector<std::vector<double>> times;
-  std::size_t next = 0;
-  for (const Kernel& kernel : kKernels) {
-    times.emplace_back();
-    for (const Way& way : ways) times.back().push_back(kernel.*way.function ? 1e6 * seconds[next++] : std::nan(""));
-  }
-  return times;
-}
-
-void compare_ways(Report* report) {
-  const std::optional<Problem> problem = with_solver(load_slider_crank(), "rodas4", 1e-8);
-  StepProbe probe(problem->system(), 0.3, 1e-3);
-  const Layout& layout = problem->system()->layout();
-  const State<double>& state = probe.state();
-  const double* const z = state.z.data();
-  KernelBench bench(
-      *problem->system(),
-      {{state.q.data(), state.q.data() + layout.n}, {state.v.data(), state.v.data() + layout.n}, {z + layout.n, z + layout.n + layout.m}});
-  const std::vector<std::vector<double>> times = time_kernels({{"by hand", &Kernel::by_hand, 0.0},
-                                                               {"derived", &Kernel::derived, 1e-12},
-                                                               {"lanes", &Kernel::wide, 1e-12},
-                                                               {"dual", &Kernel::dual, 1e-12},
-                                                               {"differences", &Kernel::differences, 1e-5}},
-                                                              &bench);
-  Table table{"kernels",
-              "Kernels of the slider-crank, microseconds",
-              {"operation", "by hand", "derived", "8 lanes", "dual", "differences", "derived / by hand", "dual / by hand", "paper: manual",
-               "automatic", "symbolic", "paper's manual / by hand"},
-              {}};
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const Kernel& kernel = kKernels[k];
-    const double by_hand = times[k][0], derived = times[k][1], dual = times[k][3];
-    std::vector<std::string> row{kernel.name};
-    for (double time : times[k]) row.push_back(three_digits(time));
-    for (double figure : {derived / by_hand, dual / by_hand, kernel.manual, kernel.automatic, kernel.symbolic, kernel.manual / by_hand})
-      row.push_back(three_digits(figure));
-    table.rows.push_back(row);
-    report->findings.push_back({std::string("kernel ") + kernel.name, "us", by_hand, 0.2, false});
-  }
-  report->tables.push_back(table);
-}
-
-/// Some numbers that satisfy no constraint: the operations are the same everywhere.
-KernelPoint generic_point(const Layout& layout) {
-  KernelPoint at;
-  for (int k = 0; k < layout.n; ++k) at.q.push_back(std::sin(1.0 + 7.0 * k)), at.v.push_back(std::cos(2.0 + 5.0 * k));
-  for (int k = 0; k < layout.m; ++k) at.lambda.push_back(std::sin(3.0 + 11.0 * k));
-  return at;
-}
-
-/// What it costs that nobody writes derivatives by hand: lengths and times of the programs.
-void compare_programs(Report* report) {
-  Table table{"kernel_counts",
-              "Programs of the kernels: instructions and microseconds",
-              {"constraints", "operation", "instructions: by hand", "derived", "derived / by hand", "us: by hand, compiled",
-               "by hand, recorded", "derived", "derived / recorded"},
-              {}};
-  const auto add = [&table](const std::string& name, const Problem& problem) {
-    const CompiledSystem& system = *problem.system();
-    KernelBench bench(system, generic_point(system.layout()));
-    const std::vector<std::vector<double>> times = time_kernels(
-        {{"by hand", &Kernel::by_hand, 0.0}, {"recorded", &Kernel::recorded, 1e-12}, {"derived", &Kernel::derived, 1e-12}}, &bench);
-    const std::string size = ", " + std::to_string(bench.rows()) + " of " + std::to_string(bench.columns());
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const int recorded = bench.instructions_recorded(kKernels[k].operation), derived = bench.instructions_derived(kKernels[k].operation);
-      table.rows.push_back({name + size, kKernels[k].name, std::to_string(recorded), std::to_string(derived),
-                            three_digits(static_cast<double>(derived) / recorded), three_digits(times[k][0]), three_digits(times[k][1]),
-                            three_digits(times[k][2]), three_digits(times[k][2] / times[k][1])});
-    }
-  };
-  const auto generated = [](const GeneratedCase& given) { return load_problem(given.urdf, {}, given.study); };
-  add("slider_crank_haug", *with_solver(load_slider_crank(), "rodas4", 1e-8));
-  add("Bricard's ring", generated(bricard_ring()));
-  add("UR5", generated(robot_case(ur5(), "coordinates: absolute")));
-  report->tables.push_back(table);
+Job kernel_job(const std::string& name, KernelBench* bench, void (KernelBench::*operation)()) {
+  return make_job(name, [bench, operation] {
+    (bench->*operation)();
+    benchmark::DoNotOptimize(bench->out().data());
+    benchmark::ClobberMemory();
+  });
 }
 
 }  // namespace
 
 void measure_kernels(Report* report) {
-  compare_ways(report);
-  compare_programs(report);
+  const std::optional<Problem> problem = with_solver(load_slider_crank(), "rodas4", 1e-8);
+  StepProbe probe(problem->system(), 0.3, 1e-3);
+  KernelBench bench(*problem->system(), probe.state());
+  std::vector<Job> jobs;
+  for (const Kernel& kernel : kKernels) {
+    const std::string name = kernel.name;
+    jobs.push_back(kernel_job(name + ": by hand", &bench, kernel.by_hand));
+    for (const auto& [way, operation, tolerance] :
+         {std::make_tuple("derived", kernel.derived, 1e-12), std::make_tuple("lanes", kernel.wide, 1e-12),
+          std::make_tuple("dual", kernel.dual, 1e-12), std::make_tuple("differences", kernel.differences, 1e-5)}) {
+      if (!operation) continue;
+      require_same(&bench, kernel, operation, tolerance);
+      jobs.push_back(kernel_job(name + ": " + way, &bench, operation));
+    }
+  }
+  const std::vector<double> seconds = median_cpu_seconds(jobs);
+  Table table{"kernels",
+              "Kernels of the slider-crank, microseconds",
+              {"operation", "by hand", "derived", "8 lanes", "dual", "differences", "derived / by hand", "dual / by hand", "paper: manual",
+               "automatic", "symbolic", "paper's manual / by hand"},
+              {}};
+  std::size_t next = 0;
+  for (const Kernel& kernel : kKernels) {
+    const double by_hand = 1e6 * seconds[next++], derived = 1e6 * seconds[next++],
+                 wide = kernel.wide ? 1e6 * seconds[next++] : std::nan(""), dual = 1e6 * seconds[next++],
+                 differences = 1e6 * seconds[next++];
+    table.rows.push_back({kernel.name, three_digits(by_hand), three_digits(derived), three_digits(wide), three_digits(dual),
+                          three_digits(differences), three_digits(derived / by_hand), three_digits(dual / by_hand),
+                          three_digits(kernel.manual), three_digits(kernel.automatic), three_digits(kernel.symbolic),
+                          three_digits(kernel.manual / by_hand)});
+    report->findings.push_back({std::string("kernel ") + kernel.name, "us", by_hand, 0.2, false});
+  }
+  report->tables.push_back(table);
+  measure_kernel_programs(report);
 }
 
 }  // namespace codesign
