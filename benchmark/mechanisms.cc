@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark/mechanisms.h"
 
+#include <cmath>
+
 #include "text/decimal.h"
 
 namespace codesign {
@@ -129,6 +131,21 @@ GeneratedCase stacked_four_bars(int loops, bool with_friction) {
     below = coupler;
   }
   return {{"stack.urdf", robot("stack", content)}, {"stack.yaml", study(initial, "", "crank_hinge_0/velocity")}};
+}
+
+GeneratedCase bricard_ring() {
+  // The angles alternate between theta and phi with cos theta + cos phi + cos theta cos phi = 0.
+  const double theta = 1.2, phi = std::acos(-std::cos(theta) / (1.0 + std::cos(theta)));
+  std::string content, initial;
+  for (int k = 0; k < 5; ++k) {
+    const std::string hinge_name = "hinge_" + std::to_string(k), link = "link_" + std::to_string(k);
+    content += bar(link) + hinge(hinge_name, k == 0 ? "ground" : "link_" + std::to_string(k - 1), link, on_z(k == 0 ? 0.0 : -kLength),
+                                 k % 2 == 0 ? "0 1 0" : "1 0 0", "");
+    initial += (k == 0 ? "" : ", ") + hinge_name + (k == 0 ? ": {position: " : ": {guess: ") + to_decimal(k % 2 == 0 ? theta : phi) + "}";
+  }
+  content += "<loop name=\"hinge_5\" type=\"continuous\"><predecessor link=\"link_4\">" + on_z(-kLength) +
+             "</predecessor><successor link=\"ground\">" + on_z(kLength) + "</successor><axis xyz=\"1 0 0\"/></loop>\n";
+  return {{"ring.urdf", robot("ring", content)}, {"ring.yaml", study(initial, "", "hinge_0/velocity")}};
 }
 
 }  // namespace codesign

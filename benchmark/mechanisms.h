@@ -27,4 +27,8 @@ GeneratedCase ladder(int loops);
 /// @param with_friction whether the cranks' hinges have friction; it depends on undetermined reactions, theory (23).
 GeneratedCase stacked_four_bars(int loops, bool with_friction);
 
+/// Bricard's threefold symmetric ring: six bars, one of which is the ground, and six hinges, each at right angles to the next. One degree
+/// of freedom, though counting says none: one constraint is redundant.
+GeneratedCase bricard_ring();
+
 }  // namespace codesign

@@ -77,7 +77,7 @@ foreach(folder IN LISTS codesign_rooms ITEMS mpi cli ros benchmark cases allocat
   endif()
   if(folder STREQUAL benchmark)
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/benchmark/table.cc ${PROJECT_SOURCE_DIR}/benchmark/robots.cc
-      ${PROJECT_SOURCE_DIR}/benchmark/articulated_body.cc)
+      ${PROJECT_SOURCE_DIR}/benchmark/articulated_body.cc ${PROJECT_SOURCE_DIR}/benchmark/derived_kernels.cc)
   endif()
   # catkin's choice, the devel space, is where rosrun looks for programs.
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)

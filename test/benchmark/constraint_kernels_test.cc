@@ -5,6 +5,7 @@
 
 #include <complex>
 
+#include "benchmark/derived_kernels.h"
 #include "benchmark/mechanisms.h"
 #include "equations/equations.h"
 #include "paths.h"
@@ -18,7 +19,8 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
  protected:
   ConstraintKernelsTest()
       : problem_(load()),
-        kernels_(*problem_.system(), evaluate_constants(problem_.robot(), problem_.system()->topology(), problem_.parameters())),
+        constants_(evaluate_constants(problem_.robot(), problem_.system()->topology(), problem_.parameters())),
+        kernels_(*problem_.system(), constants_),
         n_(kernels_.columns()),
         m_(kernels_.rows()),
         q_(n_),
@@ -33,6 +35,7 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
   static Problem load() {
     if (GetParam() == "chain") return load(open_chain(3));
     if (GetParam() == "ladder") return load(ladder(2));
+    if (GetParam() == "ring") return load(bricard_ring());
     const std::string source = source_dir();
     SourceText study = read_source(source + "/config/" + GetParam() + ".yaml");
     const std::string solver = "solver: {";
@@ -61,6 +64,7 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
   }
 
   Problem problem_;
+  Constants<double> constants_;
   ConstraintKernels<double> kernels_;
   int n_, m_;
   Eigen::VectorXd q_, v_, lambda_;
@@ -102,7 +106,22 @@ TEST_P(ConstraintKernelsTest, Curvature) {
   expect_near<Eigen::VectorXd>(product, errors<std::complex<double>>(q, v).second.imag() / kStep);
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, ConstraintKernelsTest, testing::Values("slider_crank_haug", "chain", "ladder"));
+TEST_P(ConstraintKernelsTest, ProgramsRecordedAndDerived) {
+  const auto entries = static_cast<Eigen::Index>(kernels_.entries().size());
+  std::vector<Eigen::VectorXd> expected = {Eigen::VectorXd(entries), Eigen::VectorXd(m_), Eigen::VectorXd(n_), Eigen::VectorXd(m_)};
+  kernels_.jacobian(q_.data(), expected[0].data());
+  kernels_.jacobian_times(q_.data(), v_.data(), expected[1].data());
+  kernels_.transposed_times(q_.data(), lambda_.data(), expected[2].data());
+  kernels_.curvature(q_.data(), v_.data(), expected[3].data());
+  for (int k = 0; k < kKernelOperations; ++k)
+    for (const auto make : {&KernelProgram::recorded, &KernelProgram::derived}) {
+      Eigen::VectorXd results = Eigen::VectorXd::Zero(expected[static_cast<std::size_t>(k)].size());
+      make(static_cast<KernelOperation>(k), *problem_.system(), constants_).run(q_.data(), v_.data(), lambda_.data(), results.data());
+      expect_near(results, expected[static_cast<std::size_t>(k)]);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, ConstraintKernelsTest, testing::Values("slider_crank_haug", "chain", "ladder", "ring"));
 
 }  // namespace
 }  // namespace codesign

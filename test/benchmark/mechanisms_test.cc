@@ -49,6 +49,13 @@ TEST(Mechanisms, StackedFourBarsHaveThreeRedundantConstraintsEach) {
   }
 }
 
+TEST(Mechanisms, ABricardRingMovesThoughCountingSaysItDoesNot) {
+  const Counts counts = counts_of(load(bricard_ring()));
+  EXPECT_EQ(counts.bodies, 5);
+  EXPECT_EQ(counts.degrees_of_freedom, 1);
+  EXPECT_EQ(counts.redundant_constraints, 1);
+}
+
 TEST(Mechanisms, EveryParameterOfAChainMatters) {
   const Problem problem = load(parametric_chain(2, 8));
   EXPECT_EQ(problem.tuned_names(),
