@@ -102,7 +102,7 @@ void CompressedJacobian::set_design(const std::vector<double>& parameters) {
 }
 
 void CompressedJacobian::add_passes(Compression* compression) {
-  const std::ptrdiff_t of_G = (rows_ - 1) * kLanes;
+  const std::ptrdiff_t of_G = std::ptrdiff_t{kLanes} * (rows_ - 1);
   double* first = results_.data();
   for (const auto& [q, v, s, z] : compression->seeds) {
     compression->passes.push_back({{q, v, s, z}, {Out<double>(first, of_G), Out<double>(first + of_G, kLanes), {}, {}}});
@@ -117,7 +117,7 @@ void CompressedJacobian::gather(const std::vector<int>& places, std::vector<doub
 void CompressedJacobian::linearize(const State<double>& state, Linearization<double>* derivatives) {
   const bool depends_on_time = tangents_.residual_tangents(state, all_.passes, &time_);
   const double* const by_time = time_.results[0].data();
-  for (int row = 0; row < rows_; ++row) derivatives->time[row] = depends_on_time ? by_time[row * kLanes] : 0.0;
+  for (int row = 0; row < rows_; ++row) derivatives->time[row] = depends_on_time ? by_time[std::ptrdiff_t{kLanes} * row] : 0.0;
   gather(all_.places.position, &derivatives->position);
   gather(all_.places.velocity, &derivatives->velocity);
   gather(all_.places.rate, &derivatives->rate);
