@@ -170,7 +170,7 @@ class ResumeTest(NodesTestCase):
         cases = (("screening", BLOCKS.replace("screen: 6", "screen: 3000"), lambda progress: progress.stage == "screening", 3000),
                  ("searching", BLOCKS.replace("samples: 3", "samples: 150").replace("multistart: {starts: 3, screen: 6}\n", ""),
                   lambda progress: progress.stage == "searching" and progress.runs > 100, 600),
-                 ("searches", BLOCKS.replace("samples: 3", "samples: 16"), lambda progress: progress.search == 2, 400),
+                 ("searches", BLOCKS.replace("samples: 3", "samples: 16"), lambda progress: progress.search == 2, 900),
                  ("validating", BLOCKS.replace("validate: 200", "validate: 20000"), lambda progress: progress.stage == "validating", 20000))
         for name, blocks, under_way, most in cases:
             with self.subTest(name):
