@@ -19,15 +19,26 @@ std::string tight(const std::string& coordinates) {
   return solver.insert(solver.find('{') + 1, "coordinates: " + coordinates + ", ");
 }
 
+const char* const kThrown = "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}";
+
+/// A run at its start, and the motion of its bodies.
+struct Started {
+  Started(const std::string& urdf, const std::string& initial, const std::string& signal, const std::string& coordinates)
+      : system(swinging(urdf, initial, signal, tight(coordinates))), integrator(*system), motion(*system) {
+    EXPECT_TRUE(integrator.start({}).ok());
+    motion.set_design(integrator.equations());
+  }
+
+  std::shared_ptr<const CompiledSystem> system;
+  RosenbrockIntegrator integrator;
+  BodyMotion motion;
+};
+
 TEST(BodyMotion, EnergyIsThatOfTheState) {
   for (const char* coordinates : {"absolute", "joint"}) {
-    const auto system = swinging(double_pendulum(), "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}", "elbow/velocity",
-                                 tight(coordinates));
-    RosenbrockIntegrator integrator(*system);
-    ASSERT_TRUE(integrator.start({}).ok());
-    BodyMotion motion(*system);
-    motion.set_design(integrator.equations());
-    const BodyEnergy energy = motion.energy(integrator.state().q, integrator.state().v);
+    Started run(double_pendulum(), kThrown, "elbow/velocity", coordinates);
+    RosenbrockIntegrator& integrator = run.integrator;
+    const BodyEnergy energy = run.motion.energy(integrator.state().q, integrator.state().v);
     integrator.equations().formulas().load(integrator.state());
     const Energy expected = mechanical_energy(integrator.equations());
     EXPECT_NEAR(energy.kinetic, expected.kinetic, 1e-13) << coordinates;
@@ -37,18 +48,13 @@ TEST(BodyMotion, EnergyIsThatOfTheState) {
 
 TEST(BodyMotion, SpeedsAndDistancesAreTheSameInBothCoordinates) {
   const auto measured = [](const char* coordinates) {
-    const auto system = swinging(double_pendulum(), "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {velocity: -1.0}}", "elbow/velocity",
-                                 tight(coordinates));
-    RosenbrockIntegrator integrator(*system);
-    EXPECT_TRUE(integrator.start({}).ok());
-    BodyMotion motion(*system);
-    motion.set_design(integrator.equations());
-    const State<double>& state = integrator.state();
-    motion.move(state.q, state.v);
+    const Started run(double_pendulum(), kThrown, "elbow/velocity", coordinates);
+    const State<double>& state = run.integrator.state();
+    run.motion.move(state.q, state.v);
     Eigen::VectorXd numbers(6);
     for (int body = 0; body < 2; ++body) {
-      const auto [linear, angular] = motion.speed(body, state.v);
-      numbers.segment<3>(3 * body) << motion.distance(body, state.q), linear, angular;
+      const auto [linear, angular] = run.motion.speed(body, state.v);
+      numbers.segment<3>(3 * body) << run.motion.distance(body, state.q), linear, angular;
     }
     return numbers;
   };
@@ -61,14 +67,10 @@ TEST(BodyMotion, SpeedsAndDistancesAreTheSameInBothCoordinates) {
 TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
   for (const char* coordinates : {"absolute", "joint"})
     for (double damping : {0.0, 0.5}) {
-      const auto system = swinging(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"),
-                                   "{hinge: {position: 0.7, velocity: 3.0}}", "hinge/velocity", tight(coordinates));
-      RosenbrockIntegrator integrator(*system);
-      ASSERT_TRUE(integrator.start({}).ok());
-      BodyMotion motion(*system);
-      motion.set_design(integrator.equations());
-      const State<double>& state = integrator.state();
-      EXPECT_NEAR(motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11) << coordinates;
+      const Started run(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"), "{hinge: {position: 0.7, velocity: 3.0}}",
+                        "hinge/velocity", coordinates);
+      const State<double>& state = run.integrator.state();
+      EXPECT_NEAR(run.motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11) << coordinates;
     }
 }
 
