@@ -54,7 +54,7 @@ TEST(BodyMotion, SpeedsAndDistancesAreTheSameInBothCoordinates) {
     Eigen::VectorXd numbers(6);
     for (int body = 0; body < 2; ++body) {
       const auto [linear, angular] = run.motion.speed(body, state.v);
-      numbers.segment<3>(3 * body) << run.motion.distance(body, state.q), linear, angular;
+      numbers.segment<3>(3 * Eigen::Index{body}) << run.motion.distance(body, state.q), linear, angular;
     }
     return numbers;
   };
