@@ -17,6 +17,12 @@ namespace codesign {
 
 struct SignalDescription;
 
+/// From when on a run's steps were taken by another method.
+struct MethodChange {
+  double time = 0.0;        ///< [s]
+  const char* method = "";  ///< as in `solver.method`, or "idas"
+};
+
 /// A run of one design, integrated step by step: start(), then advance() and sample() as often as needed. Not thread-safe; any number of
 /// simulations may share one Problem, each in its own thread.
 class Simulation {
@@ -69,6 +75,8 @@ class Simulation {
   const FrameNames& names() const;
   /// Cost and accuracy of the run so far.
   const Statistics& statistics() const;
+  /// The methods of the run so far: that of the first step, then each change of `method: auto`.
+  const std::vector<MethodChange>& methods() const;
   /// Warnings of the run so far, such as `constraint_drift`, `energy_error` and `singular_start`; doc/warnings.md lists the codes.
   const Warnings& warnings() const;
 

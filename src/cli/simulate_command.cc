@@ -68,6 +68,9 @@ void add_objective(const Problem& problem, bool as_searched, const std::optional
 void add_run(const Problem& problem, const RunSummary& run, const Json& counts, Json series, Json* object) {
   (*object)["parameters"] = parameters_json(problem, problem.parameters());
   add_statistics(run.statistics, object);
+  Json methods = Json::array();
+  for (const MethodChange& change : run.methods) methods.push_back({{"from", change.time}, {"method", change.method}});
+  (*object)["methods"] = std::move(methods);
   object->update(counts);
   (*object)["limits_exceeded"] = to_json(run.crossings);
   (*object)["series"] = std::move(series);

@@ -374,7 +374,10 @@ IdasIntegrator::IdasIntegrator(const CompiledSystem& system) : implementation_(s
 IdasIntegrator::~IdasIntegrator() = default;
 
 void IdasIntegrator::carry(IdasSensitivities* sensitivities) { implementation_->carry(sensitivities); }
-Status IdasIntegrator::start(const std::vector<double>& parameters) { return implementation_->start(parameters); }
+Status IdasIntegrator::start(const std::vector<double>& parameters) {
+  begin_methods("idas");
+  return implementation_->start(parameters);
+}
 Status IdasIntegrator::advance(double limit) {
   if (cancelled()) return {StatusCode::kCancelled, state().t, "cancelled"};
   return implementation_->advance(limit);

@@ -44,6 +44,8 @@ class Integrator {
   /// Whether runs look for singular positions that they pass, doc/theory.md (17b), to report in warnings(); from the next start() on.
   virtual void watch_singularities(bool watch) = 0;
   virtual const Statistics& statistics() const = 0;
+  /// As Simulation::methods().
+  const std::vector<MethodChange>& methods() const { return methods_; }
   /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;
 
@@ -56,8 +58,11 @@ class Integrator {
 
  protected:
   bool cancelled() const { return is_set(cancel_); }
+  void begin_methods(const char* method) { methods_.assign(1, {0.0, method}); }
+  void change_method(double time, const char* method) { methods_.push_back({time, method}); }
 
  private:
+  std::vector<MethodChange> methods_;
   const std::atomic<bool>* cancel_ = nullptr;
 };
 

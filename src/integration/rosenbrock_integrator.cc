@@ -38,6 +38,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   clock_.start();
   jump_events_.clear();
   step_.use(choice_.start());
+  begin_methods(step_.tableau().name);
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
   if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
@@ -114,7 +115,11 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
 
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
   if (Status status = jump(); !status.ok()) return status;
-  if (chooses_) step_.use(choice_.next(&step_));
+  if (chooses_) {
+    const RosenbrockTableau& next = choice_.next(&step_);
+    if (&next != &step_.tableau()) change_method(step_.state().t, next.name);
+    step_.use(next);
+  }
   chooses_ = false;
   const double t = step_.state().t;
   const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);

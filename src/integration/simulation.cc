@@ -91,6 +91,7 @@ class Simulation::Implementation {
   void obey(const std::atomic<bool>* cancel) { integrator_->obey(cancel); }
   const FrameNames& names() const { return observer_.names(); }
   const Statistics& statistics() const { return statistics_; }
+  const std::vector<MethodChange>& methods() const { return integrator_->methods(); }
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
@@ -130,6 +131,7 @@ double Simulation::time() const { return implementation_->time(); }
 void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(cancel); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
+const std::vector<MethodChange>& Simulation::methods() const { return implementation_->methods(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
 Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer, const std::atomic<bool>* cancel) {

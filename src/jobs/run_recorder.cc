@@ -20,6 +20,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   RunSummary summary;
   summary.status = codesign::simulate(&simulation, problem.study().duration, samples, observer, cancel);
   summary.statistics = simulation.statistics();
+  summary.methods = simulation.methods();
   summary.warnings = simulation.warnings();
   const Study& study = problem.study();
   const bool has_peak = std::any_of(study.watched.begin(), study.watched.end(),

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/method_choice.h"
 
+#include "mechanism_codesign/simulation.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/gradient_cases.h"
 #include "sensitivity/gradient_check.h"
@@ -50,6 +51,19 @@ TEST_P(MethodChoiceTest, ChangesOverBothWaysWithinARun) {
   const auto system = stick_slip(GetParam()).compile("auto", "direct");
   EXPECT_GE(changes(*system).size(), 2U);
   EXPECT_EQ(changes(*system), changes(*system));
+}
+
+TEST_P(MethodChoiceTest, TheRunKnowsWhichMethodTookWhichSteps) {
+  const auto system = stick_slip(GetParam()).compile("auto", "direct");
+  Simulation simulation(system, system->parameters());
+  ASSERT_TRUE(simulation.start().ok());
+  ASSERT_TRUE(simulation.advance(system->study().duration).ok());
+  const std::vector<MethodChange>& methods = simulation.methods();
+  ASSERT_EQ(methods.size(), 1 + changes(*system).size());
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    EXPECT_STREQ(methods[k].method, k % 2 == 0 ? "dopri5" : "rodas5p");
+    EXPECT_TRUE(k == 0 ? methods[k].time == 0.0 : methods[k].time > methods[k - 1].time);
+  }
 }
 
 TEST_P(MethodChoiceTest, FindsWhatTheImplicitMethodFinds) {
