@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "mechanism_codesign/status.h"
 

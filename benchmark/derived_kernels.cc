@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "benchmark/constraint_kernels.h"
-#include "codegen/adjoints.h"
-#include "codegen/jacobian.h"
-#include "codegen/partials.h"
+#include "codegen/derivatives.h"
 #include "equations/equation_code.h"
 
 namespace codesign {

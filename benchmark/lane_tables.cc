@@ -10,7 +10,7 @@
 #include "benchmark/slider_crank.h"
 #include "ensemble/scenario.h"
 #include "integration/rosenbrock_integrator.h"
-#include "jobs/inputs.h"
+#include "jobs/job_files.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
 

@@ -6,6 +6,7 @@
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
 #include "equations/compiled_system.h"
+#include "equations/equations.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
 #include "sensitivity/gradient_engine.h"

@@ -10,7 +10,7 @@
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/simulation.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

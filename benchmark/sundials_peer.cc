@@ -14,7 +14,7 @@
 
 #include "assembly/assembly.h"
 #include "benchmark/core_access.h"
-#include "integration/sundials_compatibility.h"
+#include "integration/idas_handles.h"
 
 namespace codesign {
 namespace {

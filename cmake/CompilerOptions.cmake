@@ -51,8 +51,8 @@ function(codesign_optimize target)
       list(APPEND hot_options -mmove-max=256 -mstore-max=256)
     endif()
   endif()
-  set(hot sparse/lu_schedule equations/derivative_products
-    integration/rosenbrock_step integration/applied_work integration/run_watch sensitivity/tangent_step)
+  set(hot sparse/lu_schedule equations/iteration_matrix
+    integration/rosenbrock_step integration/run_watch sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
   foreach(peer kernel_tables kernel_program_tables articulated_body robot_peers)

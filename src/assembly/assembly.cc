@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/given_start.h"
-#include "equations/derivative_products.h"
+#include "assembly/tree_coordinates.h"
+#include "equations/compiled_system.h"
+#include "equations/iteration_matrix.h"
 #include "equations/mass_solution.h"
 
 namespace codesign {

@@ -8,13 +8,17 @@
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
 #include "assembly/tree_coordinates.h"
-#include "equations/equations.h"
 #include "equations/iteration_matrix.h"
 #include "mechanism_codesign/status.h"
 #include "system/tree_kinematics.h"
 #include "text/cancel.h"
 
 namespace codesign {
+
+class CompiledSystem;
+
+template <class T>
+class Equations;
 
 /// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from design to design.
 template <class T>

@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // The part of Assembly that carries derivatives through a solution, doc/theory.md (20).
 #include "assembly/assembly.h"
-#include "assembly/given_start.h"
-#include "math/directions.h"
+#include "assembly/tree_coordinates.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
-#include "assembly/acceleration_block.h"
+#include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "math/dense.h"
-#include "math/to_index.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -177,6 +177,28 @@ class Motions {
 };
 
 }  // namespace
+
+std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& system, Equations<double>* equations,
+                                                       const State<double>& state, int first, int count) {
+  Linearization<double> d;
+  d.resize(system.patterns());
+  equations->linearize_rates(state, &d);
+  const Sparsity& G_z = system.patterns().rate;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < count; ++row)
+    for (int e = G_z.first(first + row); e < G_z.first(first + row + 1); ++e)
+      if (G_z.column(e) < system.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[static_cast<std::size_t>(e)]);
+  return entries;
+}
+
+SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state) {
+  const Layout& layout = system.layout();
+  const std::vector<Eigen::Triplet<double>> entries =
+      acceleration_block(system, equations, state, layout.lambda_column(0), layout.constraints());
+  SparseMatrix Phi_q(layout.constraints(), layout.n);
+  Phi_q.setFromTriplets(entries.begin(), entries.end());
+  return Phi_q;
+}
 
 void require_determined_motion(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly,
                                Equations<double>* equations) {

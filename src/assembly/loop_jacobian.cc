@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "math/to_index.h"
+#include "equations/compiled_system.h"
+#include "equations/equations.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

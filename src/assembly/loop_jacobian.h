@@ -5,11 +5,15 @@
 #include <string_view>
 #include <vector>
 
-#include "equations/equations.h"
 #include "sparse/least_squares.h"
 #include "system/tree_kinematics.h"
 
 namespace codesign {
+
+class CompiledSystem;
+
+template <class T>
+class Equations;
 
 /// Factors of the rows and columns of a LoopJacobian that remove units and the loop's size: afterwards, turning by 1 rad and sliding by the
 /// loop's longest lever have the same effect. Rows that are lengths are in 1/m, columns of slides in m.

@@ -5,12 +5,11 @@
 #include <optional>
 
 #include "assembly/determined_motion.h"
-#include "assembly/friction_advice.h"
+#include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
-#include "assembly/signal_warnings.h"
 #include "assembly/start_workspace.h"
 #include "mechanism/signal_catalog.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

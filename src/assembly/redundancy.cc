@@ -6,9 +6,10 @@
 #include <map>
 #include <random>
 
-#include "assembly/acceleration_block.h"
+#include "assembly/determined_motion.h"
+#include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "math/euler_parameters.h"
-#include "math/to_index.h"
 
 namespace codesign {
 namespace {

@@ -10,6 +10,8 @@
 
 namespace codesign {
 
+class CompiledSystem;
+
 /// The redundant constraints of a mechanism at one position, and the reactions that are therefore not unique; doc/theory.md (23).
 struct Redundancy {
   std::vector<ConstraintRow> rows;        ///< redundant rows of loops and couplings, as many as the rank lacks; the others are independent

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "equations/compiled_system.h"
+#include "equations/equations.h"
 #include "math/dense.h"
 
 namespace codesign {

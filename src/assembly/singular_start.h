@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "assembly/loop_jacobian.h"
-#include "equations/equations.h"
 #include "system/tree_kinematics.h"
 
 namespace codesign {
+
+class CompiledSystem;
+
+template <class T>
+class Equations;
 
 /// Tests whether rates of the tree coordinates (or, from rest, accelerations) belong to a motion, at a position where rows of the loops
 /// depend on each other; doc/theory.md (19a). With J = Phi^l_theta of loops and couplings and L an orthonormal basis of its left null

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assembly/assembly.h"
+#include "equations/compiled_system.h"
 
 namespace codesign {
 

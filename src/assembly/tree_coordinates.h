@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "equations/equations.h"
+#include "system/system.h"
 #include "system/tree_kinematics.h"
 
 namespace codesign {
@@ -19,5 +21,22 @@ struct TreeCoordinates {
 /// a floating joint turned by 90 degrees about y), or an empty text.
 std::string tree_coordinates(const System& system, const TreeLayout& tree, const State<double>& state, const VectorX<double>& rest,
                              Equations<double>* equations, TreeCoordinates* result);
+
+/// Flags per tree coordinate (TreeLayout order): whether the study gives its position, a guess of it, or its rate.
+struct GivenStart {
+  std::vector<bool> position, guess, velocity;
+
+  GivenStart(const System& system, const TreeLayout& tree);
+};
+
+/// Sets the tree coordinates [rad or m] and rates that the study gives (guesses excepted) to their values at `parameters`; other entries of
+/// `theta` and `rate`, both of tree.size, keep their values. A given rotation of a floating joint leaves its turning coordinates at zero:
+/// JointDescription::start_rotation holds the rotation.
+template <class T>
+void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters, VectorX<T>* theta, VectorX<T>* rate);
+
+/// The extra states at the start, Study::initial_extra_states and then zeros; resized to Layout::states.
+template <class T>
+void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s);
 
 }  // namespace codesign

@@ -42,4 +42,7 @@ struct Arguments {
 /// @throws UsageError that names the word and, for an unknown option or command, the nearest known one.
 Arguments parse_arguments(const std::vector<std::string>& words);
 
+/// The help text of a command; of all commands if there is none with this name.
+std::string usage(const std::string& command = "");
+
 }  // namespace codesign::cli

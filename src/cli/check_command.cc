@@ -2,7 +2,6 @@
 #include "assembly/count_equations.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/json.h"

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <ostream>
 
-#include "excitation/trajectory_points.h"
-#include "jobs/identification_files.h"
-#include "recordings/bag_reader.h"
+#include "excitation/trajectory_basis.h"
+#include "jobs/identification_records.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 class Dispatcher;

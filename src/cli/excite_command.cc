@@ -6,15 +6,14 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/job_folder.h"
-#include "cli/output_file.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "excitation/excite.h"
 #include "jobs/csv_writer.h"
-#include "jobs/excitation_records.h"
+#include "jobs/files.h"
 #include "jobs/json.h"
-#include "jobs/whole_file.h"
+#include "jobs/recording_records.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {

@@ -7,17 +7,14 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/job_folder.h"
-#include "cli/output_file.h"
 #include "cli/progress_line.h"
-#include "cli/recordings_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "identification/identify.h"
-#include "jobs/identification_files.h"
+#include "jobs/files.h"
 #include "jobs/identification_records.h"
 #include "jobs/json.h"
 #include "jobs/trial_lines.h"
-#include "jobs/whole_file.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {

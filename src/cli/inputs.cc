@@ -2,14 +2,37 @@
 #include "cli/inputs.h"
 
 #include <filesystem>
+#include <system_error>
 
 #include "description/named_file.h"
 #include "description/tuned_parameters.h"
-#include "jobs/inputs.h"
+#include "jobs/job_files.h"
 #include "jobs/saved_result.h"
 #include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign::cli {
+
+void open_output(const std::string& path, const std::string& option, std::ofstream* file) {
+  file->open(path, std::ios::binary);
+  if (!*file)
+    throw InputError({{path, 0}, option, "the file cannot be written", path, "a path in a folder that exists and may be written to"});
+}
+
+void require_no_input(const std::string& path, const std::string& option, const std::string& what, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(input, error) && std::filesystem::equivalent(path, input, error))
+      throw InputError({{input, 0}, option, what + " would replace this file, which is read", path, "the path of another file"});
+  }
+}
+
+void make_folder(const std::string& path, const std::string& option) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path))
+    throw InputError({{path, 0}, option, "the folder cannot be created", path, "a folder that exists or can be created"});
+}
 
 Problem load(const Arguments& arguments, const Console* console) {
   Inputs inputs;

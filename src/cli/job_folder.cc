@@ -7,10 +7,9 @@
 #include <filesystem>
 
 #include "cli/inputs.h"
-#include "cli/output_file.h"
+#include "jobs/files.h"
 #include "jobs/json.h"
 #include "jobs/result_folder.h"
-#include "jobs/whole_file.h"
 
 namespace codesign::cli {
 namespace {

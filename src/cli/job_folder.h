@@ -9,12 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/json_output.h"
 #include "cli/report.h"
-#include "jobs/best_record.h"
 #include "jobs/csv_writer.h"
+#include "jobs/files.h"
 #include "jobs/journal.h"
-#include "jobs/lock_file.h"
+#include "jobs/result_folder.h"
 #include "mechanism_codesign/optimization.h"
 #include "problem/load_problem.h"
 

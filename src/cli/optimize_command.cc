@@ -9,13 +9,12 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "engine/dispatcher.h"
-#include "jobs/ensemble_records.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
+#include "jobs/shown_signals.h"
 #include "jobs/trial_lines.h"
-#include "jobs/watched_records.h"
 #include "optimization/search_hooks.h"
-#include "optimization/search_warnings.h"
+#include "optimization/search_results.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {

@@ -1,17 +1,22 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "cli/console.h"
-#include "cli/json_output.h"
-#include "jobs/failure.h"
-#include "jobs/sentences.h"
+#include "jobs/files.h"
+#include "jobs/json.h"
+#include "jobs/json_records.h"
+#include "jobs/trial_lines.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign::cli {
+
+/// Writes to_text(object) and flushes.
+inline void print(const Json& object, std::ostream& out) { out << to_text(object) << std::flush; }
 
 /// The stream for progress: the error stream, or with --quiet one that drops everything.
 std::ostream& progress_of(const Arguments& arguments, const Console& console);

@@ -4,11 +4,11 @@
 #include <cerrno>
 #include <string>
 
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/hand_over.h"
-#include "cli/json_output.h"
-#include "cli/usage.h"
-#include "jobs/output_error.h"
+#include "cli/report.h"
+#include "jobs/files.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/version.h"
 

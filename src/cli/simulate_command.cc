@@ -3,10 +3,9 @@
 #include <fstream>
 #include <optional>
 
-#include "assembly/signal_warnings.h"
+#include "assembly/reaction_advice.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/csv_writer.h"

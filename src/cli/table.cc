@@ -2,6 +2,11 @@
 #include "cli/table.h"
 
 #include <algorithm>
+#include <filesystem>
+
+#include "identification/effort_doubts.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 
@@ -19,6 +24,36 @@ void Table::print(std::ostream& out) const {
     }
     out << '\n';
   }
+}
+
+StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
+  const std::string folder = std::filesystem::absolute(problem.study_text().name).parent_path().string();
+  return load_recordings(*problem.study().identification, problem.robot(), folder, console.bags, warnings);
+}
+
+std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
+  std::vector<RecordingSummary> summaries;
+  const std::optional<IdentificationDescription>& identification = problem.study().identification;
+  if (!identification) return summaries;
+  const StudyRecordings recordings = read_recordings(problem, console, warnings);
+  for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})
+    for (const JointRecording& recording : *list)
+      summaries.push_back(summary_of(recording, measured_motion(recording, identification->filter, warnings)));
+  append(warnings_of(*identification, find_effort_doubts(problem, recordings.data)), warnings);
+  return summaries;
+}
+
+void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out) {
+  if (recordings.empty()) return;
+  constexpr int kDigits = 6;
+  Table table;
+  table.add({"recording", "samples", "rate [Hz]", "from [s]", "to [s]", "fitted"});
+  for (const RecordingSummary& summary : recordings)
+    table.add({summary.element, std::to_string(summary.samples), readable(summary.rate, kDigits), readable(summary.from, kDigits),
+               readable(summary.to, kDigits), std::to_string(summary.fitted)});
+  table.print(out);
+  for (const RecordingSummary& summary : recordings)
+    out << summary.element << ": " << list_names(summary.measured) << " (" << summary.file << ")\n";
 }
 
 }  // namespace codesign::cli

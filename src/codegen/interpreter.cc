@@ -8,8 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "codegen/operate.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

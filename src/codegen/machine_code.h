@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "codegen/place.h"
+#include "codegen/value_program.h"
 
 namespace codesign {
 

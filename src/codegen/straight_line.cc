@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "codegen/machine_code.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 #endif
 
 namespace codesign {

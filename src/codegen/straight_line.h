@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "codegen/place.h"
+#include "codegen/value_program.h"
 
 namespace codesign {
 

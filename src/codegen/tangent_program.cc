@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "codegen/partials.h"
-#include "math/to_index.h"
+#include "codegen/derivatives.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "codegen/operate.h"
+#include "codegen/interpreter.h"
 
 namespace codesign {
 namespace {

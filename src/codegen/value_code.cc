@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "codegen/machine_code.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 #endif
 
 namespace codesign {

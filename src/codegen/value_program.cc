@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

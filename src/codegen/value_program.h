@@ -3,10 +3,19 @@
 
 #include <vector>
 
-#include "codegen/place.h"
 #include "codegen/recording.h"
 
 namespace codesign {
+
+/// The place of a number: an index into one of the arrays that compiled code works on. Absent if array < 0.
+struct Place {
+  int array = -1, index = 0;
+
+  friend bool operator==(const Place& x, const Place& y) { return x.array == y.array && x.index == y.index; }
+};
+
+/// The number of arrays that compiled code can address.
+constexpr int kCodeArrays = 11;
 
 /// Which values of a recording to compute, where to read its leaves and where to write its outputs.
 struct ValueTask {

@@ -6,11 +6,40 @@
 #include <vector>
 
 #include "codegen/traced.h"
-#include "control/waypoint_piece.h"
 #include "description/reference.h"
 #include "math/scalar.h"
 
 namespace codesign {
+
+/// A way-point: value, rate and second rate.
+template <class T>
+struct Knot {
+  T position{0.0}, velocity{0.0}, acceleration{0.0};
+};
+
+/// Coefficients c_k of the polynomial sum c_k tau^k from one way-point to the next, `duration` [s] later; theory (C2).
+template <class T>
+std::array<T, 6> waypoint_polynomial(Interpolation interpolation, const Knot<T>& from, const Knot<T>& to, double duration) {
+  const T h(duration), zero(0.0), rise = to.position - from.position;
+  if (interpolation == Interpolation::kLinear) return {from.position, rise / h, zero, zero, zero, zero};
+  if (interpolation == Interpolation::kCubic)
+    return {from.position,
+            from.velocity,
+            (T(3.0) * rise / h - T(2.0) * from.velocity - to.velocity) / h,
+            (from.velocity + to.velocity - T(2.0) * rise / h) / (h * h),
+            zero,
+            zero};
+  // D, V, A of theory (C2): the errors of the Taylor polynomial of the start at the end, in position, velocity and acceleration.
+  const T half = T(0.5) * from.acceleration;
+  const T D = rise - h * (from.velocity + h * half), V = h * (to.velocity - from.velocity - h * from.acceleration),
+          A = T(0.5) * h * h * (to.acceleration - from.acceleration), h3 = h * h * h;
+  return {from.position,
+          from.velocity,
+          half,
+          (T(10.0) * D - T(4.0) * V + A) / h3,
+          (T(7.0) * V - T(15.0) * D - T(2.0) * A) / (h3 * h),
+          (T(6.0) * D - T(3.0) * V + A) / (h3 * h * h)};
+}
 
 /// A function of time and its first three time derivatives at one instant.
 template <class T>
@@ -62,6 +91,40 @@ class Reference<Traced> {
   Reference() = default;
   Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) { set(description, parameters); }
   void set(const ReferenceDescription& description, const std::vector<Traced>& parameters);
+
+  ReferenceMotion<Traced> at(double) const { return motion_; }
+
+ private:
+  ReferenceMotion<Traced> motion_;
+};
+
+/// A shaped input u(t) = sum_k c_k B_k(t) for one design; theory (C8). T as for Reference.
+template <class T>
+class ShapedInput {
+ public:
+  ShapedInput() = default;
+  /// @param basis must outlive the object.
+  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters) { set(basis, parameters); }
+  /// Becomes what the constructor makes; uses its memory again.
+  void set(const BasisDescription& basis, const std::vector<T>& parameters);
+
+  const std::vector<T>& coefficients() const { return coefficients_; }
+
+  /// u and u' at time t [s]; higher derivatives are not computed (zero).
+  ReferenceMotion<T> at(double t) const;
+
+ private:
+  const BasisDescription* basis_ = nullptr;
+  std::vector<T> coefficients_;
+};
+
+/// For recorded equations: inputs that are supplied for each instant (Recording::timed()).
+template <>
+class ShapedInput<Traced> {
+ public:
+  ShapedInput() = default;
+  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) { set(basis, parameters); }
+  void set(const BasisDescription& basis, const std::vector<Traced>& parameters);
 
   ReferenceMotion<Traced> at(double) const { return motion_; }
 

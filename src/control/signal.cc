@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mechanism/signal_catalog.h"
+#include "mechanism/topology.h"
 
 namespace codesign {
 namespace {

@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "description/robot.h"
-#include "description/study.h"
-#include "mechanism/topology.h"
-
 namespace codesign {
+
+struct ControllerDescription;
+struct SignalDescription;
+struct Study;
+
+struct RobotDescription;
+
+struct Topology;
 
 /// The quantity that one term of a signal reads; doc/study.md describes them.
 enum class SignalKind {

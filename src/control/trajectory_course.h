@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "control/waypoint_piece.h"
-#include "description/live_function.h"
+#include "control/reference.h"
+#include "description/reference.h"
 
 namespace codesign {
 

@@ -3,15 +3,82 @@
 
 #include <complex>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "description/expression_range.h"
-#include "math/short_vector.h"
-#include "math/span.h"
+#include "math/arrays.h"
 
 namespace codesign {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A function that expressions may call. All functions propagate a complex step exactly to first order; those that are not analytic (abs,
+/// min, max, floor, ...) branch by the real part.
+struct ExpressionFunction {
+  using Law = std::complex<double> (*)(In<std::complex<double>> arguments);
+  const char* name;
+  int count;  ///< number of arguments; -1: one or more
+  Law law;
+};
+
+/// All functions. The table never changes, so that indices into it stay valid.
+const std::vector<ExpressionFunction>& expression_function_table();
+
+/// Index of a function, -1 if there is none of this name.
+int find_expression_function(const std::string& name);
+
+/// z[0] to the power of z[1].
+std::complex<double> expression_power(In<std::complex<double>> z);
+
+/// a / b. Real numbers are divided as doubles, infinities and NaN included.
+std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);
+
+/// One operation of a stack machine on numbers. Operators replace their operands on the stack by the result; comparisons give 1 or 0.
+struct ExpressionStep {
+  enum class Code : unsigned char {
+    kConstant,  ///< pushes `number`
+    kVariable,  ///< pushes variable `index`
+    kNegate,
+    kAdd,
+    kSubtract,
+    kMultiply,
+    kDivide,
+    kPower,
+    kCall,  ///< replaces the topmost `count` numbers by function `index` of them
+    kLess,
+    kLessOrEqual,
+    kGreater,
+    kGreaterOrEqual,
+    kEqual,
+    kNotEqual,
+    kJumpUnless,  ///< removes the topmost number and goes to step `index` if it is 0
+    kJump         ///< goes to step `index`
+  };
+  Code code = Code::kConstant;
+  int index = 0;
+  int count = 0;
+  double number = 0.0;
+};
+
+using ExpressionSteps = std::vector<ExpressionStep>;
+
+/// An upper bound of the numbers on the stack at any time.
+int stack_size(const ExpressionSteps& steps);
+
+/// Executes the steps and returns the result. @param variables their values, by index. @param stack memory for stack_size() numbers.
+std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables, Out<std::complex<double>> stack);
+
+/// Numbers from `lower` to `upper`, both included; by default all.
+struct ValueRange {
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+};
+
+/// A range that contains every value of an expression whose variables lie in given ranges, by interval arithmetic (Moore 1966) on sums,
+/// differences, products and quotients. With any other operation the range is all numbers. Rounding is not taken into account.
+/// @param variables by index.
+ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
 
 /// The parameters that an expression may use, as functions, so that no expression needs a copy of all names.
 struct ExpressionScope {

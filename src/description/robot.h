@@ -7,14 +7,26 @@
 #include <string>
 #include <vector>
 
-#include "description/friction.h"
 #include "description/laws.h"
 #include "description/quantity.h"
+#include "forces/friction_law.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
+
+/// `<codesign:friction>`. Numbers that the model does not give keep the `standard` of their rule; lengths and arms are then zero.
+struct FrictionDescription : FrictionNumbers<Quantity> {
+  FrictionDescription() {
+    visit_friction_numbers([](const FrictionNumberRule& rule, Quantity& number) { number = Quantity(rule.standard); }, this);
+  }
+
+  FrictionModel model = FrictionModel::kBrownMcPhee;
+  bool is_directional = false;                           ///< a number for motion against the axis is given; else they are unused
+  std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
+  SourceLocation where;
+};
 
 /// A pose in URDF's `<origin>`.
 struct PoseDescription {

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <set>
 
+#include "text/number_text.h"
+
 namespace codesign {
 namespace {
 
@@ -122,6 +124,20 @@ class SignalParser {
 
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element) {
   return {text, SignalParser(text, where, element).parse(), where};
+}
+
+bool is_equality(const WatchedSignal& watched) {
+  if (watched.role != WatchedSignal::Role::kFinal || !watched.lower || !watched.upper) return false;
+  return watched.lower->is_constant() && watched.upper->is_constant() && watched.lower->nominal() == watched.upper->nominal();
+}
+
+void require_ordered_bounds(const WatchedSignal& watched, const std::vector<double>& parameters) {
+  if (!watched.lower || !watched.upper) return;
+  const double lower = watched.lower->at(parameters), upper = watched.upper->at(parameters);
+  const bool equal_allowed = watched.role == WatchedSignal::Role::kFinal;
+  if (lower < upper || (lower == upper && equal_allowed)) return;
+  throw InputError({watched.where, watched.element, "the lower bound must be less than the upper one",
+                    to_decimal(lower) + ", " + to_decimal(upper), equal_allowed ? "lower <= upper" : "lower < upper"});
 }
 
 }  // namespace codesign

@@ -1,9 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "description/quantity.h"
+#include "description/reference.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -26,5 +29,32 @@ struct SignalDescription {
 /// Splits `a/position/x - b/position/x` into terms. Names are not checked here; see check_signal().
 /// @throws InputError if the text does not have the form of a signal.
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element);
+
+/// A signal whose extreme values within an interval of time count: in a constraint (`path:`, `final:`) or in the objective
+/// (`objective.peak`); theory (21a).
+struct WatchedSignal {
+  enum class Role {
+    kPath,   ///< lower <= signal - reference <= upper at all times from `after` to `before`
+    kFinal,  ///< the same at the end of the study; equal bounds are an equality
+    kPeak    ///< the objective contains weight * max |signal - reference| over the interval
+  };
+
+  Role role = Role::kPath;
+  SignalDescription signal;
+  ReferenceDescription reference;        ///< 0 unless given
+  std::optional<Quantity> lower, upper;  ///< of kPath and kFinal, at least one of them; in the unit of the signal
+  std::optional<double> tolerance;       ///< violation of a bound that counts as met, positive; empty: from the range of the signal
+  double weight = 1.0;                   ///< of kPeak, positive
+  double after = 0.0, before = 0.0;      ///< the interval [s]; for kFinal both are the duration
+  std::string element;                   ///< its place in the study, for messages: `path[0]`
+  SourceLocation where;
+};
+
+/// Whether a watched signal must have one value: `final:` with equal bounds, both constant.
+bool is_equality(const WatchedSignal& watched);
+
+/// Checks the order of the bounds at the start of a search: lower < upper, or lower <= upper for kFinal. @param parameters all named ones.
+/// @throws InputError
+void require_ordered_bounds(const WatchedSignal& watched, const std::vector<double>& parameters);
 
 }  // namespace codesign

@@ -8,17 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "description/basis.h"
 #include "description/control_realization.h"
 #include "description/ensemble.h"
 #include "description/excitation.h"
-#include "description/hardware.h"
 #include "description/identification.h"
 #include "description/quantity.h"
 #include "description/reference.h"
 #include "description/signal.h"
 #include "description/solver_options.h"
-#include "description/watched_signal.h"
 #include "forces/control_law.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimizer_options.h"

@@ -1,8 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "elements/loads.h"
 #include "elements/state_view.h"
-#include "elements/workspace.h"
 
 namespace codesign {
 
@@ -47,6 +47,72 @@ void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Ph
   }
   (*Phi)[view.layout.norm_row(b)] = 0.5 * (square - 1.0);
   (*Phi_rate)[view.layout.norm_row(b)] = rate;
+}
+
+// Rotors of actuators, theory (9a): the inertia forces of their spin, which is not part of the inertia of the bodies that carry them. The
+// carrier is the body that carries the rotor; on the ground it contributes nothing.
+
+/// The rotor's constants and the motion of its carrier about the rotor's axis u; theory (9a).
+template <class T>
+struct RotorMotion {
+  Vector3<T> axis;                                 ///< u, in the carrier's axes
+  T ratio{1.0}, coupling{0.0};                     ///< n [- or rad/m], n J_r [kg m^2 or kg m]
+  T carrier_rate{0.0}, carrier_acceleration{0.0};  ///< omega . u [rad/s], omega' . u [rad/s^2]
+  Vector3<T> swing = Vector3<T>::Zero();           ///< omega x u, in the carrier's axes
+};
+
+/// Evaluates RotorMotion at the loaded state.
+template <class T>
+RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
+  const JointDynamicsConstants<T>& d = view.dynamics(rotor.pair, rotor.element);
+  const BodyKinematics<T>& carrier = view.body(rotor.body);
+  RotorMotion<T> m;
+  m.axis = d.rotor_axis;
+  m.ratio = d.gear_ratio;
+  m.coupling = d.gear_ratio * d.rotor_inertia;
+  if (carrier.at_rest) return m;
+  if (carrier.in_forest) {
+    m.carrier_rate = dot<T>(m.axis, carrier.omega);
+    m.carrier_acceleration = dot<T>(m.axis, carrier.alpha);
+    m.swing = cross<T>(carrier.omega, m.axis);
+    return m;
+  }
+  m.carrier_rate = T(2.0) * dot<T>(m.axis, body_rate(carrier.p, carrier.pd));
+  m.carrier_acceleration = T(2.0) * dot<T>(m.axis, body_rate(carrier.p, carrier.pdd));
+  m.swing = T(2.0) * cross<T>(body_rate(carrier.p, carrier.pd), m.axis);
+  return m;
+}
+
+/// The kinetic energy that the spin adds, n J_r theta' (n theta'/2 + u . omega_c) [J].
+template <class T>
+T rotor_energy(const StateView<T>& view, const Rotor& rotor) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  const T rate = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kRate).rate;
+  return m.coupling * rate * (T(0.5) * m.ratio * rate + m.carrier_rate);
+}
+
+/// L = n J_r (n theta'' + u . omega_c'), the load of the rotor along the joint's coordinate [N or N m], positive against it.
+template <class T>
+T rotor_load(const StateView<T>& view, const Rotor& rotor) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  return m.coupling *
+         (m.ratio * view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration).acceleration + m.carrier_acceleration);
+}
+
+/// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to the rows of the carrier's p.
+template <class T>
+void rotor_residual(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, VectorX<T>* G) {
+  const RotorMotion<T> m = rotor_motion(view, rotor);
+  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration);
+  const T load = rotor_load(view, rotor);
+  add_coordinate_load(view, workspace, rotor.pair, rotor.element, joint.J, load, G);
+  if (rotor.body < 0) return;
+  const Vector3<T> moment = m.coupling * (joint.acceleration * m.axis + joint.rate * m.swing);
+  if (!view.layout.is_free(rotor.body)) {
+    workspace->own[to_index(rotor.body)].moment += moment;
+    return;
+  }
+  G->template segment<4>(view.layout.column(rotor.body) + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
 }
 
 }  // namespace codesign

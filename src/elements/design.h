@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "control/controller_constants.h"
+#include "control/controller.h"
 #include "control/reference.h"
 #include "joints/pair_rows.h"
 #include "mechanism/constants.h"

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "elements/controller_states.h"
+#include "elements/controllers.h"
 #include "elements/joint_load.h"
 
 namespace codesign {

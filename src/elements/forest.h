@@ -5,12 +5,9 @@
 
 #include "elements/body.h"
 #include "elements/contact.h"
-#include "elements/coupling.h"
 #include "elements/joint_load.h"
-#include "elements/link_load.h"
+#include "elements/loads.h"
 #include "elements/pair.h"
-#include "elements/rotor.h"
-#include "elements/spring.h"
 #include "elements/state_view.h"
 
 namespace codesign {

@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "elements/bristle.h"
+#include "elements/contact.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
-#include "forces/directional_friction.h"
+#include "forces/friction_curves.h"
 
 namespace codesign {
 

@@ -2,13 +2,11 @@
 #pragma once
 
 #include "elements/controllers.h"
-#include "elements/coordinate_load.h"
 #include "elements/joint_friction.h"
+#include "elements/loads.h"
 #include "elements/state_view.h"
-#include "elements/workspace.h"
-#include "forces/brown_mcphee.h"
-#include "forces/joint_stop.h"
-#include "forces/saturation.h"
+#include "forces/actuation.h"
+#include "forces/compliance.h"
 
 namespace codesign {
 

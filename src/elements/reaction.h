@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "elements/body.h"
 #include "elements/contact.h"
 #include "elements/joint_load.h"
-#include "elements/rotor.h"
 #include "elements/state_view.h"
-#include "joints/pair_motion.h"
+#include "joints/pair_rows.h"
 
 namespace codesign {
 

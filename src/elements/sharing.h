@@ -3,7 +3,6 @@
 
 #include "elements/pair.h"
 #include "elements/state_view.h"
-#include "elements/workspace.h"
 
 namespace codesign {
 

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "engine/mpi_engine.h"
-#include "engine/serial_engine.h"
 #include "engine/thread_engine.h"
+#include "text/cancel.h"
 
 namespace codesign {
 
@@ -33,6 +34,41 @@ std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, std:
   const auto workers = static_cast<int>(std::min<std::int64_t>(options.workers > 0 ? options.workers : processors, most_useful));
   if (options.kind != EngineKind::kThreads || workers <= 1) return std::make_unique<SerialEngine>();
   return std::make_unique<ThreadEngine>(workers);
+}
+
+RememberingEngine::RememberingEngine(std::unique_ptr<EvaluationEngine> engine, EngineRecords records)
+    : engine_(std::move(engine)), records_(std::move(records)) {}
+
+std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) {
+  std::vector<Evaluation> results(tasks.size());
+  std::vector<EvaluationTask> unknown;
+  std::vector<std::size_t> places;
+  // A cancelled job ends even if its memory has results for further tasks.
+  const bool looks_up = records_.memory && !is_set(cancel);
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    if (std::optional<Evaluation> known = looks_up ? records_.memory->find(tasks[k]) : std::nullopt) {
+      results[k] = std::move(*known);
+      if (records_.counted) records_.counted(false);
+      continue;
+    }
+    unknown.push_back(tasks[k]);
+    unknown.back().finished = [this, &task = tasks[k]](const Evaluation& evaluation) { note(task, evaluation); };
+    places.push_back(k);
+  }
+  std::vector<Evaluation> computed = engine_->evaluate(unknown, cancel);
+  for (std::size_t k = 0; k < computed.size(); ++k) results[places[k]] = std::move(computed[k]);
+  return results;
+}
+
+void RememberingEngine::note(const EvaluationTask& task, const Evaluation& evaluation) const {
+  if (evaluation.status.is_interrupted()) return;
+  if (records_.memory) records_.memory->keep(task, evaluation);
+  if (records_.counted) records_.counted(true);
+}
+
+std::unique_ptr<EvaluationEngine> with_records(std::unique_ptr<EvaluationEngine> engine, EngineRecords records) {
+  if (!records.memory && !records.counted) return engine;
+  return std::make_unique<RememberingEngine>(std::move(engine), std::move(records));
 }
 
 }  // namespace codesign

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "description/ensemble.h"
@@ -46,5 +47,42 @@ std::unique_ptr<EvaluationEngine> make_engine(const Problem& problem, std::int64
 /// Makes the engine within one process that `engine:` of a study requests. @param most_useful the largest number of evaluations that wait
 /// at the same time; the engine has no more workers than that.
 std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options, std::int64_t most_useful);
+
+/// Keeps the results of finished tasks, so that they are not computed again; an earlier process may have computed them. Thread-safe.
+class EvaluationMemory {
+ public:
+  virtual ~EvaluationMemory() = default;
+  /// The result of a task with the same system, the same bits of all parameters, and the same derivatives; std::nullopt if there is none.
+  virtual std::optional<Evaluation> find(const EvaluationTask& task) = 0;
+  /// Called with each result as soon as it is available, in the thread that computed it. Must not throw.
+  virtual void keep(const EvaluationTask& task, const Evaluation& evaluation) = 0;
+};
+
+/// What a job adds to its engine. All members may be null.
+struct EngineRecords {
+  std::shared_ptr<EvaluationMemory> memory;
+  /// Called for each finished evaluation, from any thread: true if it was computed, false if the memory had its result.
+  std::function<void(bool)> counted = nullptr;
+  Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
+};
+
+/// An engine with a memory: it computes only the evaluations that the memory does not have, and stores each new result in the memory as
+/// soon as it is available. Cancelled evaluations are neither stored nor counted.
+class RememberingEngine final : public EvaluationEngine {
+ public:
+  RememberingEngine(std::unique_ptr<EvaluationEngine> engine, EngineRecords records);
+
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override;
+  int workers() const override { return engine_->workers(); }
+
+ private:
+  void note(const EvaluationTask& task, const Evaluation& evaluation) const;
+
+  std::unique_ptr<EvaluationEngine> engine_;
+  EngineRecords records_;
+};
+
+/// The engine itself if there is nothing to record.
+std::unique_ptr<EvaluationEngine> with_records(std::unique_ptr<EvaluationEngine> engine, EngineRecords records);
 
 }  // namespace codesign

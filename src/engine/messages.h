@@ -9,7 +9,7 @@
 
 #include "engine/bytes.h"
 #include "mechanism_codesign/gradient.h"
-#include "problem/portable_problem.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 

@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "engine/mpi_engine.h"
 
-#include "engine/worker.h"
+#include "engine/thread_engine.h"
 
 namespace codesign {
 

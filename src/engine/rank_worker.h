@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "engine/messages.h"
-#include "engine/poll_pause.h"
+#include "engine/thread_engine.h"
 #include "engine/transport.h"
-#include "engine/worker.h"
 
 namespace codesign {
 

@@ -1,10 +1,42 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 
 namespace codesign {
+
+/// The pause between two polls for messages. MPI cannot sleep until a message arrives, and polling without a pause would occupy a
+/// processor. The pause is an eighth of the time since the last message: it delays a message by at most an eighth of the wait, and an idle
+/// process polls rarely.
+class PollPause {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Call it when a message has arrived.
+  void restart(Clock::time_point now) { since_ = now; }
+  Clock::duration next(Clock::time_point now, Clock::duration most) const {
+    return std::clamp<Clock::duration>((now - since_) / 8, std::chrono::microseconds(20), most);
+  }
+
+ private:
+  Clock::time_point since_ = Clock::now();
+};
+
+/// How long the ranks of a job wait for each other.
+struct RankTimes {
+  using Duration = PollPause::Clock::duration;
+  Duration first_sign = std::chrono::seconds(60);  ///< limit for the first message of a rank
+  Duration silence = std::chrono::seconds(15);     ///< silence after which a worker counts as lost
+  Duration sign = std::chrono::seconds(3);         ///< period of signs of life while there is no other message to send
+  Duration orphaned = std::chrono::seconds(30);    ///< silence of rank 0, after which a worker ends
+  Duration goodbye = std::chrono::seconds(2);      ///< limit for the answers of all workers to the end of the job
+  /// Limit for the answers of all workers to the ping after a cancel. It is short, since mpirun ends a job within a second after one of its
+  /// ranks was killed.
+  Duration answer = std::chrono::milliseconds(300);
+};
 
 /// A message with the rank it comes from.
 struct Envelope {

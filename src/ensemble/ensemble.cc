@@ -6,7 +6,7 @@
 #include <string>
 
 #include "equations/compiled_system.h"
-#include "math/triangular_root.h"
+#include "math/dense.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
 

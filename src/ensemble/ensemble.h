@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/remembering_engine.h"
+#include "engine/evaluation_engine.h"
 #include "ensemble/scenario.h"
 
 namespace codesign {

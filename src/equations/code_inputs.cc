@@ -4,9 +4,9 @@
 #include <complex>
 #include <iterator>
 
-#include "codegen/operate.h"
+#include "codegen/interpreter.h"
 #include "equations/transposed_code.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

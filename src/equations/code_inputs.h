@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "control/reference.h"
-#include "control/shaped_input.h"
-#include "equations/design_products.h"
 #include "equations/equation_code.h"
+#include "equations/transposed_code.h"
 #include "math/lanes.h"
 
 namespace codesign {

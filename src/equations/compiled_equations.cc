@@ -10,7 +10,7 @@
 #include "equations/code_inputs.h"
 #include "equations/compressed_jacobian.h"
 #include "equations/transposed_code.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

@@ -6,14 +6,15 @@
 #include <memory>
 #include <vector>
 
-#include "equations/compiled_system.h"
+#include "description/expression.h"
 #include "equations/equation_function.h"
-#include "math/line_vector.h"
-#include "math/span.h"
+#include "math/arrays.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
 
 namespace codesign {
+
+class CompiledSystem;
 
 class CompressedJacobian;
 class EquationCode;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "equations/equation_variants.h"
-#include "equations/record_patterns.h"
+#include "equations/recorded_equations.h"
 
 namespace codesign {
 

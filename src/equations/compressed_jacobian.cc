@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "equations/compiled_equations.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "math/lanes.h"
-#include "math/line_vector.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
 

@@ -9,7 +9,7 @@
 #include "elements/energy.h"
 #include "equations/recorded_equations.h"
 #include "equations/transposed_code.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

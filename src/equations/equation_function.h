@@ -5,6 +5,9 @@
 
 namespace codesign {
 
+/// The two sums of the objective, theory (21): the integrand g and the terminal terms w.
+enum class ObjectivePart { kIntegral, kTerminal };
+
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
   kMotion,      ///< kResidual, kConstraintErrors, and what no other part has: kRates, kAccelerations and kLinearization

@@ -3,8 +3,37 @@
 
 #include "codegen/number_types.h"
 #include "elements/sampled_control.h"
+#include "equations/compiled_system.h"
+#include "equations/formulas.h"
 
 namespace codesign {
+
+template <class T>
+Equations<T>::Equations(const CompiledSystem& system)
+    : system_(system), compiled_(system), signals_(system, EquationPart::kSignals), start_(system, EquationPart::kStart) {
+  if constexpr (kIsReal) formulas_ = std::make_unique<Formulas<T>>(system);
+}
+
+template <class T>
+Equations<T>::Equations(Equations&&) noexcept = default;
+template <class T>
+Equations<T>::~Equations() = default;
+
+template <class T>
+void Equations<T>::set_design(const std::vector<T>& parameters) {
+  for (CompiledEquations<T>* part : {&compiled_, &signals_, &start_}) part->set_design(parameters);
+  if constexpr (kIsReal) formulas_->set_design(parameters);
+}
+
+template <>
+const Constants<double>& Equations<double>::constants() const {
+  return formulas_->view().design.constants;
+}
+
+template <>
+const PairRows<double>& Equations<double>::rows(int pair) const {
+  return formulas_->view().design.rows[static_cast<std::size_t>(pair)];
+}
 
 // With double, these few values per step come from the formulas: to record them, and to make their code, would take longer than most runs.
 
@@ -18,7 +47,7 @@ void Equations<T>::linearize_rates(const State<T>& state, Linearization<T>* deri
 template <class T>
 T Equations<T>::terminal(const State<T>& state) {
   if constexpr (kIsReal)
-    return formulas_.terminal(state);
+    return formulas_->terminal(state);
   else
     return signals_.signal(EquationFunction::kTerminal, state);
 }
@@ -26,7 +55,7 @@ T Equations<T>::terminal(const State<T>& state) {
 template <class T>
 T Equations<T>::watched(std::size_t k, const State<T>& state) {
   if constexpr (kIsReal)
-    return formulas_.watched(k, state);
+    return formulas_->watched(k, state);
   else
     return signals_.signal(watched_function(k), state);
 }
@@ -35,7 +64,7 @@ template <class T>
 void Equations<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<T>* residuals) {
   const bool terminal = part == ObjectivePart::kTerminal;
   if constexpr (kIsReal)
-    formulas_.residuals(part, state, residuals);
+    formulas_->residuals(part, state, residuals);
   else
     signals_.residuals(terminal ? EquationFunction::kTerminalResiduals : EquationFunction::kIntegralResiduals, state,
                        (terminal ? system_.terminal() : system_.integral()).size(), residuals);
@@ -44,7 +73,7 @@ void Equations<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<
 template <class T>
 void Equations<T>::track_turns(State<T>* state) {
   if constexpr (kIsReal)
-    formulas_.track_turns(state);
+    formulas_->track_turns(state);
   else
     start_.track_turns(state);
 }
@@ -52,18 +81,18 @@ void Equations<T>::track_turns(State<T>* state) {
 template <class T>
 T Equations<T>::sample(int controller, bool is_first, State<T>* state) {
   if constexpr (kIsReal)
-    return formulas_.sample(controller, is_first, &state->s);
+    return formulas_->sample(controller, is_first, &state->s);
   else
     return start_.sample(controller, is_first, state);
 }
 
 template <class T>
 void Equations<T>::begin_controllers(State<T>* state) {
-  if constexpr (kIsReal) formulas_.load(*state);
+  if constexpr (kIsReal) formulas_->load(*state);
   const auto sampled = [&](int controller, bool is_first) { return sample(controller, is_first, state); };
   const auto error = [&](int controller) {
     if constexpr (kIsReal)
-      return formulas_.controller_error(controller);
+      return formulas_->controller_error(controller);
     else
       return start_.controller_error(controller, *state);
   };
@@ -72,19 +101,12 @@ void Equations<T>::begin_controllers(State<T>* state) {
 
 template <class T>
 void Equations<T>::jump(const std::vector<ControlEvent>& events, State<T>* state) {
-  if constexpr (kIsReal) formulas_.load(*state);
+  if constexpr (kIsReal) formulas_->load(*state);
   const auto sampled = [&](int controller, bool is_first) { return sample(controller, is_first, state); };
   for (const ControlEvent& event : events) jump_controller(system_, event, sampled, &state->s);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                       \
-  template void Equations<T>::linearize_rates(const State<T>&, Linearization<T>*);    \
-  template T Equations<T>::terminal(const State<T>&);                                 \
-  template T Equations<T>::watched(std::size_t, const State<T>&);                     \
-  template void Equations<T>::residuals(ObjectivePart, const State<T>&, VectorX<T>*); \
-  template void Equations<T>::track_turns(State<T>*);                                 \
-  template void Equations<T>::begin_controllers(State<T>*);                           \
-  template void Equations<T>::jump(const std::vector<ControlEvent>&, State<T>*);
+#define CODESIGN_INSTANTIATE(T) template class Equations<T>;
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 

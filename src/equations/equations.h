@@ -1,15 +1,21 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <type_traits>
 #include <vector>
 
 #include "control/control_clock.h"
 #include "equations/compiled_equations.h"
-#include "equations/compiled_system.h"
-#include "equations/formulas.h"
 
 namespace codesign {
+
+class CompiledSystem;
+
+template <class T>
+class Formulas;
+template <class T>
+struct Constants;
 
 /// The equations of motion of one design, doc/theory.md (14), as integrators and sensitivities use them: what was recorded of the formulas
 /// for this mechanism. T: double, std::complex<double> or Lanes<N>. With double the formulas themselves serve observers (formulas()).
@@ -18,22 +24,16 @@ template <class T>
 class Equations {
  public:
   /// @param system must outlive the equations.
-  explicit Equations(const CompiledSystem& system)
-      : system_(system),
-        formulas_(system),
-        compiled_(system),
-        signals_(system, EquationPart::kSignals),
-        start_(system, EquationPart::kStart) {}
+  explicit Equations(const CompiledSystem& system);
+  Equations(Equations&&) noexcept;
+  ~Equations();
 
   /// Evaluates all constants at `parameters` (all named parameters, order of Study::parameters). Allocates nothing but the first time.
-  void set_design(const std::vector<T>& parameters) {
-    for (CompiledEquations<T>* part : {&compiled_, &signals_, &start_}) part->set_design(parameters);
-    if constexpr (kIsReal) formulas_.set_design(parameters);
-  }
+  void set_design(const std::vector<T>& parameters);
   const std::vector<T>& parameters() const { return compiled_.parameters(); }
   /// The constants and constraint rows of the present design; for double only.
-  const Constants<T>& constants() const { return formulas_.view().design.constants; }
-  const PairRows<T>& rows(int pair) const { return formulas_.view().design.rows[static_cast<std::size_t>(pair)]; }
+  const Constants<T>& constants() const;
+  const PairRows<T>& rows(int pair) const;
 
   /// The residual G (resized to Layout::columns()) and the objective's integrand g, theory (14), (21), at a state.
   void residual(const State<T>& state, VectorX<T>* G, T* g) { compiled_.residual(state, G, g); }
@@ -76,23 +76,25 @@ class Equations {
   void jump(const std::vector<ControlEvent>& events, State<T>* state);
 
   /// The formulas, for what observers read: signals, energies, friction, reactions; for double only.
-  Formulas<T>& formulas() { return formulas_; }
-  const Formulas<T>& formulas() const { return formulas_; }
+  Formulas<T>& formulas() { return *formulas_; }
+  const Formulas<T>& formulas() const { return *formulas_; }
   /// The recorded equations, for instance to do without machine code.
   CompiledEquations<T>& compiled() { return compiled_; }
 
  private:
   static constexpr bool kIsReal = std::is_same_v<T, double>;
-  struct NoFormulas {
-    explicit NoFormulas(const CompiledSystem&) {}
-  };
 
   T sample(int controller, bool is_first, State<T>* state);
 
   const CompiledSystem& system_;
-  std::conditional_t<kIsReal, Formulas<double>, NoFormulas> formulas_;
+  std::unique_ptr<Formulas<T>> formulas_;  ///< for double only
   CompiledEquations<T> compiled_, signals_, start_;
   VectorX<T> residual_;  ///< workspace of linearize_rates()
 };
+
+template <>
+const Constants<double>& Equations<double>::constants() const;
+template <>
+const PairRows<double>& Equations<double>::rows(int pair) const;
 
 }  // namespace codesign

@@ -3,17 +3,14 @@
 
 #include <vector>
 
-#include "elements/contact_friction.h"
-#include "elements/power_kind.h"
+#include "elements/contact.h"
+#include "elements/energy.h"
 #include "elements/state_view.h"
-#include "elements/workspace.h"
-#include "forces/spring_damper.h"
-#include "math/span.h"
+#include "equations/equation_function.h"
+#include "forces/compliance.h"
+#include "math/arrays.h"
 
 namespace codesign {
-
-/// The two sums of the objective, theory (21): the integrand g and the terminal terms w.
-enum class ObjectivePart { kIntegral, kTerminal };
 
 /// The equations of motion G(q, v, s, t; z) = 0 of one mechanism and study, evaluated element by element; doc/theory.md (14):
 ///   rows 0 to n-1:      M a + Phi_q^T lambda - Q - Q_Af    [N on r, N m on p]

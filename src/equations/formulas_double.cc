@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "equations/formulas_loop.h"
-#include "equations/formulas_samples.h"
 
 namespace codesign {
 

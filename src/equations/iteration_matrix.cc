@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "codegen/straight_line.h"
+#include "equations/compiled_system.h"
+#include "sparse/sparsity.h"
 
 namespace codesign {
 namespace {
@@ -102,6 +105,34 @@ void IterationMatrix::add_up(const Linearization<double>& d, double c_v, double 
   if (c_v != 0.0) add(pattern_.v, c_v, d.velocity);
   if (c_q != 0.0) add(pattern_.q, c_q, d.position);
   if (c_s != 0.0) add(pattern_.s, c_s, d.position);
+}
+
+void directional_derivative(const CompiledSystem& system, const Linearization<double>& d, const State<double>& direction,
+                            VectorX<double>* result) {
+  const ByVariable<Sparsity>& patterns = system.patterns();
+  const Layout& layout = system.layout();
+  result->resize(patterns.rate.rows);
+  // Columns of `position` are (q, s), which State keeps in two vectors, so row_product() does not serve.
+  for (int row = 0; row < patterns.rate.rows; ++row) {
+    double sum = row_product(patterns.velocity, d.velocity, row, direction.v) + row_product(patterns.rate, d.rate, row, direction.z);
+    for (int e = patterns.position.first(row); e < patterns.position.first(row + 1); ++e) {
+      const int column = patterns.position.column(e);
+      sum += d.position[static_cast<std::size_t>(e)] * (column < layout.n ? direction.q[column] : direction.s[column - layout.n]);
+    }
+    (*result)[row] = sum;
+  }
+}
+
+void subtract_position_product(const CompiledSystem& system, const Linearization<double>& d, In<double> q, double factor,
+                               Out<double> result) {
+  assert(q.size() == system.layout().n && result.size() == system.layout().columns());
+  const double* const direction = q.data();
+  double* const sum = result.data();
+  const Sparsity& pattern = system.patterns().position;
+  for (int row = 0; row < system.layout().columns(); ++row)
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+      if (pattern.column(e) < system.layout().n)
+        sum[row] -= d.position[static_cast<std::size_t>(e)] * factor * direction[pattern.column(e)];
 }
 
 }  // namespace codesign

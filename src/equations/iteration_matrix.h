@@ -4,11 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "sparse/sparse_lu.h"
 #include "sparse/sparsity.h"
+#include "system/state.h"
 
 namespace codesign {
+
+class CompiledSystem;
 
 class LazyStraightLine;
 
@@ -57,5 +60,15 @@ class IterationMatrix {
   std::unique_ptr<LazyStraightLine> code_;  ///< forms values_, if available
   SparseLu lu_;
 };
+
+/// The derivative of (G, g), theory (14), along a direction of the state: G_q q + G_s s + G_v v + G_z z; the last entry is the derivative
+/// of g. The time of `direction` is ignored.
+/// @param result resized to Layout::columns() + 1 and overwritten.
+void directional_derivative(const CompiledSystem& system, const Linearization<double>& derivatives, const State<double>& direction,
+                            VectorX<double>* result);
+
+/// result -= factor * G_q q. @param q n entries. @param result Layout::columns() entries; g has none.
+void subtract_position_product(const CompiledSystem& system, const Linearization<double>& derivatives, In<double> q, double factor,
+                               Out<double> result);
 
 }  // namespace codesign

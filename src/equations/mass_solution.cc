@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codegen/operate.h"
+#include "codegen/interpreter.h"
 #include "description/expression.h"
+#include "math/arrays.h"
 #include "math/dense.h"
-#include "math/to_index.h"
 
 namespace codesign {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "codegen/traced.h"
+#include "math/arrays.h"
 #include "math/scalar.h"
-#include "math/span.h"
 #include "sparse/sparsity.h"
 #include "system/system.h"
 

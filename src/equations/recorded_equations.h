@@ -3,10 +3,11 @@
 
 #include <vector>
 
-#include "codegen/jacobian.h"
+#include "codegen/derivatives.h"
 #include "equations/formulas.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
+#include "system/system.h"
 
 namespace codesign {
 
@@ -41,5 +42,10 @@ std::vector<JacobianEntry> derive_gradients(const System& system, const std::vec
 /// @throws std::logic_error for a derivative that is not in the patterns.
 Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, bool rates_only,
                                            RecordedEquations* recorded);
+
+/// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row, column) is there if the recorded row depends
+/// on the column's variable in some branch. Columns: Layout::positions() of (q, s),
+/// Layout::n of v, Layout::columns() of z.
+ByVariable<Sparsity> record_patterns(const System& system);
 
 }  // namespace codesign

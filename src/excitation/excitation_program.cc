@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include "equations/equations.h"
 
 namespace codesign {
 namespace {

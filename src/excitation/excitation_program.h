@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "equations/equations.h"
 #include "excitation/information.h"
 #include "excitation/trajectory_space.h"
 

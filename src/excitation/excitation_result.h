@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "excitation/limit_scan.h"
-#include "excitation/trajectory_points.h"
+#include "excitation/trajectory_basis.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "assembly/start_workspace.h"
-#include "engine/side_by_side.h"
+#include "engine/thread_engine.h"
+#include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "math/dense.h"
-#include "math/to_index.h"
 #include "problem/load_problem.h"
 #include "sampling/sampler.h"
 #include "statistics/parameter_covariance.h"

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/side_by_side.h"
+#include "engine/thread_engine.h"
 #include "identification/driven_motion.h"
-#include "math/to_index.h"
+#include "identification/effort_tangent.h"
+#include "math/arrays.h"
 #include "text/cancel.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/effort_tangent.h"
 #include "math/dense.h"
 #include "statistics/identifiability.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "excitation/excited_motion.h"
+#include "identification/effort_tangent.h"
 #include "identification/fit_variables.h"
 
 namespace codesign {

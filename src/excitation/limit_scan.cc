@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "excitation/trajectory_space.h"
 
 namespace codesign {
 namespace {

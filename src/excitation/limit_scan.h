@@ -6,9 +6,10 @@
 
 #include "excitation/excited_motion.h"
 #include "excitation/motion_limits.h"
-#include "excitation/trajectory_space.h"
 
 namespace codesign {
+
+class TrajectorySpace;
 
 /// The extreme values of a limited signal between the samples.
 struct ScannedSignal {

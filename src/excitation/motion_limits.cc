@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "equations/compiled_system.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -7,6 +7,7 @@
 #include <nlopt.hpp>
 #include <vector>
 
+#include "equations/equations.h"
 #include "optimization/algorithm.h"
 
 namespace codesign {

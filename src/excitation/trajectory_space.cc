@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "excitation/excited_motion.h"
 
 namespace codesign {
 namespace {

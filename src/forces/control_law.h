@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "forces/actuation.h"
 #include "forces/law.h"
-#include "forces/pid.h"
 
 namespace codesign {
 

@@ -4,10 +4,8 @@
 #include <iterator>
 
 #include "codegen/traced.h"
-#include "forces/brown_mcphee.h"
-#include "forces/gonthier.h"
-#include "forces/isotropic_friction.h"
-#include "forces/lugre.h"
+#include "forces/bristles.h"
+#include "forces/friction_curves.h"
 
 namespace codesign {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "forces/friction_numbers.h"
-#include "math/elementary.h"
 #include "math/euler_parameters.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

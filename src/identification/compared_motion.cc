@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "identification/driven_replay.h"
 #include "identification/effort_residuals.h"
+#include "identification/motion_projection.h"
 #include "observation/observer.h"
 #include "problem/load_problem.h"
 #include "recordings/measured_motion.h"

@@ -8,7 +8,7 @@
 #include "identification/identification_result.h"
 #include "mechanism_codesign/frame.h"
 #include "mechanism_codesign/problem.h"
-#include "recordings/load_recordings.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "math/to_index.h"
+#include "math/arrays.h"
+#include "mechanism/topology.h"
 
 namespace codesign {
 namespace {

@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
 #include "identification/driven_system.h"
-#include "math/span.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

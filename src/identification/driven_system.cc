@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "assembly/start_workspace.h"
-#include "math/to_index.h"
-#include "text/unknown_name.h"
+#include "math/arrays.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "equations/compiled_system.h"
+#include "mechanism_codesign/error.h"
 #include "mechanism_codesign/status.h"
+#include "system/state.h"
 
 namespace codesign {
+
+class CompiledSystem;
 
 /// A joint whose motion was measured.
 struct MeasuredJoint {

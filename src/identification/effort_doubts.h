@@ -7,7 +7,7 @@
 
 #include "mechanism_codesign/problem.h"
 #include "mechanism_codesign/warning.h"
-#include "recordings/load_recordings.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "engine/side_by_side.h"
+#include "engine/thread_engine.h"
 #include "identification/motion_projection.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 #include "text/cancel.h"
 
 namespace codesign {

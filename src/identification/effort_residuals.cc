@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "recordings/uniform_samples.h"
+#include "recordings/measured_motion.h"
 
 namespace codesign {
 namespace {

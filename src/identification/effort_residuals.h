@@ -11,7 +11,7 @@
 #include "identification/residual_source.h"
 #include "recordings/measured_motion.h"
 #include "recordings/zero_phase_filter.h"
-#include "statistics/long_run.h"
+#include "statistics/time_series.h"
 
 namespace codesign {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "identification/driven_motion.h"
-#include "sensitivity/lane_groups.h"
+#include "sensitivity/lane_directions.h"
 #include "sensitivity/tangent_equations.h"
 
 namespace codesign {

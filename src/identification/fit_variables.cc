@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "description/tuned_parameters.h"
-#include "mechanism/log_cholesky.h"
+#include "mechanism/mass_properties.h"
 
 namespace codesign {
 namespace {
@@ -43,6 +43,16 @@ void set_weak_prior(const Eigen::VectorXd& start, const std::array<int, 10>& col
 double at(const Eigen::VectorXd& x, int column, double known) { return column < 0 ? known : x[column]; }
 
 }  // namespace
+
+EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort& recorded, double time, double effort) {
+  const RecordedEffort::Sample r = recorded.at(time + sensor.delay);
+  EffortResidual residual;
+  residual.by_effort = sensor.start_scale / sensor.scale;
+  residual.value = residual.by_effort * (effort + sensor.offset) - sensor.start_scale * r.value;
+  residual.by_scale = -residual.by_effort * (effort + sensor.offset) / sensor.scale;
+  residual.by_delay = -sensor.start_scale * r.slope;
+  return residual;
+}
 
 FitVariables::FitVariables(const Study& study, const RobotDescription* robot, std::vector<RecordedSetting> settings)
     : study_(study), settings_(std::move(settings)), names_(tuned_names(study)), start_(start_of(study)) {

@@ -10,9 +10,8 @@
 #include "identification/many_starts.h"
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/warning.h"
-#include "statistics/long_run.h"
 #include "statistics/profile.h"
-#include "statistics/whiteness.h"
+#include "statistics/time_series.h"
 
 namespace codesign {
 

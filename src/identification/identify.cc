@@ -5,15 +5,15 @@
 #include <memory>
 #include <utility>
 
-#include "engine/side_by_side.h"
+#include "engine/thread_engine.h"
 #include "identification/judgement.h"
 #include "identification/motion_residuals.h"
-#include "identification/stacked_residuals.h"
+#include "identification/residual_source.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "text/cancel.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

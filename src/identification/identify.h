@@ -6,7 +6,7 @@
 #include "identification/identification_result.h"
 #include "identification/residual_fit.h"
 #include "mechanism_codesign/problem.h"
-#include "recordings/load_recordings.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 

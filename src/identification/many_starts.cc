@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "math/to_index.h"
+#include "math/arrays.h"
 #include "optimization/multistart.h"
 #include "sampling/sampler.h"
 

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/side_by_side.h"
+#include "engine/thread_engine.h"
+#include "identification/segment_fit.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "identification/loss.h"
-#include "math/triangular_root.h"
+#include "identification/residual_source.h"
+#include "math/dense.h"
 #include "optimization/levenberg_marquardt.h"
 #include "statistics/identifiability.h"
 

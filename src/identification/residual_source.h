@@ -3,14 +3,41 @@
 
 #include <Eigen/Core>
 #include <atomic>
+#include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "description/identification.h"
+#include "identification/fit_variables.h"
 #include "mechanism_codesign/status.h"
-#include "statistics/long_run.h"
+#include "statistics/time_series.h"
 
 namespace codesign {
+
+/// The contribution of a residual to the cost, and its weight in the normal equations.
+struct LossValue {
+  double value = 0.0;   ///< rho(u)
+  double weight = 1.0;  ///< rho'(u) / (2 u), 1 for a sum of squares
+};
+
+/// With c = LossOptions::scale: u^2; Huber: u^2 up to |u| = c and c (2 |u| - c) beyond; soft_l1: 2 c^2 (sqrt(1 + (u/c)^2) - 1).
+/// @param u a residual divided by the spread of its output's residuals
+inline LossValue loss_of(const LossOptions& options, double u) {
+  const double c = options.scale;
+  switch (options.kind) {
+    case LossKind::kNone:
+      break;
+    case LossKind::kHuber:
+      if (std::abs(u) <= c) break;
+      return {c * (2.0 * std::abs(u) - c), c / std::abs(u)};
+    case LossKind::kSoftL1: {
+      const double root = std::sqrt(1.0 + u * u / (c * c));
+      return {2.0 * u * u / (1.0 + root), 1.0 / root};
+    }
+  }
+  return {u * u, 1.0};
+}
 
 /// Residuals of a fit and their derivatives.
 class ResidualSource {
@@ -65,5 +92,35 @@ class RecordingResiduals : public ResidualSource {
 };
 
 inline std::vector<DelaySignal> RecordingResiduals::delay_signals(const Eigen::VectorXd& /*x*/) { return {}; }
+
+/// The residuals of recordings with different values of some parameters, one part for each set of values: rows of the first part first,
+/// with the same outputs and the same x.
+class StackedResiduals final : public RecordingResiduals {
+ public:
+  struct Part {
+    std::unique_ptr<const FitVariables> variables;  ///< of the residuals
+    std::unique_ptr<RecordingResiduals> residuals;
+  };
+  /// @param parts at least one, all with the same outputs
+  explicit StackedResiduals(std::vector<Part> parts);
+
+  const std::vector<std::string>& outputs() const override { return parts_.front().residuals->outputs(); }
+  const SeriesLengths& lengths() const override { return lengths_; }
+  Eigen::Index rows() const override { return recorded_.rows(); }
+  std::vector<double> times() const override;
+  const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  Status begin(const Eigen::VectorXd& x) override;
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override;
+  void obey(const std::atomic<bool>* cancel) override;
+  void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
+  Eigen::Index own_unknowns() const override;
+  double own_promise() const override;
+  std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
+
+ private:
+  std::vector<Part> parts_;
+  SeriesLengths lengths_;
+  Eigen::MatrixXd recorded_;
+};
 
 }  // namespace codesign

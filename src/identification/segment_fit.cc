@@ -8,7 +8,6 @@
 
 #include "identification/residual_fit.h"
 #include "math/dense.h"
-#include "math/triangular_root.h"
 #include "optimization/levenberg_marquardt.h"
 
 namespace codesign {

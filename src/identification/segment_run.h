@@ -7,7 +7,7 @@
 
 #include "identification/segment_system.h"
 #include "integration/rosenbrock_integrator.h"
-#include "sensitivity/lane_groups.h"
+#include "sensitivity/lane_directions.h"
 #include "sensitivity/tangent_step.h"
 
 namespace codesign {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "math/to_index.h"
-#include "text/decimal.h"
+#include "math/arrays.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/start_workspace.h"
+#include "identification/segment_fit.h"
 #include "recordings/measured_motion.h"
 #include "text/cancel.h"
 #include "text/number_text.h"

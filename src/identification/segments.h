@@ -3,10 +3,11 @@
 
 #include <string>
 #include <vector>
-
-#include "identification/segment_fit.h"
+#include "identification/segment_system.h"
 
 namespace codesign {
+
+struct Segment;
 
 /// Cuts a recording into segments of about `segment.segment` seconds, each sample in one segment; only every `filter.decimate`th sample
 /// counts. Starts are the recorded positions, filtered at `filter.cutoff`, with recorded or differentiated velocities; integrals are zero.

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "mechanism/constants.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

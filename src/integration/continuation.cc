@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/continuation.h"
 
+#include "assembly/assembly.h"
 #include "integration/integrator.h"
 
 namespace codesign {

@@ -4,10 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "assembly/assembly.h"
-#include "integration/projection.h"
+#include "equations/compiled_system.h"
+#include "integration/stage_matrix.h"
+#include "mechanism_codesign/status.h"
 
 namespace codesign {
+
+class Assembly;
 
 /// Computes the state after an instant at which inputs jump or the design changes, doc/theory.md (55). Positions, velocities and extra
 /// states stay; if the design changes the geometry, the tree coordinates stay as far as the loops allow it. Accelerations and reactions are

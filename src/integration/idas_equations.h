@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "equations/equations.h"
-#include "integration/applied_work.h"
 #include "integration/idas_integrator.h"
 #include "integration/idas_newton.h"
+#include "integration/run_watch.h"
 
 namespace codesign {
 

@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/assembly.h"
 #include "control/control_clock.h"
-#include "integration/break_times.h"
 #include "integration/continuation.h"
-#include "integration/idas_counts.h"
 #include "integration/idas_equations.h"
+#include "integration/idas_handles.h"
 #include "integration/idas_setup.h"
-#include "integration/idas_status.h"
-#include "integration/motion_watch.h"
-#include "integration/projection.h"
-#include "integration/restart_pace.h"
+#include "integration/integrator.h"
+#include "integration/run_ends.h"
 #include "integration/run_watch.h"
-#include "integration/settled_start.h"
 #include "integration/singularity_watch.h"
-#include "integration/standstill.h"
+#include "integration/stage_matrix.h"
+#include "integration/step_control.h"
 
 namespace codesign {
 namespace {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "assembly/assembly.h"
 #include "integration/integrator.h"
 
 namespace codesign {

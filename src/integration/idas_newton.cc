@@ -3,8 +3,9 @@
 
 #include <cassert>
 
-#include "equations/derivative_products.h"
-#include "sparse/row_product.h"
+#include "equations/compiled_system.h"
+#include "equations/iteration_matrix.h"
+#include "sparse/sparsity.h"
 
 namespace codesign {
 namespace {

@@ -6,6 +6,8 @@
 
 namespace codesign {
 
+class CompiledSystem;
+
 /// The linear solver of IDAS's Newton iteration, J x = b with J = F_y + c_j F_y', as a SUNLinearSolver with a SUNMatrix; doc/theory.md
 /// (26).
 ///

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "integration/tableau.h"
+#include "math/arrays.h"
 #include "math/lanes.h"
-#include "math/span.h"
 #include "system/state.h"
 
 namespace codesign {

@@ -1,10 +1,16 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/integrator.h"
 
+#include "assembly/assembly.h"
 #include "integration/idas_integrator.h"
 #include "integration/rosenbrock_integrator.h"
 
 namespace codesign {
+
+void Integrator::obey(const std::atomic<bool>* cancel) {
+  cancel_ = cancel;
+  assembly().obey(cancel);
+}
 
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {
   if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasIntegrator>(system);

@@ -5,11 +5,16 @@
 #include <memory>
 #include <vector>
 
-#include "assembly/assembly.h"
+#include "equations/compiled_system.h"
 #include "mechanism_codesign/simulation.h"
+#include "mechanism_codesign/status.h"
 #include "text/cancel.h"
 
 namespace codesign {
+
+class Assembly;
+template <class T>
+class Equations;
 
 /// Integrates one design of a mechanism step by step. start() may be called again for another design and reuses the memory. Not
 /// thread-safe.
@@ -51,10 +56,7 @@ class Integrator {
 
   /// Once `cancel` is set (by any thread), start() and advance() end soon with kCancelled, even while a step is being retried. nullptr: no
   /// cancellation.
-  void obey(const std::atomic<bool>* cancel) {
-    cancel_ = cancel;
-    assembly().obey(cancel);
-  }
+  void obey(const std::atomic<bool>* cancel);
 
  protected:
   bool cancelled() const { return is_set(cancel_); }
@@ -76,5 +78,27 @@ Status check_design(const CompiledSystem& system, const Equations<double>& equat
 /// @returns kInvalidDesign for constants that no mechanism can have (such as a negative mass), else the status of Assembly::solve().
 Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
                       State<double>* initial);
+
+/// Starts the runs of an integrator, each with the pivots that are chosen at the study's own start. The last bits of a run then depend on
+/// its design alone, and pivots need not be chosen for each run. See doc/decisions/0049-journal.md.
+class SettledStart {
+ public:
+  /// Before the first run, unless it is the study's own, the study's own start is begun and settled.
+  /// @param parameters of this run. @param begin (parameters) -> Status: assembles the start, which factors the matrices.
+  /// @param settle () -> keeps their present pivots, SparseLu::settle().
+  /// @returns the status of begin(parameters).
+  template <class Begin, class Settle>
+  Status start(const CompiledSystem& system, const std::vector<double>& parameters, const Begin& begin, const Settle& settle) {
+    const bool is_first = !has_settled_, is_own = is_first && parameters == system.parameters();
+    has_settled_ = true;
+    if (is_first && !is_own && begin(system.parameters()).ok()) settle();
+    Status status = begin(parameters);
+    if (is_own && status.ok()) settle();
+    return status;
+  }
+
+ private:
+  bool has_settled_ = false;  ///< whether the study's own start was begun
+};
 
 }  // namespace codesign

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "equations/compiled_system.h"
 
 namespace codesign {
 namespace {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "equations/compiled_system.h"
 #include "integration/rosenbrock_step.h"
 
 namespace codesign {

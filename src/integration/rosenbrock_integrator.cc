@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integration/standstill.h"
+#include "integration/run_ends.h"
 
 namespace codesign {
 

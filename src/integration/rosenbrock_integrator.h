@@ -4,17 +4,16 @@
 #include <functional>
 #include <vector>
 
+#include "assembly/assembly.h"
 #include "control/control_clock.h"
-#include "integration/break_times.h"
 #include "integration/continuation.h"
 #include "integration/integrator.h"
 #include "integration/method_choice.h"
-#include "integration/motion_watch.h"
 #include "integration/rosenbrock_step.h"
+#include "integration/run_ends.h"
 #include "integration/run_watch.h"
-#include "integration/settled_start.h"
 #include "integration/singularity_watch.h"
-#include "integration/step_controller.h"
+#include "integration/step_control.h"
 
 namespace codesign {
 

@@ -6,7 +6,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "sparse/row_product.h"
+#include "equations/compiled_system.h"
+#include "sparse/sparsity.h"
 
 namespace codesign {
 namespace {

@@ -4,10 +4,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "integration/increment.h"
 #include "integration/stage_matrix.h"
-#include "integration/stage_product.h"
 #include "integration/tableau.h"
 
 namespace codesign {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "equations/compiled_system.h"
-#include "integration/finite_frame.h"
 #include "integration/integrator.h"
+#include "integration/run_ends.h"
 #include "math/cpu_timer.h"
 #include "observation/observer.h"
 #include "text/cancel.h"

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/acceleration_block.h"
+#include "assembly/determined_motion.h"
+#include "equations/compiled_system.h"
 #include "math/dense.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

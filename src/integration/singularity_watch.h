@@ -6,8 +6,11 @@
 
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
+
+class CompiledSystem;
 
 /// Finds the first singular position that a run passes, where the rank of Phi_q drops and sensitivities lose digits; doc/theory.md (17b).
 ///

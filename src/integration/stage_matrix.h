@@ -4,9 +4,14 @@
 #include <complex>
 #include <memory>
 
+#include "equations/equations.h"
 #include "equations/iteration_matrix.h"
+#include "math/arrays.h"
+#include "sparse/sparsity.h"
 
 namespace codesign {
+
+class CompiledSystem;
 
 /// The matrix E = G_z + c_v G_v + c_q G_q (+ c_s G_s) of a step, doc/theory.md (16), and its solves. For complex numbers, which only
 /// derivative checks use, Eigen factors it. factor() returns false for a singular matrix.
@@ -47,6 +52,53 @@ class StageMatrix<std::complex<double>> {
 
   const CompiledSystem& system_;
   std::unique_ptr<Factors> factors_;
+};
+
+class LazyStraightLine;
+
+/// The products with G_q (and G_s) and G_v on the right-hand side of every stage of a step and of its tangent; doc/theory.md (16), (18).
+class StageProduct {
+ public:
+  /// @param system must outlive this. @param machine_code whether to compile the products to machine code where possible; loops otherwise.
+  explicit StageProduct(const CompiledSystem& system, bool machine_code = true);
+  ~StageProduct();
+  StageProduct(StageProduct&&) noexcept;
+  StageProduct& operator=(StageProduct&&) noexcept;
+
+  /// y -= G_q x + G_v v over the rows of the equations, for N vectors stored row by row. xv is [x | v] with x = (q, s). N is 1, 4 or 8.
+  template <int N>
+  void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const;
+
+  /// The same for one complex vector, which only derivative checks use.
+  void subtract(const Linearization<std::complex<double>>& derivatives, In<std::complex<double>> xv, Out<std::complex<double>> y) const;
+  void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const { subtract<1>(derivatives, xv, y); }
+
+ private:
+  template <class T>
+  void subtract_rows(const Linearization<T>& derivatives, In<T> xv, Out<T> y) const;
+
+  const ByVariable<Sparsity>* patterns_;
+  int rows_;
+  std::unique_ptr<LazyStraightLine> code_;
+};
+
+/// Projects a state onto the constraints, doc/theory.md (17), with two Newton steps, since the drift may be larger than the drift of one
+/// step.
+class Projection {
+ public:
+  explicit Projection(const CompiledSystem& system);
+
+  /// Changes q and v so that Phi = 0 and Phi_q v = 0; z is unchanged. `equations` must hold the design. False if the augmented matrix is
+  /// singular or the result is not finite.
+  bool apply(Equations<double>* equations, State<double>* state);
+
+ private:
+  void correct(const VectorX<double>& error, VectorX<double>* target);
+
+  const Layout& layout_;
+  IterationMatrix matrix_;
+  Linearization<double> derivatives_;
+  VectorX<double> Phi_, Phi_rate_, correction_;
 };
 
 }  // namespace codesign

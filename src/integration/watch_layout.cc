@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "integration/break_times.h"
+#include "integration/step_control.h"
 
 namespace codesign {
 namespace {

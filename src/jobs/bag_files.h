@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "excitation/trajectory_points.h"
-#include "jobs/identification_files.h"
-#include "recordings/bag_reader.h"
+#include "excitation/trajectory_basis.h"
+#include "jobs/identification_records.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 

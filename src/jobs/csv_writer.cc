@@ -4,8 +4,8 @@
 #include <cerrno>
 #include <utility>
 
-#include "jobs/output_error.h"
-#include "text/decimal.h"
+#include "jobs/files.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -7,11 +7,11 @@
 #include <sstream>
 
 #include "ensemble/ensemble.h"
-#include "jobs/gains_yaml.h"
 #include "jobs/json.h"
+#include "jobs/robot_gains.h"
 #include "jobs/saved_result.h"
-#include "jobs/sentences.h"
-#include "text/decimal.h"
+#include "jobs/trial_lines.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

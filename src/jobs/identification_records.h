@@ -1,11 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "identification/compared_motion.h"
 #include "identification/identification_result.h"
-#include "jobs/json_type.h"
+#include "jobs/json.h"
 #include "mechanism_codesign/warning.h"
 #include "problem/load_problem.h"
 
@@ -26,5 +28,36 @@ std::vector<std::string> identification_sentences(const IdentificationResult& re
 /// JOINT/computed.
 std::vector<std::string> residual_columns(const IdentificationResult& result);
 std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& result);
+
+/// A file of an identification, with the function that makes its text.
+struct IdentificationFile {
+  std::string name;  ///< `identification.json`
+  std::function<std::string()> text;
+};
+
+/// The text files of an identification with numbers: identification.json, identified_overlay.urdf,
+/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may throw. @param json the text of
+/// identification_json() with all additions of the front end. All three arguments must outlive the texts.
+std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const std::string& json);
+
+/// The contents of the bag of an identification; doc/ros_api.md.
+struct IdentificationShow {
+  std::string study, json, urdf;  ///< texts: the study, identification.json, the identified model
+  ComparedMotion motion;
+  FittedSeries data, holdout;
+  std::vector<std::string> joints;  ///< names of the columns of both series
+};
+
+/// @param json as above. @param motion compare_motion()
+IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const std::string& json,
+                                       ComparedMotion motion);
+
+/// Callback that writes an identification into a bag, for replay in rviz. The caller provides it, since this library does not depend on
+/// ROS.
+/// @param path must not exist. @throws OutputError
+using IdentificationBagWriter = std::function<void(const std::string& path, const IdentificationShow& show)>;
+
+/// Default rate of the instants in a bag [Hz].
+constexpr double kShownRate = 50.0;
 
 }  // namespace codesign

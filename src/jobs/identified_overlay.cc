@@ -9,7 +9,6 @@
 #include "description/study.h"
 #include "mechanism_codesign/version.h"
 #include "reading/urdf/set_values.h"
-#include "text/decimal.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -2,7 +2,6 @@
 #include "jobs/job_files.h"
 
 #include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,8 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "jobs/output_error.h"
-#include "jobs/whole_file.h"
+#include "jobs/files.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -90,6 +88,12 @@ void require_bare_name(const std::string& name) {
 }
 
 }  // namespace
+
+Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
+  if (inputs.study.name.empty()) return load_mechanism_at(inputs.design, inputs.urdf, inputs.overlays, inputs.settings);
+  return load_problem_at(inputs.design, inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader,
+                         inputs.study_is_tree ? files_in("") : FileLoader());
+}
 
 JobFiles::JobFiles(const std::string& directory, const std::string& robot) : JobFiles(reserve(directory, robot)) {}
 

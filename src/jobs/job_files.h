@@ -5,9 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "jobs/lock_file.h"
+#include "jobs/files.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
+
+/// The texts and settings of a job, from a command line or a node.
+struct Inputs {
+  SourceText urdf;
+  std::vector<SourceText> overlays;
+  SourceText study;            ///< an empty name: no study, the mechanism alone
+  bool study_is_tree = false;  ///< whether the study is from the parameter server instead of a file
+  SavedDesign design;          ///< of a saved result, as read_design() reads it
+  ParameterSettings settings;  ///< they replace the values of `design`
+};
+
+/// Reads and compiles the inputs. @param loader reads trajectories that the study names in a bag; without one they are refused.
+/// @throws InputError as load_problem().
+Problem load(const Inputs& inputs, const TrajectoryLoader& loader = {});
 
 /// Another process, or another job of this one, works on the files of a job.
 class JobIsRunning : public std::runtime_error {

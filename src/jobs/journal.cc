@@ -17,8 +17,8 @@
 
 #include "equations/compiled_system.h"
 #include "integration/watch_layout.h"
-#include "jobs/journal_header.h"
-#include "jobs/output_error.h"
+#include "jobs/files.h"
+#include "jobs/journal_lines.h"
 #include "text/fingerprint.h"
 
 namespace codesign {

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/evaluation_memory.h"
-#include "jobs/evaluation_record.h"
+#include "engine/evaluation_engine.h"
+#include "jobs/journal_lines.h"
 #include "problem/load_problem.h"
 
 namespace codesign {

@@ -3,13 +3,17 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "jobs/json_type.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
+
+/// A JSON object that keeps its keys in the order in which they are set. Declared only: whoever reads or makes one includes jobs/json.h,
+/// which takes seconds to compile.
+using Json = nlohmann::ordered_json;
 
 /// An object with one number per name; if the lists differ in length, the rest of the longer list is left out.
 Json by_name(const std::vector<std::string>& names, const std::vector<double>& values);

@@ -1,8 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/json_records.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "assembly/count_equations.h"
+#include "ensemble/ensemble.h"
 #include "jobs/json.h"
+#include "jobs/optimization_records.h"
+#include "jobs/trial_lines.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -12,6 +19,31 @@ Json to_json(const std::vector<ConstraintRow>& rows) {
   for (const ConstraintRow& row : rows) array.push_back({{"joint", row.joint}, {"row", row.row}, {"kind", row.kind}});
   return array;
 }
+
+/// The check belongs to writing files, so it must not make a job noticeably longer: this share of the search's processor time, or these
+/// seconds.
+constexpr double kShare = 0.1, kUnnoticed = 0.5;
+
+Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
+
+/// The bound on which a tuned value lies, within rounding.
+const char* bound_of(const Parameter& parameter, double value) {
+  const auto is_on = [value](double bound) {
+    return std::isfinite(bound) && std::abs(value - bound) <= 1e-9 * std::max(1.0, std::abs(bound));
+  };
+  return is_on(parameter.lower) ? "lower" : is_on(parameter.upper) ? "upper" : "";
+}
+
+/// The time that the check takes [s]: two gradients, and along each direction a complex run, which is not compiled and takes about as long
+/// as forty gradients, or Ridders' extrapolation, about as long as twenty.
+double expected_seconds(const Problem& problem, const OptimizationResult& result) {
+  const double evaluations = std::max(1, result.evaluations);
+  const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 40.0;
+  const auto directions = static_cast<double>(std::min<Eigen::Index>(result.rho.size(), kCheckedDirections));
+  return (2.0 + runs * directions) * result.statistics.cpu_seconds / evaluations;
+}
+
+Json skipped(const std::string& why) { return {{"skipped", why}}; }
 
 }  // namespace
 
@@ -78,6 +110,50 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
   Status status;
   const Counts counts = count_equations(*problem.system(), parameters, &status);
   if (status.ok()) (*object)["counts"] = to_json(counts);
+}
+
+Json parameter_table(const Problem& problem, const OptimizationResult& result) {
+  const Study& study = problem.study();
+  const std::vector<double> initial = problem.parameters(result.initial_rho), tuned = problem.parameters(result.rho);
+  Json table = Json::array();
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const Parameter& parameter = study.parameters[i];
+    const bool is_tuned = std::count(study.tuned.begin(), study.tuned.end(), static_cast<int>(i)) > 0;
+    table.push_back({{"name", parameter.name},
+                     {"unit", parameter.unit},
+                     {"tuned", is_tuned},
+                     {"lower", bound_json(parameter.lower)},
+                     {"upper", bound_json(parameter.upper)},
+                     {"initial", initial[i]},
+                     {"value", tuned[i]},
+                     {"bound", is_tuned ? bound_of(parameter, tuned[i]) : ""}});
+  }
+  return table;
+}
+
+Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel) {
+  if (!is_evaluated(problem, result) || result.status.is_interrupted()) return skipped("the search was interrupted");
+  if (const double seconds = expected_seconds(problem, result); seconds > std::max(kUnnoticed, kShare * result.statistics.cpu_seconds))
+    return skipped("it would take about " + readable(std::ceil(seconds)) +
+                   " s, more than a tenth of the search; codesign gradient --verify does it");
+  const bool by_differences = problem.study().solver.integrator == IntegratorKind::kIdas;
+  const CheckMethod method = by_differences ? CheckMethod::kRidders : CheckMethod::kComplexStep;
+  GradientCheck check;
+  try {
+    check = check_along(Ensemble(problem), result.rho, method, cancel);
+  } catch (const InputError& error) {
+    return skipped(error.what());  // the gradient cannot be checked, for example because the processes of the engine are missing
+  }
+  if (!check.status.ok()) return skipped(describe(check.status));
+  const std::vector<std::string> names = problem.tuned_names();
+  Json object = {{"method", by_differences ? "ridders" : "complex_step"},
+                 {"gradient", by_name(names, check.evaluation.gradient)},
+                 {"largest_relative_difference", check.largest_relative_difference}};
+  if (check.directions.size() > 0)
+    object["directions"] = check.directions.cols();
+  else
+    object["reference"] = by_name(names, check.reference);
+  return object;
 }
 
 }  // namespace codesign

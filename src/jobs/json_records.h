@@ -1,13 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
-#include "jobs/json_type.h"
+#include "jobs/json.h"
 #include "jobs/limit_watch.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/error.h"
+#include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/status.h"
 #include "problem/load_problem.h"
@@ -30,5 +32,14 @@ void add_statistics(const Statistics& statistics, Json* object);
 void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status, Json* object);
 /// Sets `counts` for the design at `parameters`, if it can be assembled.
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
+
+/// A list of all named parameters: `name`, `unit`, `tuned` (whether the study tunes it), `lower`, `upper` (null: none), `initial`,
+/// `value`, and `bound`: lower or upper if a tuned value lies on it, else empty.
+Json parameter_table(const Problem& problem, const OptimizationResult& result);
+
+/// The gradient at the best point beside a reference by complex step (with `idas` by Ridders' differences): `method`, `gradient`,
+/// `reference`, `largest_relative_difference`. If the check would probably take more than a few seconds, or if it fails, `skipped` has the
+/// reason.
+Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel);
 
 }  // namespace codesign

@@ -1,9 +1,58 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/recording_records.h"
 
+#include <cmath>
+#include <utility>
+
+#include "description/study.h"
+#include "equations/equations.h"
+#include "excitation/excitation_result.h"
 #include "jobs/json.h"
+#include "text/number_text.h"
 
 namespace codesign {
+namespace {
+
+constexpr int kFactorDigits = 3;  // of a predicted factor
+
+Json predicted_json(const PredictedNumber& number) {
+  return {{"nominal", number.nominal},
+          {"unit", number.unit},
+          {"determined", number.is_determined},
+          {"before", {{"deviation", number.deviation_before}, {"half_interval", number.half_before}}},
+          {"after", {{"deviation", number.deviation}, {"half_interval", number.half}}}};
+}
+
+Json limit_json(const KeptLimit& limit) {
+  return {
+      {"lower", limit.limits.lower}, {"upper", limit.limits.upper}, {"lowest", limit.reached.lowest}, {"highest", limit.reached.highest}};
+}
+
+Json trajectory_json(const ExcitationDescription& description, const ExcitationResult& result) {
+  Json object;
+  object["kind"] = kTrajectoryNames[static_cast<std::size_t>(description.trajectory)];
+  object["period"] = description.period;
+  object["periods"] = description.periods;
+  object["sample_rate"] = description.sample_rate;
+  if (description.trajectory == TrajectoryKind::kFourier)
+    object["harmonics"] = description.harmonics;
+  else
+    object["knots"] = description.knots;
+  for (std::size_t joint = 0; joint < result.points.joints.size(); ++joint) {
+    const auto column = static_cast<Eigen::Index>(joint);
+    const Eigen::VectorXd coefficients = result.coefficients.col(column);
+    object["joints"][result.points.joints[joint]] = {{"rest", result.rest[column]},
+                                                     {"coefficients", std::vector<double>(coefficients.begin(), coefficients.end())}};
+  }
+  return object;
+}
+
+/// The mean factor of one interval: the root of the factor of the volume over all numbers.
+double factor_of_one(const ExcitationResult& result) {
+  return result.counted == 0 ? 1.0 : std::pow(result.volume_factor(), 1.0 / result.counted);
+}
+
+}  // namespace
 
 RecordingSummary summary_of(const JointRecording& recording, const MeasuredMotion& motion) {
   RecordingSummary summary;
@@ -33,6 +82,67 @@ Json to_json(const std::vector<RecordingSummary>& recordings) {
                     {"fitted", summary.fitted},
                     {"measured", summary.measured}});
   return list;
+}
+
+Json excitation_json(const Problem& problem, const ExcitationResult& result) {
+  Json object;
+  object["termination"] = result.termination;
+  object["evaluations"] = result.evaluations;
+  object["cpu_seconds"] = result.cpu_seconds;
+  if (result.numbers.empty()) return object;
+  object["parameters"] = parameters_json(problem, problem.parameters());
+  for (const PredictedNumber& number : result.numbers) object["predicted"][number.name] = predicted_json(number);
+  object["level"] = problem.study().identification->intervals.level;
+  object["volume_factor"] = result.volume_factor();
+  object["mean_factor"] = factor_of_one(result);
+  object["undetermined"] = result.undetermined;
+  if (result.points.joints.empty()) return object;
+  for (const KeptLimit& limit : result.limits) object["limits"][limit.limits.name] = limit_json(limit);
+  object["trajectory"] = trajectory_json(*problem.study().excitation, result);
+  Json starts = Json::array();
+  for (const ExcitationStart& start : result.starts)
+    starts.push_back({{"initial_criterion", start.initial_criterion},
+                      {"criterion", start.criterion},
+                      {"evaluations", start.evaluations},
+                      {"termination", start.termination}});
+  object["starts"] = std::move(starts);
+  return object;
+}
+
+std::vector<std::string> excitation_sentences(const ExcitationResult& result) {
+  std::vector<std::string> sentences;
+  for (const std::string& sentence : result.undetermined) sentences.push_back("not identifiable by any trajectory: " + sentence);
+  if (result.points.joints.empty()) return sentences;
+  if (!std::isfinite(result.criterion))
+    sentences.push_back("no single trajectory was found that determines all numbers");
+  else if (!std::isfinite(result.criterion_before))
+    sentences.push_back("the plain trajectory does not determine all identifiable numbers; the trajectory found does");
+  else
+    sentences.push_back("predicted volume of the intervals: " + readable(result.volume_factor(), kFactorDigits) +
+                        " times smaller than with the plain trajectory, each interval on average " +
+                        readable(factor_of_one(result), kFactorDigits) + " times");
+  return sentences;
+}
+
+std::vector<std::string> trajectory_columns(const TrajectoryPoints& points) {
+  std::vector<std::string> columns = {"time"};
+  for (const std::string& joint : points.joints)
+    for (const char* quantity : {"/position", "/velocity", "/acceleration", "/effort"}) columns.push_back(joint + quantity);
+  return columns;
+}
+
+std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& points) {
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(points.times.size());
+  for (std::size_t k = 0; k < points.times.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    std::vector<std::string> cells = {to_decimal(points.times[k])};
+    for (Eigen::Index joint = 0; joint < points.position.rows(); ++joint)
+      for (const Eigen::MatrixXd* part : {&points.position, &points.velocity, &points.acceleration, &points.effort})
+        cells.push_back(to_decimal((*part)(joint, column)));
+    rows.push_back(std::move(cells));
+  }
+  return rows;
 }
 
 }  // namespace codesign

@@ -3,7 +3,57 @@
 
 #include <algorithm>
 
+#include "jobs/json.h"
+#include "text/number_text.h"
+
 namespace codesign {
+namespace {
+
+/// A name in a comment. A name of other than printable ASCII characters is written as a JSON text, so that no line end, of which YAML knows
+/// five, ends the comment, and no control character makes the file unreadable.
+std::string in_comment(const std::string& name) {
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
+  return std::all_of(name.begin(), name.end(), is_plain) ? name : Json(name).dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+/// With a decimal point: rosparam takes `1e-06` for a text.
+std::string yaml_number(double value) {
+  std::string text = to_decimal(value);
+  if (text.find('.') != std::string::npos) return text;
+  text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
+/// The parameters that control_toolbox::Pid reads, in its order.
+Json pid_parameters(const RobotGains& gains) {
+  return {{"p", gains.p}, {"i", gains.i}, {"d", gains.d}, {"i_clamp", gains.i_clamp}, {"antiwindup", gains.antiwindup}};
+}
+
+/// The object at a namespace; creates missing parts of the namespace.
+Json& at_namespace(const std::string& name_space, Json* root) {
+  Json* place = root;
+  for (std::size_t first = 0; first <= name_space.size();) {
+    const std::size_t slash = std::min(name_space.find('/', first), name_space.size());
+    place = &(*place)[name_space.substr(first, slash - first)];
+    first = slash + 1;
+  }
+  return *place;
+}
+
+void write_block(const Json& object, std::size_t depth, std::string* text) {
+  for (const auto& [key, value] : object.items()) {
+    text->append(2 * depth, ' ');
+    *text += key + ":";
+    if (value.is_object()) {
+      *text += "\n";
+      write_block(value, depth + 1, text);
+    } else {
+      *text += " " + (value.is_boolean() ? (value.get<bool>() ? "true" : "false") : yaml_number(value.get<double>())) + "\n";
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters) {
   const Study& study = problem.study();
@@ -24,6 +74,23 @@ std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<do
     all.push_back(std::move(found));
   }
   return all;
+}
+
+std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters) {
+  const std::vector<RobotGains> all = robot_gains(problem, parameters);
+  if (all.empty()) return "";
+  std::string text =
+      "# Gains for the robot, as control_toolbox::Pid reads them: rosparam load gains.yaml\n"
+      "# Effort = p e + i (integral of e, at most i_clamp as effort) + d de/dt, e = setpoint - measured, SI units.\n";
+  Json root = Json::object();
+  for (const RobotGains& gains : all) {
+    text += "# " + gains.name_space + ": " + in_comment(gains.controller) + " of the study, which drives " + in_comment(gains.joint);
+    if (gains.loses_weight) text += "; in the study it also carries the weight, which is not among these gains";
+    text += "\n";
+    at_namespace(gains.name_space, &root) = pid_parameters(gains);
+  }
+  write_block(root, 0, &text);
+  return text;
 }
 
 }  // namespace codesign

@@ -2,8 +2,99 @@
 #include "jobs/run_recorder.h"
 
 #include <algorithm>
+#include <sstream>
+
+#include "jobs/csv_writer.h"
+#include "jobs/json.h"
+#include "jobs/json_records.h"
+#include "jobs/limit_watch.h"
+#include "jobs/shown_signals.h"
+#include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/simulation.h"
 
 namespace codesign {
+namespace {
+
+constexpr int kIntervals = 1000;  // even, for Simpson's rule
+constexpr int kRowEvery = 2;
+constexpr int kPoseEvery = 250;
+
+/// One signal over the run.
+struct Watched {
+  double smallest = 0.0, smallest_time = 0.0, largest = 0.0, largest_time = 0.0;
+  double simpson = 0.0;  ///< sum of values times 1, 4, 2, 4, ..., 1
+
+  void observe(int index, double time, double value) {
+    if (index == 0 || value < smallest) smallest = value, smallest_time = time;
+    if (index == 0 || value > largest) largest = value, largest_time = time;
+    const bool is_end = index == 0 || index == kIntervals;
+    simpson += (is_end ? 1.0 : index % 2 == 1 ? 4.0 : 2.0) * value;
+  }
+  double integral(double duration) const { return simpson * duration / (3.0 * kIntervals); }
+};
+
+/// Poses of all links at a few instants.
+class PoseLog {
+ public:
+  void observe(const Frame& frame) {
+    times_.push_back(frame.time);
+    links_.push_back(frame.links);
+  }
+
+  Json json(const std::vector<std::string>& names) const {
+    Json links = Json::object();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      Json poses = Json::array();
+      for (const std::vector<LinkSample>& samples : links_) poses.push_back(pose(samples[i]));
+      links[names[i]] = std::move(poses);
+    }
+    return {{"times", times_}, {"links", links}};
+  }
+
+ private:
+  static Json pose(const LinkSample& link) {
+    const Eigen::Vector3d& p = link.position;
+    const Eigen::Quaterniond& q = link.orientation;
+    return Json::array({p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
+  }
+
+  std::vector<double> times_;
+  std::vector<std::vector<LinkSample>> links_;
+};
+
+Json signal_json(const ShownSignal& shown, const Watched& watched) {
+  Json object = {{"name", shown.signal.text},    {"unit", shown.unit},
+                 {"smallest", watched.smallest}, {"smallest_time", watched.smallest_time},
+                 {"largest", watched.largest},   {"largest_time", watched.largest_time}};
+  if (shown.lower) object["lower"] = *shown.lower;
+  if (shown.upper) object["upper"] = *shown.upper;
+  return object;
+}
+
+/// Adds the integrals of the powers among the signals: powers of the mechanism as `energy`, friction of joints as `friction_energy`.
+void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watched>& watched, double duration, Json* summary) {
+  Json whole = Json::object(), friction = Json::object();
+  const std::string power = "_power";
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    if (shown[k].unit != "W" || shown[k].signal.terms.size() != 1) continue;
+    const SignalTerm& term = shown[k].signal.terms[0];
+    const double energy = watched[k].integral(duration);
+    if (is_of_mechanism(term))
+      whole[term.quantity.substr(0, term.quantity.size() - power.size())] = energy;
+    else if (term.quantity == "friction_power")
+      friction[term.object] = energy;
+  }
+  (*summary)["energy"] = whole;
+  (*summary)["friction_energy"] = friction;
+}
+
+std::vector<SignalDescription> signals_in(const std::vector<ShownSignal>& shown) {
+  std::vector<SignalDescription> signals;
+  for (const ShownSignal& signal : shown) signals.push_back(signal.signal);
+  return signals;
+}
+
+}  // namespace
 
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
                       int samples, const RowSink& sink, const std::atomic<bool>* cancel) {
@@ -35,6 +126,41 @@ std::vector<std::string> column_names(const std::vector<SignalDescription>& sign
   std::vector<std::string> names = {"time"};
   for (const SignalDescription& signal : signals) names.push_back(signal.text);
   return names;
+}
+
+DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters, const std::atomic<bool>* cancel) {
+  const double duration = problem.study().duration;
+  const std::vector<ShownSignal> shown = shown_signals(problem, parameters);
+  const std::vector<SignalDescription> signals = signals_in(shown);
+  Simulation simulation(problem.system(), parameters, signals);
+  LimitWatch limits(problem, parameters, simulation.names());
+  std::vector<Watched> watched(shown.size());
+  PoseLog poses;
+  std::ostringstream text;
+  CsvWriter csv(text, column_names(signals));
+  int index = 0;
+  const auto observer = [&](const Frame& frame) {
+    limits.observe(frame);
+    for (std::size_t k = 0; k < shown.size(); ++k) watched[k].observe(index, frame.time, frame.signals[k]);
+    if (index % kPoseEvery == 0) poses.observe(frame);
+    if (index % kRowEvery == 0) {
+      std::vector<double> row(1, frame.time);
+      row.insert(row.end(), frame.signals.begin(), frame.signals.end());
+      csv.write(row);
+    }
+    ++index;
+    return true;
+  };
+  DesignRecord record;
+  record.status = simulate(&simulation, duration, kIntervals + 1, observer, cancel);
+  record.csv = text.str();
+  record.summary = {{"status", to_json(record.status)}, {"signals", Json::array()}};
+  for (std::size_t k = 0; k < shown.size(); ++k) record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
+  // If the run ends early, the integrals would not cover the whole study.
+  if (record.status.ok()) add_energies(shown, watched, duration, &record.summary);
+  record.summary["limits_exceeded"] = to_json(limits.crossings());
+  record.summary["poses"] = poses.json(simulation.names().links);
+  return record;
 }
 
 }  // namespace codesign

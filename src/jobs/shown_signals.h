@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "jobs/json.h"
+#include "mechanism_codesign/optimization.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -23,5 +25,12 @@ std::vector<ShownSignal> shown_signals(const Problem& problem, const std::vector
 
 /// The unit of a signal, by its first term.
 std::string unit_of(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
+
+/// Adds the list `signals`: of each signal with a constraint or a peak its bounds, its range before and after, in which run and sample, and
+/// the violation. Nothing without one.
+void add_watched(const OptimizationResult& result, Json* object);
+
+/// One sentence per such signal, for people.
+std::vector<std::string> watched_sentences(const OptimizationResult& result);
 
 }  // namespace codesign

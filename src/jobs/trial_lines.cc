@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "jobs/sentences.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -33,6 +32,23 @@ double largest_change(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
     if (size > 0.0) largest = std::max(largest, std::abs(to[k] - from[k]) / size);
   }
   return largest;
+}
+
+/// "at t = 0.5 s", or nothing for what ended a search, which has no time of a run.
+std::string moment(const Status& status) {
+  switch (status.code) {
+    case StatusCode::kCancelled:
+    case StatusCode::kInfeasible:
+    case StatusCode::kAlgorithmFailed:
+    case StatusCode::kWorkerLost:
+    case StatusCode::kNonFiniteGradient:
+    case StatusCode::kNotIdentifiable:
+      if (status.time == 0.0) return "";
+      break;
+    default:
+      break;
+  }
+  return "at t = " + readable(status.time) + " s";
 }
 
 }  // namespace
@@ -78,6 +94,16 @@ std::string FitLines::line(const FitTrial& trial) {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const int left = std::max(most_evaluations_ - trial.evaluation, 0);
   return line + time_left(trial.evaluation > 0 ? std::optional(seconds * left / trial.evaluation) : std::nullopt, true);
+}
+
+std::string describe(const Status& status) {
+  const std::string at = moment(status);
+  return std::string(name_of(status.code)) + (at.empty() ? "" : " " + at) + (status.cause.empty() ? "" : ": " + status.cause);
+}
+
+std::string reason(const Status& status) {
+  const std::string at = moment(status);
+  return status.cause + (at.empty() ? "" : " (" + at + ")");
 }
 
 }  // namespace codesign

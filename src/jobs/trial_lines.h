@@ -8,6 +8,7 @@
 
 #include "identification/residual_fit.h"
 #include "mechanism_codesign/optimization.h"
+#include "mechanism_codesign/status.h"
 #include "optimization/progress_meter.h"
 #include "optimization/scaling.h"
 
@@ -56,5 +57,11 @@ class FitLines {
   int profile_ = 0, iteration_ = 0;
   Eigen::VectorXd best_;
 };
+
+/// Code, time and cause of a status: "step_size_too_small at t = 0.5 s: the step size fell below ...".
+std::string describe(const Status& status);
+
+/// Cause and time of a status, for replies that have the code in a field of its own: "the step size fell below ... (at t = 0.5 s)".
+std::string reason(const Status& status);
 
 }  // namespace codesign

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "joints/pair_constants.h"
-#include "joints/scalar_product.h"
-#include "math/elementary.h"
+#include "joints/pair_rows.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

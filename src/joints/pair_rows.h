@@ -4,11 +4,138 @@
 #include <array>
 #include <vector>
 
+#include "joints/body_kinematics.h"
 #include "joints/joint_law.h"
-#include "joints/scalar_product.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
+#include "math/euler_parameters.h"
 
 namespace codesign {
+
+/// The number of coordinates of a pair of bodies, [r_i, p_i, r_j, p_j], and of one body.
+constexpr int kLocalSize = 14;
+constexpr int kBodySize = 7;
+
+/// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column. Of a body of the forest, theory (56), the three
+/// entries from p_offset() on are the gradient by its angular velocity in its own axes, the fourth is zero.
+template <class T>
+using LocalRow = Eigen::Matrix<T, kLocalSize, 1>;
+
+/// A body of the pair.
+enum class Side { kI = 0, kJ = 1 };
+
+/// The index of the first coordinate of r, and of p, of a body among the pair's coordinates.
+constexpr int r_offset(Side side) { return side == Side::kI ? 0 : kBodySize; }
+constexpr int p_offset(Side side) { return r_offset(side) + 3; }
+
+/// One term of a vector over a pair: sign * (r + A s) if `point`, else sign * A s.
+template <class T>
+struct VectorTerm {
+  Side side = Side::kI;
+  bool point = false;
+  double sign = 1.0;
+  Vector3<T> s = Vector3<T>::Zero();
+  int shared = -1;  ///< index in PairRows::vectors, or -1
+};
+
+/// A vector over a pair of bodies, in ground axes: a direction fixed in one of them, or the displacement from a point of i to a point of j.
+template <class T>
+struct PairVector {
+  int terms = 0;
+  VectorTerm<T> term[2];
+
+  static PairVector direction(Side side, const Vector3<T>& a, int shared = -1) {
+    PairVector x;
+    x.terms = 1;
+    x.term[0] = {side, false, 1.0, a, shared};
+    return x;
+  }
+  static PairVector displacement(const Vector3<T>& s_i, const Vector3<T>& s_j, int shared_i = -1, int shared_j = -1) {
+    PairVector x;
+    x.terms = 2;
+    x.term[0] = {Side::kJ, true, 1.0, s_j, shared_j};
+    x.term[1] = {Side::kI, true, -1.0, s_i, shared_i};
+    return x;
+  }
+};
+
+// The scalar product phi = X . Y of two vectors over a pair of bodies. All constraints of pairs except coincident points have this form:
+// normal directions, a point in a plane, two points at a distance; doc/theory.md (6).
+
+/// The motion of a vector over the pair.
+template <class T>
+VectorMotion<T> motion_of(const PairVector<T>& x, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  const VectorTerm<T>& first = x.term[0];
+  if (x.terms == 1) return direction_motion(first.side == Side::kI ? i : j, first.s);
+  return displacement_motion(i, x.term[1].s, j, first.s);
+}
+
+/// phi and its first and second time derivative.
+template <class T>
+struct ProductMotion {
+  T phi, phid, phidd;
+};
+
+/// phi = x . y and its time derivatives; theory (6).
+template <class T>
+ProductMotion<T> product_motion(const VectorMotion<T>& x, const VectorMotion<T>& y) {
+  return {dot(x.x, y.x), dot(x.xd, y.x) + dot(x.x, y.xd), dot(x.xdd, y.x) + 2.0 * dot(x.xd, y.xd) + dot(x.x, y.xdd)};
+}
+
+/// The gradient phi_q of X . Y by the pair's coordinates, which is also that of phi' by velocities. @param x, y the motion of X and Y.
+template <class T>
+LocalRow<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y,
+                             const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  LocalRow<T> phi_q = LocalRow<T>::Zero();
+  const auto add = [&](const PairVector<T>& own, const Vector3<T>& partner) {
+    for (int k = 0; k < own.terms; ++k) {
+      const VectorTerm<T>& term = own.term[k];
+      const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
+      if (body.at_rest) continue;
+      const double sign = term.sign;
+      if (term.point)
+        for (int c = 0; c < 3; ++c) phi_q[r_offset(term.side) + c] += sign * partner[c];
+      if (body.in_forest) {
+        // omega' . (s x A^T y) is the rate of A s along y.
+        const Vector3<T> turn = cross<T>(term.s, Vector3<T>(body.A.transpose() * partner));
+        for (int c = 0; c < 3; ++c) phi_q[p_offset(term.side) + c] += sign * turn[c];
+        continue;
+      }
+      const Matrix34<T> B = rotated_vector_jacobian(body.p, term.s);
+      for (int c = 0; c < 4; ++c) phi_q[p_offset(term.side) + c] += sign * dot<T>(B.col(c), partner);
+    }
+  };
+  add(X, y.x);
+  add(Y, x.x);
+  return phi_q;
+}
+
+/// The load of multipliers on one body: (phi_q^T lambda)_b = [force, K(W) p] with W = sum of b s^T; theory (7).
+template <class T>
+struct BodyLoad {
+  Vector3<T> force = Vector3<T>::Zero();  ///< [N], in ground axes
+  Matrix3<T> W = Matrix3<T>::Zero();      ///< [N m]
+};
+
+/// Adds the load b on every term of x. @param i, j loads of the two bodies; null for the ground.
+template <class T>
+void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i, BodyLoad<T>* j) {
+  for (int k = 0; k < x.terms; ++k) {
+    const VectorTerm<T>& term = x.term[k];
+    BodyLoad<T>* load = term.side == Side::kI ? i : j;
+    if (!load) continue;
+    const Vector3<T> signed_b = term.sign * b;
+    if (term.point) load->force += signed_b;
+    load->W += signed_b * term.s.transpose();
+  }
+}
+
+/// Adds the load phi_q^T lambda of the product phi = X . Y; x and y are the motions of X and Y.
+template <class T>
+void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y, const T& lambda,
+                      BodyLoad<T>* i, BodyLoad<T>* j) {
+  add_vector_load<T>(X, lambda * y.x, i, j);
+  add_vector_load<T>(Y, lambda * x.x, i, j);
+}
 
 /// The constraint row scale * (X . Y - offset) = 0; theory (6).
 template <class T>
@@ -86,5 +213,30 @@ PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
   pair_rows(kind, c, &rows);
   return rows;
 }
+
+/// The motion of the vectors that a pair's product rows share (PairRows::vectors), evaluated once for all rows.
+template <class T>
+struct PairMotion {
+  std::array<VectorMotion<T>, PairRows<T>::kVectors> motion;
+  VectorMotion<T> displacement;  ///< from the point of i to the point of j
+
+  /// Evaluates the vectors that are used.
+  void update(const PairRows<T>& rows, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+    for (std::size_t k = 0; k < rows.vectors.size(); ++k) {
+      if (!rows.used[k]) continue;
+      const VectorTerm<T>& term = rows.vectors[k];
+      const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
+      motion[k] = term.point ? point_motion(body, term.s) : direction_motion(body, term.s);
+    }
+    constexpr auto from = static_cast<std::size_t>(PairRows<T>::shared(Side::kI, PairRows<T>::kPoint)),
+                   to = static_cast<std::size_t>(PairRows<T>::shared(Side::kJ, PairRows<T>::kPoint));
+    if (rows.used[from]) displacement = {motion[to].x - motion[from].x, motion[to].xd - motion[from].xd, motion[to].xdd - motion[from].xdd};
+  }
+
+  const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[static_cast<std::size_t>(term.shared)]; }
+
+  /// The motion of a direction of the rows, or of the displacement.
+  const VectorMotion<T>& of(const PairVector<T>& x) const { return x.terms == 1 ? of(x.term[0]) : displacement; }
+};
 
 }  // namespace codesign

@@ -1,12 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "description/robot.h"
 #include "joints/pair_constants.h"
 #include "math/scalar.h"
+#include "mechanism/mass_properties.h"
 #include "mechanism/rigid_groups.h"
 #include "mechanism/topology.h"
 
@@ -70,5 +72,29 @@ Constants<T> evaluate_constants(const RobotDescription& robot, const Topology& t
 /// A sentence that names the first impossible mass, inertia, length or coefficient of a design; empty if there is none. A mass fault that a
 /// body also has at the default parameters does not count, since check_bodies() warned of it.
 std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants);
+
+/// The default values of the model's parameters, in the order of RobotDescription::parameters.
+inline std::vector<double> default_values(const RobotDescription& robot) {
+  std::vector<double> values;
+  for (const Parameter& parameter : robot.parameters) values.push_back(parameter.value);
+  return values;
+}
+
+/// Mass properties that no solid body can have.
+struct MassFault {
+  std::string code;     ///< negative_mass, inertia_not_positive, triangle_inequality, or empty if there is no fault
+  std::string message;  ///< for example "the inertia breaks the triangle inequality"
+  std::string value;    ///< the offending numbers
+};
+
+/// Finds a negative mass, a negative principal moment of inertia, or a principal moment above the sum of the other two. The tolerances,
+/// 1e-9 and 1e-6 relative, allow for rounded files. Bodies without mass, points, rods and flat bodies have no fault; whether the equations
+/// determine their motion is checked elsewhere, theory (14a).
+MassFault find_mass_fault(const MassProperties<double>& body);
+
+/// Warns of mass faults at the default parameters. Links joined by fixed joints count as one body; the root link, which is the ground, is
+/// not checked.
+/// @throws InputError if the masses of a body's links add up to zero, since it then has no centre of mass.
+void check_bodies(const RobotDescription& robot, Warnings* warnings);
 
 }  // namespace codesign

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "math/to_index.h"
-#include "mechanism/joints_between.h"
+#include "math/arrays.h"
 #include "mechanism/topology.h"
 
 namespace codesign {

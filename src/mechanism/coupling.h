@@ -3,10 +3,12 @@
 
 #include <string>
 #include <vector>
-
-#include "description/robot.h"
+#include "description/quantity.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
+
+struct RobotDescription;
 
 struct Topology;
 

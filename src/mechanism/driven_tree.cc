@@ -2,6 +2,7 @@
 #include "mechanism/driven_tree.h"
 
 #include <algorithm>
+#include "mechanism/topology.h"
 
 namespace codesign {
 namespace {

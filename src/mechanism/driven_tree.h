@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/topology.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
+
+struct Topology;
 
 /// The bodies that enter the inverse dynamics of a driven joint, theory (C4): the bodies that it moves and the bodies that carry it.
 struct DrivenTree {

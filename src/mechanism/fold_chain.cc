@@ -5,10 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "mechanism/chain_geometry.h"
-#include "mechanism/default_values.h"
-#include "mechanism/joints_between.h"
+#include "mechanism/constants.h"
 #include "mechanism/pair_geometry.h"
+#include "mechanism/topology.h"
 
 namespace codesign {
 namespace {

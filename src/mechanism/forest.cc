@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "math/to_index.h"
+#include "math/arrays.h"
+#include "mechanism/topology.h"
 
 namespace codesign {
 namespace {

@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "mechanism/topology.h"
-
 namespace codesign {
+
+struct Pair;
+struct Topology;
 
 /// Which pairs of a mechanism give joint coordinates, doc/theory.md (56). Every body hangs on at most one pair, by which it moves relative
 /// to its parent, the pair's body i; bodies that hang on none are free. All lists are empty if no body hangs on a pair.

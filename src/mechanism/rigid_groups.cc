@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mechanism/rigid_groups.h"
 
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

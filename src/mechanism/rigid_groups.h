@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mechanism/mass_properties.h"
 #include "mechanism/pose.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "mechanism/topology.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

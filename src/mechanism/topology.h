@@ -51,4 +51,11 @@ struct Topology {
 /// couplings as derive_couplings() says.
 Topology derive_topology(const RobotDescription& robot);
 
+/// The links from `link`, included, up to the root.
+/// @param link_parent_joint per link: the tree joint above it, -1 for the root.
+std::vector<int> links_above(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int link);
+
+/// The tree joints that are not fixed on the path between two links, which passes through their nearest common ancestor.
+std::vector<int> joints_between(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int predecessor, int successor);
+
 }  // namespace codesign

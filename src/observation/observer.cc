@@ -2,6 +2,7 @@
 #include "observation/observer.h"
 
 #include <algorithm>
+#include "equations/compiled_system.h"
 
 namespace codesign {
 

@@ -9,6 +9,8 @@
 
 namespace codesign {
 
+class CompiledSystem;
+
 /// For each link the index of the link that it hangs on, in the order of FrameNames::links; the root hangs on itself.
 std::vector<std::size_t> link_parents(const RobotDescription& robot);
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

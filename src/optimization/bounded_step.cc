@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "math/dense.h"
-#include "math/triangular_root.h"
 
 namespace codesign {
 namespace {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "optimization/search_trials.h"
+
 namespace codesign {
 
 /// A sum of squares psi = r^T r and its model at one point.
@@ -55,5 +57,9 @@ const char* name_of(LevenbergMarquardtEnd end);
 /// @param best receives psi and its model there; unchanged if kStartFailed.
 LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                                        LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best);
+
+/// One attempt of a search by Levenberg-Marquardt, doc/theory.md (24g): the mean over the scenarios, as a sum of squares, within bounds.
+/// The study must have passed check_search(). Sets the termination. @param options its limit counts all evaluations of `trials`.
+void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& start, const Scaling& scaling, SearchTrials* trials);
 
 }  // namespace codesign

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "optimization/algorithm.h"
-#include "optimization/least_squares_search.h"
+#include "optimization/levenberg_marquardt.h"
 #include "optimization/scaling.h"
 #include "optimization/search_trials.h"
 #include "optimization/smooth_program.h"

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "optimization/far_rows.h"
 #include "optimization/near_multipliers.h"
 
 namespace codesign {

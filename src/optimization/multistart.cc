@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <numeric>
 
-#include "engine/side_by_side.h"
+#include "engine/thread_engine.h"
 #include "ensemble/parameter_rows.h"
+#include "optimization/lagrangian.h"
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
-#include "optimization/scenario_results.h"
+#include "optimization/search_hooks.h"
+#include "optimization/search_results.h"
 #include "optimization/search_trials.h"
-#include "optimization/shared_observer.h"
-#include "optimization/violated_bounds.h"
 #include "problem/margins.h"
 #include "sampling/sampler.h"
 #include "text/cancel.h"

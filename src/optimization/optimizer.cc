@@ -5,8 +5,8 @@
 #include "mechanism_codesign/optimization.h"
 #include "optimization/local_search.h"
 #include "optimization/multistart.h"
-#include "optimization/scenario_results.h"
 #include "optimization/search_hooks.h"
+#include "optimization/search_results.h"
 #include "optimization/search_trials.h"
 
 namespace codesign {

@@ -7,9 +7,8 @@
 
 #include "equations/compiled_system.h"
 #include "optimization/algorithm.h"
-#include "optimization/flat_directions.h"
-#include "optimization/search_warnings.h"
-#include "optimization/violated_bounds.h"
+#include "optimization/lagrangian.h"
+#include "optimization/search_results.h"
 #include "problem/margins.h"
 #include "sensitivity/gradient_engine.h"
 

@@ -6,9 +6,10 @@
 #include <limits>
 
 #include "equations/compiled_system.h"
-#include "optimization/violated_bounds.h"
+#include "equations/equations.h"
+#include "optimization/lagrangian.h"
 #include "sampling/measure.h"
-#include "sensitivity/peaks.h"
+#include "sensitivity/signal_watch.h"
 
 namespace codesign {
 namespace {

@@ -6,7 +6,6 @@
 #include "ensemble/ensemble.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/signal_rows.h"
-#include "optimization/slack_form.h"
 
 namespace codesign {
 

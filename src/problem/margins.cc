@@ -5,7 +5,7 @@
 #include <set>
 
 #include "description/tuned_parameters.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

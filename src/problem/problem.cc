@@ -8,17 +8,14 @@
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
-#include "problem/differing_nominals.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
-#include "problem/portable_problem.h"
-#include "problem/unused_parameters.h"
+#include "problem/problem_warnings.h"
 #include "problem/variants.h"
-#include "problem/waypoint_overshoot.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "assembly/make_system.h"
-#include "description/friction.h"
+#include "description/robot.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "problem/load_problem.h"
-#include "sampling/sobol.h"
+#include "sampling/sampler.h"
 
 namespace codesign {
 namespace {

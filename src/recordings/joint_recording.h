@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "description/identification.h"
+#include "description/robot.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
 
@@ -46,5 +49,25 @@ bool has_same_settings(const JointRecording& one, const JointRecording& other);
 
 /// Samples `begin` to `end` - 1. @param begin at most `end`, which is at most the number of samples
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end);
+
+/// Callback that reads the joint states of a topic from a bag. The caller provides it, since this library does not depend on ROS, which
+/// reads bags.
+/// @param path of the bag. @param joints names of the model's joints with one coordinate; other joints in the messages are ignored.
+/// @throws InputError if the bag or topic cannot be read, or names none of the joints.
+using BagReader = std::function<JointRecording(const RecordingDescription& description, const std::string& path,
+                                               const std::vector<std::string>& joints, Warnings* warnings)>;
+
+/// The recordings of a study.
+struct StudyRecordings {
+  std::vector<JointRecording> data, holdout;
+};
+
+/// Reads and checks the recordings that a study names: checked_part(), unwrap_turns(), check_units(), even_stamps(), without_gaps(). Each
+/// recording must have all joints of `identify.joints`.
+/// @param folder base of relative paths; empty: only absolute paths are accepted.
+/// @param reader reads bags; if it is empty, a study that names a bag is refused.
+/// @throws InputError with the place in the study or in the file.
+StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
+                                const BagReader& reader, Warnings* warnings);
 
 }  // namespace codesign

@@ -34,4 +34,9 @@ void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warn
 /// The median of the periods between the times [s]. @param times at least two
 double median_period(const std::vector<double>& times);
 
+/// Warns of values that seem to have other units or to stand in other columns: `recording_units` if a measured velocity is not the
+/// derivative of the position but nearly proportional to it, `recording_velocity` if it has little to do with it, and
+/// `recording_beyond_limits` if positions lie far outside the joint's `<limit>`.
+void check_units(const RobotDescription& robot, const JointRecording& recording, Warnings* warnings);
+
 }  // namespace codesign

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "jobs/apply_record.h"
+#include "jobs/saved_result.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 

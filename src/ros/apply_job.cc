@@ -18,7 +18,7 @@
 #include "ros/reconfigure_client.h"
 #include "ros/robot_watch.h"
 #include "ros/trajectory_bag.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

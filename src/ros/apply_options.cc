@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanism_codesign/error.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

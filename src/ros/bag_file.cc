@@ -11,8 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "jobs/output_error.h"
-#include "jobs/whole_file.h"
+#include "jobs/files.h"
 
 // What rosbag asks of a type of message.
 namespace ros {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "mechanism_codesign/error.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "jobs/ensemble_records.h"
-#include "jobs/sentences.h"
+#include "jobs/optimization_records.h"
+#include "jobs/trial_lines.h"
 #include "ros/conversions.h"
 
 namespace codesign {

@@ -10,7 +10,7 @@
 #include "ros/job.h"
 #include "ros/request.h"
 #include "ros/watched_messages.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

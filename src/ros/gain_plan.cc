@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "text/decimal.h"
 #include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

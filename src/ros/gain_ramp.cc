@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

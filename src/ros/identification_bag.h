@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/identification_files.h"
+#include "jobs/identification_records.h"
 
 namespace codesign {
 

@@ -8,12 +8,10 @@
 
 #include "identification/fit_variables.h"
 #include "identification/identify.h"
-#include "jobs/identification_files.h"
+#include "jobs/files.h"
 #include "jobs/identification_records.h"
 #include "jobs/job_files.h"
-#include "jobs/output_error.h"
 #include "jobs/trial_lines.h"
-#include "jobs/whole_file.h"
 #include "mechanism_codesign/error.h"
 #include "ros/conversions.h"
 #include "ros/identification_bag.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/inputs.h"
+#include "jobs/job_files.h"
 
 namespace codesign {
 

@@ -11,7 +11,7 @@
 #include <functional>
 #include <string>
 
-#include "jobs/sentences.h"
+#include "jobs/trial_lines.h"
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"

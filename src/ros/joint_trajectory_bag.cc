@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "jobs/output_error.h"
+#include "jobs/files.h"
 #include "ros/bag_file.h"
 
 namespace codesign {

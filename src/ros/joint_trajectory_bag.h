@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "excitation/trajectory_points.h"
+#include "excitation/trajectory_basis.h"
 
 namespace codesign {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jobs/sentences.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "jobs/trial_lines.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -7,17 +7,14 @@
 #include <limits>
 #include <utility>
 
-#include "description/friction.h"
+#include "description/robot.h"
 #include "ensemble/scenario.h"
-#include "jobs/best_record.h"
-#include "jobs/ensemble_records.h"
+#include "jobs/files.h"
 #include "jobs/job_files.h"
 #include "jobs/journal.h"
 #include "jobs/optimization_records.h"
-#include "jobs/output_error.h"
 #include "jobs/result_folder.h"
 #include "jobs/trial_lines.h"
-#include "jobs/whole_file.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"

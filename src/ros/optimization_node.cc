@@ -20,7 +20,7 @@
 #include "ros/request.h"
 #include "ros/trajectory_bag.h"
 #include "ros/wire.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

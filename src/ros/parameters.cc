@@ -12,10 +12,8 @@
 #include <set>
 #include <sstream>
 
-#include "text/decimal.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
-#include "text/unknown_name.h"
 
 namespace codesign {
 

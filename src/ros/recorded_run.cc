@@ -11,7 +11,7 @@
 #include "observation/observer.h"
 #include "ros/advance.h"
 #include "ros/run_clock.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -14,7 +14,6 @@
 #include "ros/bag_contents.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
-#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "recordings/bag_reader.h"
+#include "recordings/joint_recording.h"
 #include "ros/bag_contents.h"
 
 namespace codesign {

@@ -6,8 +6,8 @@
 
 #include "description/tuned_parameters.h"
 #include "identification/identify.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

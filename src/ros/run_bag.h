@@ -7,8 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "jobs/lock_file.h"
-#include "jobs/output_error.h"
+#include "jobs/files.h"
 #include "ros/bag_writer.h"
 #include "ros/node_state.h"
 #include "ros/simulation_options.h"

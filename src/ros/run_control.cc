@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/run_control.h"
 
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

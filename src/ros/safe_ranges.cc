@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -21,7 +21,7 @@
 #include "ros/node_arguments.h"
 #include "ros/parameters.h"
 #include "ros/trajectory_bag.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

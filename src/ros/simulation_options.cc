@@ -7,8 +7,8 @@
 
 #include "ros/parameters.h"
 #include "ros/run_clock.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "jobs/sentences.h"
+#include "jobs/trial_lines.h"
 #include "ros/simulation_node.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

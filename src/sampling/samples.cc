@@ -1,7 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/samples.h"
 
-#include "sampling/distribution.h"
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
 #include "sampling/sampler.h"
 
 namespace codesign {
@@ -13,6 +16,28 @@ Distribution given(const std::vector<UncertainQuantity>& quantities, std::size_t
   for (const MeanSlope& on : quantities[index].slopes)
     distribution.mean += on.slope * (earlier[on.quantity] - quantities[on.quantity].distribution.mean);
   return distribution;
+}
+
+constexpr double kSqrt2 = 1.4142135623730950488;
+
+// No long double, whose width differs from platform to platform; probability zero is at infinity and no error.
+namespace policies = boost::math::policies;
+using Policy = policies::policy<policies::promote_double<false>, policies::overflow_error<policies::ignore_error>>;
+
+// Probability that a standard normal number exceeds x, and the x that is exceeded with a probability of at most 1/2.
+double tail(double x) { return 0.5 * std::erfc(x / kSqrt2); }
+double exceeded_with(double probability) { return kSqrt2 * boost::math::erfc_inv(2.0 * probability, Policy()); }
+
+// Both the probabilities p below and q = 1 - p above the value are computed without subtracting from one, and the smaller one is inverted:
+// far out in a tail, the larger one has lost its digits.
+double normal_quantile(const Distribution& d, double u) {
+  if (!(d.deviation > 0.0)) return std::clamp(d.mean, d.lower, d.upper);
+  const double from = (d.lower - d.mean) / d.deviation, to = (d.upper - d.mean) / d.deviation;
+  const double below = tail(-to) - tail(-from), above = tail(from) - tail(to);
+  if (below <= 0.0 && above <= 0.0) return std::clamp(d.mean, d.lower, d.upper);
+  const double p = tail(-from) + u * below, q = tail(to) + (1.0 - u) * above;
+  const double x = p < q ? -exceeded_with(p) : exceeded_with(std::min(q, 0.5));
+  return std::clamp(d.mean + d.deviation * x, d.lower, d.upper);
 }
 
 }  // namespace
@@ -28,6 +53,19 @@ std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quan
     }
   }
   return samples;
+}
+
+double quantile(const Distribution& distribution, double u) {
+  switch (distribution.kind) {
+    case DistributionKind::kUniform:
+      return distribution.lower + u * (distribution.upper - distribution.lower);
+    case DistributionKind::kNormal:
+      return normal_quantile(distribution, u);
+    case DistributionKind::kChoice:
+      break;
+  }
+  const std::size_t size = distribution.choices.size();
+  return distribution.choices[std::min(static_cast<std::size_t>(u * static_cast<double>(size)), size - 1)];
 }
 
 }  // namespace codesign

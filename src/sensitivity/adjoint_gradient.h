@@ -4,10 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/assembly.h"
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/adjoint_step.h"
 #include "sensitivity/gradient_engine.h"
-#include "sensitivity/lane_groups.h"
+#include "sensitivity/lane_directions.h"
 #include "sensitivity/step_path.h"
 
 namespace codesign {

@@ -7,12 +7,13 @@
 #include <random>
 
 #include "control/control_clock.h"
+#include "elements/state_view.h"
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
-#include "math/ridders.h"
+#include "math/differences.h"
 #include "mechanism_codesign/gradient.h"
-#include "sensitivity/peaks.h"
 #include "sensitivity/rosenbrock_gradient.h"
+#include "sensitivity/signal_watch.h"
 #include "text/cancel.h"
 
 namespace codesign {

@@ -1,14 +1,29 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/gradient_engine.h"
 
+#include <cmath>
+
 #include "control/control_clock.h"
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
+#include "math/cpu_timer.h"
+#include "mechanism_codesign/gradient.h"
 #include "sensitivity/adjoint_gradient.h"
-#include "sensitivity/gradient_cost.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
+#include "sensitivity/signal_watch.h"
+#include "text/cancel.h"
 
 namespace codesign {
+namespace {
+
+const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
+  const Study& study = system.study();
+  return study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
+}
+
+}  // namespace
+
 bool prefers_adjoint(const CompiledSystem& system) {
   const SolverOptions& options = system.study().solver;
   if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return false;
@@ -26,6 +41,102 @@ std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& syste
   if (derivatives == Derivatives::kGaussNewton) return std::make_unique<RosenbrockGradient>(system);
   if (prefers_adjoint(system)) return std::make_unique<AdjointGradient>(system);
   return std::make_unique<RosenbrockGradient>(system);
+}
+
+class Evaluator::Implementation {
+ public:
+  explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)), watched_(system_->study()) {}
+
+  Evaluation evaluate(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
+    Evaluation evaluation;
+    std::unique_ptr<GradientEngine>& engine = derivatives == Derivatives::kGaussNewton ? root_engine_ : engine_;
+    if (!engine) engine = make_gradient_engine(*system_, derivatives);
+    if (const ControllerDescription* rounded = derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->study())) {
+      evaluation.status = {StatusCode::kNonFiniteGradient, 0.0,
+                           "there is no gradient: controllers." + rounded->name + ".quantization rounds a measurement"};
+      return evaluation;
+    }
+    const CpuTimer timer;
+    engine->obey(cancel);
+    evaluation.status = run(engine.get(), parameters, derivatives, cancel);
+    if (evaluation.status.ok()) collect(engine.get(), derivatives, cancel, &evaluation);
+    evaluation.statistics = engine->statistics();
+    evaluation.warnings = engine->warnings();
+    evaluation.statistics.cpu_seconds = timer.seconds();
+    return evaluation;
+  }
+  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
+    parameters_at(system_->study(), rho, &parameters_);
+    return evaluate(parameters_, derivatives, cancel);
+  }
+
+ private:
+  void collect(GradientEngine* engine, Derivatives derivatives, const std::atomic<bool>* cancel, Evaluation* evaluation) const {
+    const double time = engine->time();
+    evaluation->objective = engine->objective();
+    evaluation->extremes = engine->extremes();
+    evaluation->objective += peak_terms(system_->study(), watched_, evaluation->extremes, nullptr);
+    if (!std::isfinite(evaluation->objective)) {
+      evaluation->status = {StatusCode::kNonFinite, time, "the objective is not finite"};
+      return;
+    }
+    if (derivatives == Derivatives::kNone) return;
+    engine->gradient(&evaluation->gradient);
+    if (derivatives == Derivatives::kGaussNewton) engine->jacobian_root(&evaluation->jacobian_root);
+    peak_terms(system_->study(), watched_, evaluation->extremes, &evaluation->gradient);
+    if (is_set(cancel)) {
+      evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
+      return;
+    }
+    for (Eigen::Index k = 0; k < evaluation->gradient.size(); ++k)
+      if (!std::isfinite(evaluation->gradient[k])) {
+        evaluation->status = {StatusCode::kNonFiniteGradient, time,
+                              "the gradient by \"" + tuned_name(*system_, k) + "\" is not finite, though the objective is"};
+        return;
+      }
+    if (!evaluation->jacobian_root.allFinite())
+      evaluation->status = {StatusCode::kNonFiniteGradient, time, "the Jacobian of the residuals is not finite, though the objective is"};
+  }
+
+  Status run(GradientEngine* engine, const std::vector<double>& parameters, Derivatives derivatives,
+             const std::atomic<bool>* cancel) const {
+    Status status = engine->start(parameters, derivatives);
+    const double duration = system_->study().duration;
+    while (status.ok() && engine->time() < duration) {
+      if (is_set(cancel)) return {StatusCode::kCancelled, engine->time(), "cancelled"};
+      status = engine->advance(duration);
+    }
+    return status;
+  }
+
+  std::shared_ptr<const CompiledSystem> system_;
+  WatchLayout watched_;
+  std::vector<double> parameters_;  // workspace: all named parameters of one design
+  // Made by the first evaluation. That for kGaussNewton may be of another kind; no result depends on
+  // which evaluations came before.
+  std::unique_ptr<GradientEngine> engine_, root_engine_;
+};
+
+Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}
+Evaluator::Evaluator(const Problem& problem) : Evaluator(problem.system()) {}
+Evaluator::~Evaluator() = default;
+Evaluator::Evaluator(Evaluator&&) noexcept = default;
+Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
+
+Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
+  return implementation_->evaluate(rho, derivatives, cancel);
+}
+
+Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
+  return evaluate(rho, gradient_if(with_gradient), cancel);
+}
+
+Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
+  return implementation_->evaluate(parameters, derivatives, cancel);
+}
+
+Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
+  return implementation_->evaluate(parameters, gradient_if(with_gradient), cancel);
 }
 
 }  // namespace codesign

@@ -1,7 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/idas_tangent.h"
 
-#include "equations/derivative_products.h"
+#include "equations/equations.h"
+#include "equations/iteration_matrix.h"
 
 namespace codesign {
 

@@ -4,9 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "assembly/assembly.h"
 #include "equations/iteration_matrix.h"
 #include "integration/idas_integrator.h"
-#include "sensitivity/lane_groups.h"
+#include "sensitivity/lane_directions.h"
 
 namespace codesign {
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "equations/compiled_system.h"
-#include "text/decimal.h"
+#include "equations/equations.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

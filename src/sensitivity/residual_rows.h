@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "equations/formulas.h"
+#include "equations/equations.h"
 #include "integration/integrator.h"
-#include "math/triangular_root.h"
+#include "math/dense.h"
 
 namespace codesign {
 

@@ -6,7 +6,7 @@
 
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/gradient_engine.h"
-#include "sensitivity/lane_groups.h"
+#include "sensitivity/lane_directions.h"
 #include "sensitivity/residual_rows.h"
 #include "sensitivity/signal_watch.h"
 #include "sensitivity/tangent_step.h"

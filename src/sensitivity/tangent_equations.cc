@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/tangent_equations.h"
 
-#include "sensitivity/lane_state.h"
+#include "sensitivity/lane_directions.h"
 
 namespace codesign {
 

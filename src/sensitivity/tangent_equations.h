@@ -3,7 +3,7 @@
 
 #include "equations/equations.h"
 #include "integration/increment.h"
-#include "math/span.h"
+#include "math/arrays.h"
 #include "sensitivity/lane_directions.h"
 
 namespace codesign {

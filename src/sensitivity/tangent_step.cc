@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "equations/mass_solution.h"
-#include "sparse/row_product.h"
+#include "sparse/sparsity.h"
 
 namespace codesign {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "math/arrays.h"
 #include "math/lanes.h"
-#include "math/to_index.h"
 
 namespace codesign {
 namespace {

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "codegen/straight_line.h"
-#include "math/line_vector.h"
-#include "math/span.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "math/span.h"
+#include "math/arrays.h"
 #include "sparse/lu_schedule.h"
 
 namespace codesign {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "math/span.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

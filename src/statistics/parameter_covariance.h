@@ -6,7 +6,7 @@
 
 #include "description/identification.h"
 #include "statistics/identifiability.h"
-#include "statistics/long_run.h"
+#include "statistics/time_series.h"
 
 namespace codesign {
 
@@ -42,5 +42,15 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const
 /// @param jacobian of the residuals, each divided by its standard deviation, or a factor R of it with R^T R = J^T J
 /// @param rows of the jacobian. @param level of the intervals
 ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows, double level);
+
+/// The number below which a variable of Student's t distribution lies with probability p. @param p between 0 and 1
+/// @param degrees of freedom, positive; infinite, or beyond 1e8: the normal distribution
+double student_quantile(double p, double degrees);
+
+/// The factor of a standard deviation that gives an interval of probability `level` around the mean: student_quantile((1 + level) / 2).
+double interval_factor(double level, double degrees);
+
+/// The probability that a chi-squared variable exceeds x. @param x 0 or more @param degrees of freedom, positive
+double chi_squared_tail(double x, double degrees);
 
 }  // namespace codesign

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "statistics/quantiles.h"
+#include "statistics/parameter_covariance.h"
 
 namespace codesign {
 namespace {

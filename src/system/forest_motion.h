@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "joints/joint_sweep.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
+#include "mechanism/constants.h"
 #include "system/system.h"
 
 namespace codesign {

@@ -2,7 +2,7 @@
 #include "system/inverse_dynamics.h"
 
 #include "codegen/number_types.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

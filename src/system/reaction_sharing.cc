@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "system/reaction_sharing.h"
 
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 // A body of the forest carries a loop that shares reactions: at most one for each set of loops. It may stand still, since a displacement

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-#include "joints/local_row.h"
+#include "joints/pair_rows.h"
 #include "math/scalar.h"
 #include "mechanism/forest.h"
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "description/tuned_parameters.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
-#include "system/start_rotations.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 namespace {

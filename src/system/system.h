@@ -7,7 +7,7 @@
 #include "control/signal.h"
 #include "description/robot.h"
 #include "description/study.h"
-#include "forces/bristle_law.h"
+#include "forces/bristles.h"
 #include "mechanism/topology.h"
 #include "system/reaction_sharing.h"
 #include "system/state.h"

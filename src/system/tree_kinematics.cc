@@ -7,8 +7,8 @@
 
 #include "codegen/number_types.h"
 #include "joints/joint_sweep.h"
-#include "math/span.h"
-#include "mechanism/joint_steps.h"
+#include "math/arrays.h"
+#include "mechanism/pose.h"
 #include "system/forest_motion.h"
 
 namespace codesign {
@@ -195,5 +195,21 @@ void state_coordinates(const System& system, const TreeLayout& layout, const Con
                                   const VectorX<T>&, const VectorX<T>&, VectorX<T>*, VectorX<T>*);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
+
+int tree_joint(const RobotDescription& robot, const InitialJointState& initial) {
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (robot.joints[k].name == initial.joint && !robot.joints[k].is_loop) return static_cast<int>(k);
+  return -1;
+}
+
+RobotDescription with_start_rotations(RobotDescription robot, const Study& study) {
+  for (const InitialJointState& initial : study.initial_state) {
+    const int joint = tree_joint(robot, initial);
+    if (joint < 0 || !initial.rotation) continue;
+    JointDescription& description = robot.joints[static_cast<std::size_t>(joint)];
+    if (description.type == JointType::kFloating) description.start_rotation = *initial.rotation;
+  }
+  return robot;
+}
 
 }  // namespace codesign

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "description/robot.h"
+#include "description/study.h"
 #include "mechanism/constants.h"
 #include "mechanism/pose.h"
 #include "system/state.h"
@@ -74,5 +76,11 @@ template <class T>
 void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants,
                        const std::vector<LinkMotion<T>>& links, const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q,
                        VectorX<T>* v);
+
+/// The index in RobotDescription::joints of the tree joint that an entry of `initial_state` names; -1 for a loop or an unknown name.
+int tree_joint(const RobotDescription& robot, const InitialJointState& initial);
+
+/// The model with the rotations that the study's `initial_state` gives for floating joints as their JointDescription::start_rotation.
+RobotDescription with_start_rotations(RobotDescription robot, const Study& study);
 
 }  // namespace codesign

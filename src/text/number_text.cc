@@ -1,15 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "text/number_text.h"
 
+#include <array>
 #include <charconv>
 #include <locale>
 #include <sstream>
 #include <system_error>
 
-#include "text/decimal.h"
-
 namespace codesign {
-
 namespace {
 
 /// A number out of the range of doubles: zero (or a denormal) if too small, as urdfdom reads it; std::nullopt if too large.
@@ -23,6 +21,12 @@ std::optional<double> underflow(const std::string& text) {
 }
 
 }  // namespace
+
+std::string to_decimal(double value) {
+  std::array<char, 32> text;  // a double needs at most 24
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return std::string(text.data(), result.ptr);
+}
 
 std::optional<double> parse_number(const std::string& text) {
   const char* begin = text.data();

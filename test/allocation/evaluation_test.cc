@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // A worker that has evaluated one design evaluates others without allocating anything but the vectors of its results.
 #include "allocation/count.h"
-#include "engine/worker.h"
+#include "engine/thread_engine.h"
 #include "integration/rounded_linkages.h"
 #include "sensitivity/gradient_cases.h"
 

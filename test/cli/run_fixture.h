@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/json_output.h"
+#include "cli/report.h"
 #include "paths.h"
 
 namespace codesign::cli {

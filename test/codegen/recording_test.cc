@@ -1,10 +1,30 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "codegen/recording.h"
-
 #include <gtest/gtest.h>
+
+#include "codegen/recording.h"
 
 namespace codesign {
 namespace {
+
+TEST(SourceId, GivesTheObjectBackAsItsOwnTypeOnly) {
+  struct Holder {
+    int first = 3;
+  } holder;
+  const SourceId id(holder);
+  ASSERT_NE(id.as<Holder>(), nullptr);
+  EXPECT_EQ(id.as<Holder>()->first, 3);
+  EXPECT_EQ(id.as<int>(), nullptr);
+  EXPECT_TRUE(id == SourceId(holder));
+  EXPECT_FALSE(id == SourceId(holder.first)) << "the same address, but another type";
+}
+
+TEST(NodeTable, FindsWhatItHoldsAlsoAfterItHasGrown) {
+  constexpr int kCount = 50000;
+  const auto key = [](int k) { return (static_cast<std::uint64_t>(k % 7 + 2) << 58U) | static_cast<std::uint64_t>(k + 1); };
+  NodeTable table;
+  for (int k = 0; k < kCount; ++k) EXPECT_EQ(table.find_or_add(key(k), 3 * k), std::make_pair(3 * k, true));
+  for (int k = 0; k < kCount; ++k) EXPECT_EQ(table.find_or_add(key(k), -1), std::make_pair(3 * k, false));
+}
 
 TEST(Recording, EveryLeafLiteralAndOperationIsThereOnce) {
   Recording r;
@@ -72,4 +92,5 @@ TEST(Recording, TurnsDecisionsByTheirPlace) {
 }
 
 }  // namespace
+
 }  // namespace codesign

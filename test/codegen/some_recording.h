@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "codegen/operate.h"
+#include "codegen/interpreter.h"
 #include "codegen/traced.h"
 #include "codegen/value_program.h"
 

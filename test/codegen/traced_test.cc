@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "math/elementary.h"
+#include "math/scalar.h"
 
 namespace codesign {
 namespace {

@@ -1,17 +1,43 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "control/reference.h"
-
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
 
-#include "math/ridders.h"
+#include "control/reference.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {
+
+double value(const std::array<double, 6>& c, double t) {
+  double sum = 0.0;
+  for (std::size_t k = c.size(); k-- > 0;) sum = sum * t + c[k];
+  return sum;
+}
+
+double slope(const std::array<double, 6>& c, double t) {
+  double sum = 0.0;
+  for (std::size_t k = c.size() - 1; k > 0; --k) sum = sum * t + static_cast<double>(k) * c[k];
+  return sum;
+}
+
+TEST(WaypointPolynomial, MeetsTheEndsInPositionAndFromTheThirdDegreeOnInVelocity) {
+  const Knot<double> from{1.0, 2.0, -3.0}, to{-0.5, 4.0, 5.0};
+  for (Interpolation degree : {Interpolation::kLinear, Interpolation::kCubic, Interpolation::kQuintic}) {
+    const auto c = waypoint_polynomial(degree, from, to, 0.5);
+    EXPECT_EQ(value(c, 0.0), 1.0);
+    EXPECT_NEAR(value(c, 0.5), -0.5, 1e-13);
+    if (degree == Interpolation::kLinear) {
+      EXPECT_NEAR(slope(c, 0.2), -3.0, 1e-13);
+      continue;
+    }
+    EXPECT_EQ(slope(c, 0.0), 2.0);
+    EXPECT_NEAR(slope(c, 0.5), 4.0, 1e-12);
+  }
+  EXPECT_EQ(waypoint_polynomial(Interpolation::kQuintic, from, to, 0.5)[2], -1.5);
+}
 
 Reference<double> through(const WaypointsDescription& points) {
   ReferenceDescription description;
@@ -228,5 +254,45 @@ TEST(Reference, CubicAndLinearPieces) {
   EXPECT_NEAR(linear.at(2.5).value, 1.5, 1e-14);
 }
 
+const std::vector<double> kCoefficients{1.0, -2.0, 0.5, 3.0, 4.0};
+
+BasisDescription basis(BasisShape shape) {
+  BasisDescription b;
+  b.shape = shape;
+  b.duration = 2.0;
+  b.coefficients.assign(kCoefficients.begin(), kCoefficients.end());
+  return b;
+}
+
+TEST(ShapedInput, LinearRunsThroughItsCoefficientsAndHoldsTheLast) {
+  const BasisDescription b = basis(BasisShape::kLinear);
+  const ShapedInput<double> input(b, {});
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(input.at(0.5 * k).value, kCoefficients[static_cast<std::size_t>(k)], 1e-15);
+  EXPECT_NEAR(input.at(0.25).rate, -6.0, 1e-14);
+  EXPECT_EQ(input.at(7.0).value, 4.0);
+  EXPECT_EQ(input.at(7.0).rate, 0.0);
+}
+
+TEST(ShapedInput, CubicHasTheRateOfItsValues) {
+  const BasisDescription b = basis(BasisShape::kCubic);
+  const ShapedInput<double> input(b, {});
+  EXPECT_NEAR(input.at(0.0).value, 1.0, 1e-15);
+  for (double t : {0.3, 0.9, 1.7}) {
+    const double rate = ridders_derivative([&](double s) { return input.at(s).value; }, t, 0.05).value;
+    EXPECT_NEAR(input.at(t).rate, rate, 1e-9);
+  }
+}
+
+TEST(ShapedInput, DerivativesByCoefficientsAreTheWeights) {
+  BasisDescription b = basis(BasisShape::kCubic);
+  b.coefficients[2] = Quantity(kCoefficients[2], std::make_shared<Expression>("c", std::vector<std::string>{"c"}));
+  Lanes<4> c(kCoefficients[2]);
+  c.v[1] = 1.0;
+  const ShapedInput<Lanes<4>> input(b, {c});
+  const BasisWeights weights = basis_weights(b, 0.9);
+  EXPECT_NEAR(input.at(0.9).value.v[1], weights.value[static_cast<std::size_t>(2 - weights.first)], 1e-15);
+}
+
 }  // namespace
+
 }  // namespace codesign

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "description/study.h"
+#include "mechanism/topology.h"
 #include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {

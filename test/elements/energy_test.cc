@@ -5,7 +5,7 @@
 #include "equations/equations_fixture.h"
 #include "equations/generic_state.h"
 #include "equations/loaded_arm.h"
-#include "math/ridders.h"
+#include "math/differences.h"
 #include "observation/energy.h"
 
 namespace codesign {

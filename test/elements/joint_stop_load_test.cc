@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <regex>
 
+#include "equations/compiled_system.h"
 #include "equations/equations_fixture.h"
 #include "integration/mechanisms.h"
 

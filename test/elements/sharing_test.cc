@@ -1,8 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "codegen/traced.h"
 #include "equations/equations_fixture.h"
 #include "integration/linkages.h"
+#include "system/reaction_sharing.h"
 
 namespace codesign {
 namespace {

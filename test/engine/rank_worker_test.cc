@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/rank_fixture.h"
-#include "engine/serial_engine.h"
+#include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
 
 namespace codesign {

@@ -8,7 +8,7 @@
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "integration/servo.h"
-#include "math/directions.h"
+#include "math/scalar.h"
 
 namespace codesign {
 namespace {

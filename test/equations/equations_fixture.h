@@ -6,9 +6,9 @@
 #include <string>
 
 #include "codegen/value_code.h"
+#include "equations/compiled_system.h"
 #include "equations/equations.h"
-#include "math/derivative_check.h"
-#include "math/ridders.h"
+#include "math/differences.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "assembly/acceleration_block.h"
+#include "assembly/determined_motion.h"
 #include "equations/compiled.h"
 #include "math/dense.h"
 

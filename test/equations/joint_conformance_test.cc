@@ -8,7 +8,7 @@
 #include "assembly/redundancy.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
-#include "math/derivative_check.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

@@ -6,7 +6,7 @@
 #include "equations/equations.h"
 #include "equations/generic_state.h"
 #include "integration/servo.h"
-#include "math/derivative_check.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "equations/equations.h"
 #include "excitation/excite.h"
 #include "paths.h"
 #include "problem/load_problem.h"

@@ -5,7 +5,7 @@
 
 #include "excitation/excited_cases.h"
 #include "excitation/trajectory_space.h"
-#include "math/ridders.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

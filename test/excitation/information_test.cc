@@ -5,8 +5,9 @@
 
 #include <cmath>
 
+#include "equations/equations.h"
 #include "excitation/excited_cases.h"
-#include "math/ridders.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

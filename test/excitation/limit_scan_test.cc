@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "equations/equations.h"
 #include "excitation/excited_cases.h"
 
 namespace codesign {

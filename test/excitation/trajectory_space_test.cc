@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "equations/equations.h"
 #include "excitation/excited_cases.h"
 
 namespace codesign {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "forces/bristle.h"
-#include "math/derivative_check.h"
+#include "forces/friction_law.h"
+#include "math/differences.h"
 #include "mechanism/constants.h"
 
 namespace codesign {

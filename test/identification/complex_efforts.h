@@ -5,8 +5,9 @@
 #include <complex>
 #include <vector>
 
+#include "equations/compiled_system.h"
 #include "identification/driven_motion.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

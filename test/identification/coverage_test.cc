@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "identification/effort_sensor.h"
+#include "identification/fit_variables.h"
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"
 

@@ -6,7 +6,7 @@
 #include "equations/compiled.h"
 #include "identification/complex_efforts.h"
 #include "identification/recorded_motion.h"
-#include "math/derivative_check.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

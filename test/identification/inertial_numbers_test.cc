@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism/log_cholesky.h"
+#include "mechanism/mass_properties.h"
 
 namespace codesign {
 namespace {

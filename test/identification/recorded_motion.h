@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "assembly/assembly.h"
 #include "assembly/make_system.h"
 #include "identification/effort_model.h"
 #include "integration/rosenbrock_integrator.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
 

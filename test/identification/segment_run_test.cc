@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "identification/motion_rig.h"
+#include "identification/segment_fit.h"
 #include "identification/segments.h"
-#include "math/ridders.h"
+#include "math/differences.h"
 #include "paths.h"
 
 namespace codesign {

@@ -7,6 +7,7 @@
 
 #include "assembly/start_workspace.h"
 #include "identification/motion_rig.h"
+#include "identification/segment_fit.h"
 #include "paths.h"
 
 namespace codesign {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "problem/load_problem.h"
-#include "recordings/load_recordings.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 

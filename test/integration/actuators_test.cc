@@ -4,6 +4,7 @@
 
 #include "assembly/make_system.h"
 #include "integration/energy_balance.h"
+#include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 

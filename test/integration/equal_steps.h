@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/assembly.h"
+#include "equations/compiled_system.h"
 #include "integration/rosenbrock_step.h"
 
 namespace codesign {

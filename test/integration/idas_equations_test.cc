@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "assembly/assembly.h"
 #include "integration/servo.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/assembly.h"
-#include "equations/derivative_products.h"
+#include "equations/iteration_matrix.h"
 #include "integration/servo.h"
 
 namespace codesign {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign::rounded {
 

@@ -9,7 +9,7 @@
 #include "integration/rounded_linkages.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

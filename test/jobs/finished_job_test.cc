@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "jobs/files.h"
 #include "jobs/optimization_records.h"
 #include "jobs/result_folder.h"
 #include "jobs/tuned_pendulum.h"
-#include "jobs/whole_file.h"
 #include "reading/urdf/urdf_reader.h"
 #include "temporary_directory.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

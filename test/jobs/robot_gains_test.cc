@@ -1,8 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "jobs/robot_gains.h"
-
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+#include <algorithm>
 
+#include "jobs/robot_gains.h"
 #include "jobs/tuned_pendulum.h"
 
 namespace codesign {
@@ -24,5 +25,61 @@ TEST(RobotGainsOfAStudy, AreThoseOfTheDesign) {
 
 TEST(RobotGainsOfAStudy, WithoutHardwareThereAreNone) { EXPECT_TRUE(robot_gains(pendulum(), pendulum().parameters()).empty()); }
 
+/// With another name of the controller.
+std::string gains_of(const std::string& controller) {
+  const Problem problem = pendulum_on_hardware();
+  Study study = problem.study();
+  study.controllers.at(0).name = study.hardware.at(0).controller = controller;
+  return gains_yaml(with_study(problem, study), problem.parameters());
+}
+
+TEST(GainsYaml, WithoutHardwareThereIsNone) { EXPECT_EQ(gains_yaml(pendulum(), pendulum().parameters()), ""); }
+
+TEST(GainsYaml, HoldsWhatControlToolboxReads) {
+  const Problem problem = pendulum_on_hardware();
+  Eigen::VectorXd rho = problem.start();
+  rho[1] = 1e-6;  // Kp
+  const std::string text = gains_yaml(problem, problem.parameters(rho));
+  const YAML::Node gains = YAML::Load(text)["arm_controller"]["gains"]["hinge"];
+  ASSERT_TRUE(gains) << text;
+  EXPECT_EQ(gains.size(), 5U);
+  EXPECT_EQ(gains["p"].as<double>(), 1e-6);
+  EXPECT_EQ(gains["i"].as<double>(), 0.25);
+  EXPECT_EQ(gains["d"].as<double>(), 0.0);
+  EXPECT_EQ(gains["i_clamp"].as<double>(), 2.0);
+  EXPECT_TRUE(gains["antiwindup"].as<bool>());
+  // rosparam takes a number without a decimal point and with an exponent for a text.
+  EXPECT_NE(text.find("p: 1.0e-06"), std::string::npos) << text;
+  EXPECT_NE(text.find("d: 0.0\n"), std::string::npos) << text;
+}
+
+TEST(GainsYaml, NamesStayInTheirComments) {
+  // All line ends of YAML 1.1, and what its readers refuse: control characters, bytes that are not UTF-8, U+FFFE.
+  const char* const parts[] = {"\n", "\r", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9", "\x01", "\x7f", "\xff", "\xef\xbf\xbe"};
+  for (const std::string part : parts) {
+    const std::string text = gains_of("c" + part + "evil: {p: 1}" + part + "#");
+    EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); })) << text;
+    EXPECT_EQ(YAML::Load(text).size(), 1U) << text;
+  }
+  EXPECT_NE(gains_of("hold 1").find(": hold 1 of the study, which drives hinge\n"), std::string::npos) << "as it is";
+}
+
+TEST(GainsYaml, SoDoNamesOfJoints) {
+  const auto renamed = [](std::string text, const std::string& name) {
+    for (std::size_t at = 0; (at = text.find("hinge", at)) != std::string::npos; at += name.size()) text.replace(at, 5, name);
+    return text;
+  };
+  const Problem plain = pendulum();
+  const std::string study = renamed(plain.study_text().text, "\"hi\\nevil: 1\\n#\"");
+  const std::string signal = replaced(study, "\"hi\\nevil: 1\\n#\"/position", "\"hi\\nevil: 1\\n#/position\"");
+  const Problem problem = load_problem({"a.urdf", renamed(plain.urdf().text, "hi&#10;evil: 1&#10;#")}, {},
+                                       {"a.yaml", replaced(signal, "\"hi\\nevil: 1\\n#\"/velocity", "\"hi\\nevil: 1\\n#/velocity\"") +
+                                                      "hardware: {hold: {namespace: a/b}}\n"});
+  const std::string text = gains_yaml(problem, problem.parameters());
+  EXPECT_EQ(YAML::Load(text).size(), 1U) << text;
+  EXPECT_NE(text.find("which drives \"hi\\nevil: 1\\n#\"\n"), std::string::npos) << text;
+}
+
 }  // namespace
+
 }  // namespace codesign

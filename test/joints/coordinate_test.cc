@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "joints/two_bodies.h"
-#include "math/derivative_check.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

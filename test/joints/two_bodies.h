@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "joints/body_kinematics.h"
-#include "joints/local_row.h"
+#include "joints/pair_rows.h"
 
 namespace codesign {
 

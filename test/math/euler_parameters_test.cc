@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "math/derivative_check.h"
+#include "math/differences.h"
 
 namespace codesign {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "math/elementary.h"
+#include "math/scalar.h"
 
 namespace codesign {
 namespace {

@@ -1,14 +1,50 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism/pair_geometry.h"
-
 #include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 
+#include "mechanism/pair_geometry.h"
 #include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {
+
+/// ground - yaw (z, at height 1) - massless fork - pitch (y, 0.5 further up, turned about z by a right angle) - arm.
+const RobotDescription& robot() {
+  static const RobotDescription robot = read_urdf(robot_text(
+      kGround + link_with("fork", "") + link_with("arm") +
+      joint_with("yaw", "continuous", "ground", "fork", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
+      joint_with("pitch", "continuous", "fork", "arm", "<origin xyz='0 0 0.5' rpy='0 0 1.5707963267948966'/><axis xyz='0 2 0'/>")));
+  return robot;
+}
+
+ChainGeometry<double> geometry(const std::vector<ChainElement>& chain) {
+  return chain_geometry<double>(robot(), derive_topology(robot()), chain, {0.2});
+}
+
+TEST(ChainGeometry, FramesAndAxesAreSeenFromBodyI) {
+  const ChainGeometry<double> g = geometry({{0, false}, {1, false}});
+  EXPECT_LT((g.frames[0].t - Eigen::Vector3d(0.0, 0.0, 1.0)).norm(), 1e-15);
+  EXPECT_LT((g.frames[1].t - Eigen::Vector3d(0.0, 0.0, 1.5)).norm(), 1e-15);
+  EXPECT_LT((g.axes[0] - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_LT((g.axes[1] - Eigen::Vector3d(-1.0, 0.0, 0.0)).norm(), 1e-15) << "the unit of y, turned about z";
+  EXPECT_LT((g.X_ij.t - Eigen::Vector3d(0.0, 0.0, 1.5)).norm(), 1e-15);
+}
+
+TEST(ChainGeometry, WalkedBackwardsItIsTheInverse) {
+  const Pose<double> there = geometry({{0, false}, {1, false}}).X_ij, back = geometry({{1, true}, {0, true}}).X_ij;
+  const Pose<double> round = there * back;
+  EXPECT_LT((round.R - Eigen::Matrix3d::Identity()).norm(), 1e-15);
+  EXPECT_LT(round.t.norm(), 1e-15);
+}
+
+TEST(NearestPoint, IsWhereLinesMeetOrComeClosest) {
+  using V = Vector3<double>;
+  // The line along x at y = 2 and the line along y at x = 3 intersect; with the second one at z = 1 they do not.
+  for (double lift : {0.0, 1.0})
+    EXPECT_LT((nearest_point<double>(V(-5, 2, 0), V::UnitX(), V(3, 7, lift), V::UnitY()) - V(3, 2, 0)).norm(), 1e-14);
+  const V oblique = V(1, 1, 0).normalized();
+  EXPECT_LT((nearest_point<double>(V(0, 0, 0), V::UnitX(), V(4, 1, 0), oblique) - V(3, 0, 0)).norm(), 1e-14);
+}
 
 using CoordinateKind = CoordinateConstants<double>::Kind;
 
@@ -103,5 +139,52 @@ TEST(PairGeometry, ADistanceHasTwoPointsThatNeedNotCoincide) {
   EXPECT_LT((c.s_j + kUnitZ).norm(), 1e-15) << "the two ends need not coincide";
 }
 
+/// The error that the check throws; empty if it passes.
+std::string complaint(const FrictionDescription& friction, JointType type) {
+  JointDescription joint;
+  joint.type = type;
+  try {
+    check_friction_geometry(friction, kind_of(joint), "<joint>");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FrictionGeometry, EachJointTypeNeedsItsDimensions) {
+  FrictionDescription friction;
+  friction.where = {"a.urdf", 3};
+  EXPECT_EQ(complaint(friction, JointType::kPlanar), "");
+  EXPECT_EQ(complaint(friction, JointType::kPrismatic),
+            "a.urdf:3: <joint>: the friction of this joint type needs the attribute joint_length (allowed: > 0)");
+  friction.joint_length = 0.1;
+  EXPECT_NE(complaint(friction, JointType::kPrismatic).find("joint_width"), std::string::npos);
+  for (JointType type : {JointType::kRevolute, JointType::kContinuous, JointType::kCylindrical, JointType::kSpherical})
+    EXPECT_NE(complaint(friction, type).find("pin_radius"), std::string::npos);
+  friction.joint_width = 0.1;
+  EXPECT_EQ(complaint(friction, JointType::kPrismatic), "");
+  friction.pin_radius = 0.1;
+  for (JointType type : {JointType::kRevolute, JointType::kContinuous, JointType::kCylindrical, JointType::kSpherical})
+    EXPECT_EQ(complaint(friction, type), "");
+}
+
+TEST(FrictionGeometry, WhatSlipsInSeveralDirectionsHasNoBackward) {
+  FrictionDescription friction;
+  friction.joint_length = friction.joint_width = friction.pin_radius = 0.1;
+  friction.is_directional = true;
+  for (JointType type : {JointType::kPrismatic, JointType::kRevolute, JointType::kContinuous, JointType::kCylindrical})
+    EXPECT_EQ(complaint(friction, type), "");
+  for (JointType type : {JointType::kSpherical, JointType::kPlanar})
+    EXPECT_NE(complaint(friction, type).find("slips in several directions"), std::string::npos);
+}
+
+TEST(FrictionGeometry, SomeJointsHaveNoFrictionLaw) {
+  FrictionDescription friction;
+  friction.joint_length = friction.joint_width = friction.pin_radius = 0.1;
+  for (JointType type : {JointType::kFixed, JointType::kFloating, JointType::kUniversal, JointType::kDistance})
+    EXPECT_NE(complaint(friction, type).find("no friction law"), std::string::npos);
+}
+
 }  // namespace
+
 }  // namespace codesign

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "math/dense.h"
-#include "math/triangular_root.h"
 
 namespace codesign {
 namespace {

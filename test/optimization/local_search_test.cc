@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "engine/serial_engine.h"
+#include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
 
 namespace codesign {

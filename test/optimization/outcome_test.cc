@@ -7,7 +7,7 @@
 
 #include "assembly/make_system.h"
 #include "mechanism_codesign/optimization.h"
-#include "optimization/search_warnings.h"
+#include "optimization/search_results.h"
 #include "paths.h"
 #include "problem/load_problem.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "child_process.h"
-#include "jobs/output_error.h"
+#include "jobs/files.h"
 #include "temporary_directory.h"
 
 namespace codesign {

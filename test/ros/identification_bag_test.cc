@@ -11,7 +11,7 @@
 
 #include <map>
 
-#include "jobs/output_error.h"
+#include "jobs/files.h"
 #include "ros/sample_frame.h"
 #include "temporary_directory.h"
 

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <map>
 
-#include "jobs/output_error.h"
+#include "jobs/files.h"
 #include "mechanism_codesign/Scene.h"
 #include "ros/conversions.h"
 #include "ros/sample_frame.h"

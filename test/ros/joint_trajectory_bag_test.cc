@@ -6,7 +6,7 @@
 #include <rosbag/view.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
-#include "jobs/output_error.h"
+#include "jobs/files.h"
 #include "ros/trajectory_bag.h"
 #include "temporary_directory.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/ridders.h"
+#include "math/differences.h"
 #include "sampling/samples.h"
 
 namespace codesign {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "equations/equations.h"
 #include "integration/servo.h"
 
 namespace codesign {

@@ -5,7 +5,7 @@
 
 #include "equations/generic_state.h"
 #include "integration/servo.h"
-#include "math/directions.h"
+#include "math/scalar.h"
 
 namespace codesign {
 namespace {

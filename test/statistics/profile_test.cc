@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "statistics/quantiles.h"
+#include "statistics/parameter_covariance.h"
 
 namespace codesign {
 namespace {

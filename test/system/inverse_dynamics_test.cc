@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/compiled.h"
-#include "math/to_index.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

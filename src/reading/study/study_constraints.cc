@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_constraints.h"
 
-#include "description/parameter_constraint.h"
+#include "description/tuned_parameters.h"
 #include "reading/study/study_between.h"
 #include "reading/study/study_values.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -11,7 +11,7 @@
 #include "description/tuned_parameters.h"
 #include "math/conditional_normal.h"
 #include "reading/study/study_values.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

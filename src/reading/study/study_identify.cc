@@ -9,7 +9,7 @@
 #include "reading/study/study_fitted_number.h"
 #include "reading/study/study_recordings.h"
 #include "reading/study/study_values.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "math/scalar.h"
 #include "reading/study/study_values.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -2,7 +2,7 @@
 #include "reading/study/study_loads.h"
 
 #include "reading/study/study_values.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

@@ -2,7 +2,7 @@
 #include "reading/study/study_options.h"
 
 #include "reading/study/study_fields.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

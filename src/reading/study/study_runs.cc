@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "reading/study/study_values.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

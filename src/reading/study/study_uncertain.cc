@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "description/friction.h"
+#include "description/robot.h"
 #include "reading/study/study_identified.h"
 #include "reading/study/study_values.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

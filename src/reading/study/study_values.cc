@@ -7,7 +7,7 @@
 
 #include "description/tuned_parameters.h"
 #include "mechanism/signal_catalog.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 

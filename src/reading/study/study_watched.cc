@@ -6,7 +6,7 @@
 #include "reading/study/study_constraints.h"
 #include "reading/study/study_references.h"
 #include "reading/study/study_values.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "mechanism/body_check.h"
+#include "mechanism/constants.h"
 #include "reading/urdf/annotation_rules.h"
 #include "reading/urdf/annotation_schema.h"
 #include "reading/urdf/foreign_loops.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "description/friction.h"
+#include "description/robot.h"
 
 namespace codesign {
 namespace {

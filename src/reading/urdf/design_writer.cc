@@ -7,7 +7,6 @@
 #include "mechanism/mass_properties.h"
 #include "reading/urdf/annotation_rules.h"
 #include "reading/urdf/twin.h"
-#include "text/decimal.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "mechanism/default_values.h"
+#include "mechanism/constants.h"
 #include "mechanism/pose.h"
 #include "text/number_text.h"
 

@@ -4,10 +4,9 @@
 #include <cctype>
 #include <string>
 
-#include "mechanism/log_cholesky.h"
+#include "mechanism/mass_properties.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/set_values.h"
-#include "text/decimal.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "mechanism/mass_properties.h"
-#include "text/decimal.h"
 #include "text/number_text.h"
 
 namespace codesign {

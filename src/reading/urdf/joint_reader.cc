@@ -3,8 +3,8 @@
 
 #include "reading/urdf/friction_reader.h"
 #include "reading/urdf/quantity_reader.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

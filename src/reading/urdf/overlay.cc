@@ -8,7 +8,7 @@
 #include "reading/urdf/set_values.h"
 #include "reading/urdf/twin.h"
 #include "reading/xml/xml_element.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

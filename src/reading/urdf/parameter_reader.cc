@@ -5,7 +5,7 @@
 
 #include "description/expression.h"
 #include "reading/urdf/quantity_reader.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

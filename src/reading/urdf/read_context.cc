@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 

@@ -7,8 +7,8 @@
 #include "reading/urdf/annotated_urdf.h"
 #include "reading/urdf/design_writer.h"
 #include "reading/urdf/quantity_reader.h"
-#include "text/decimal.h"
-#include "text/unknown_name.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

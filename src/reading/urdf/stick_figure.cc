@@ -8,7 +8,7 @@
 
 #include "reading/urdf/mesh_finder.h"
 #include "reading/urdf/plain_numbers.h"
-#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "text/decimal.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "mechanism/friction_geometry.h"
-#include "text/unknown_name.h"
+#include "mechanism/pair_geometry.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {

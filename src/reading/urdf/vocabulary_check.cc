@@ -11,7 +11,6 @@
 #include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"
-#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

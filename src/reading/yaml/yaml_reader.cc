@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
+#include "text/nearest_name.h"
 #include "text/number_text.h"
-#include "text/unknown_name.h"
 
 namespace codesign {
 namespace {

@@ -1,0 +1,48 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "equations/equation_code.h"
+#include "equations/joint_cases.h"
+#include "equations/loaded_arm.h"
+#include "equations/recorded_equations.h"
+#include "integration/servo.h"
+
+namespace codesign {
+namespace {
+
+TEST(RecordPatterns, HaveARowPerEquationAndOneForTheIntegrand) {
+  const auto system = servo("{}");
+  const ByVariable<Sparsity> patterns = record_patterns(*system);
+  EXPECT_EQ(patterns.rate.rows, system->layout().columns() + 1);
+  EXPECT_EQ(patterns.position.columns, system->layout().positions());
+  EXPECT_EQ(patterns.velocity.columns, system->layout().n);
+  for (const Sparsity* pattern : {&patterns.position, &patterns.velocity, &patterns.rate}) {
+    ASSERT_EQ(pattern->row_start.size(), static_cast<std::size_t>(pattern->rows) + 1);
+    for (int row = 0; row < pattern->rows; ++row)
+      for (int e = pattern->first(row) + 1; e < pattern->first(row + 1); ++e) EXPECT_LT(pattern->column(e - 1), pattern->column(e));
+  }
+}
+
+/// derive_linearization() throws for an entry outside the patterns. Each decision alone is turned round.
+void expect_room_for_every_variant(const CompiledSystem& system) {
+  const std::vector<bool> outcomes = system.equation_code()->outcomes();
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    std::vector<bool> other(outcomes.begin(), outcomes.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    other.back() = !other.back();
+    EXPECT_NO_THROW(system.record_variant(other)) << "decision " << k;
+  }
+}
+
+TEST(RecordPatterns, HaveRoomForEveryBranch) {
+  const std::string stops = "limits: {position: true, effort: true, stiffness: 50.0, width: 0.01, dissipation: 0.4}\n";
+  expect_room_for_every_variant(*compile(loaded_arm(), "duration: 1.0\n" + stops));
+  for (const char* friction : {"lugre", "gonthier"})
+    expect_room_for_every_variant(*compile(with_friction_model(puck(), friction), "duration: 1.0\n"));
+  for (const JointCase& joint : joint_cases::all())
+    expect_room_for_every_variant(*compile(joint_cases::model(joint), "duration: 1.0\n" + stops));
+  expect_room_for_every_variant(*servo("{}"));
+}
+
+}  // namespace
+
+}  // namespace codesign

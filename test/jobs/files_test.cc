@@ -1,0 +1,121 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <fstream>
+#include <iterator>
+
+#include "child_process.h"
+#include "jobs/files.h"
+#include "temporary_directory.h"
+
+namespace codesign {
+namespace {
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(WholeFile, ReplacesAFileAndLeavesNoPart) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "a").string();
+  write_whole_file(path, "first, longer");
+  write_whole_file(path, "second");
+  EXPECT_EQ(content(path), "second");
+  EXPECT_FALSE(std::filesystem::exists(path + kPartSuffix));
+}
+
+TEST(WholeFile, NamesPathAndCause) {
+  try {
+    write_whole_file("/nonexistent/a", "x");
+    ADD_FAILURE();
+  } catch (const OutputError& error) {
+    EXPECT_STREQ(error.what(), "/nonexistent/a: cannot be written: No such file or directory");
+  }
+}
+
+TEST(WholeFile, AFullDiskLeavesTheOldFileAndNoPart) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "a").string();
+  write_whole_file(path, "old");
+  // A part that is a link to a full device stands for a full disk.
+  std::filesystem::create_symlink("/dev/full", path + kPartSuffix);
+  EXPECT_THROW(write_whole_file(path, "new"), OutputError);
+  EXPECT_EQ(content(path), "old");
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(path + kPartSuffix)));
+}
+
+TEST(GiveFinalName, NeverReplacesAFile) {
+  const TemporaryDirectory directory;
+  const std::string active = (directory.path() / "a.active").string(), path = (directory.path() / "a").string();
+  write_whole_file(active, "mine");
+  write_whole_file(path, "another's");
+  EXPECT_THROW(give_final_name(active, path), OutputError);
+  EXPECT_EQ(content(path), "another's");
+  std::filesystem::remove(path);
+  give_final_name(active, path);
+  EXPECT_EQ(content(path), "mine");
+  EXPECT_FALSE(std::filesystem::exists(active));
+}
+
+class Locks : public testing::Test {
+ protected:
+  bool is_there() const { return std::filesystem::exists(path_); }
+
+  TemporaryDirectory directory_;
+  std::string path_ = (directory_.path() / "lock").string();
+};
+
+TEST_F(Locks, ANameIsCreatedOnceUntilItIsGivenBack) {
+  {
+    const auto lock = LockFile::create(path_);
+    ASSERT_TRUE(lock);
+    EXPECT_FALSE(LockFile::create(path_));
+    EXPECT_FALSE(LockFile::take(path_));
+    EXPECT_FALSE(LockFile::take_abandoned(path_));
+    EXPECT_TRUE(is_there());
+  }
+  EXPECT_FALSE(is_there());
+  EXPECT_TRUE(LockFile::create(path_));
+}
+
+TEST_F(Locks, WhatAKilledProcessLeftBehindCanBeTaken) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto lock = LockFile::create(path_);
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(is_there());
+  EXPECT_FALSE(LockFile::create(path_));
+  EXPECT_TRUE(LockFile::take_abandoned(path_));
+  EXPECT_FALSE(is_there());
+}
+
+TEST_F(Locks, NothingThatIsNotThereIsAbandoned) { EXPECT_FALSE(LockFile::take_abandoned(path_)); }
+
+TEST_F(Locks, AFolderThatIsMissingIsAnOutputError) {
+  EXPECT_THROW(LockFile::create("/nonexistent/lock"), OutputError);
+  EXPECT_THROW(LockFile::take("/nonexistent/lock"), OutputError);
+}
+
+TEST_F(Locks, OfManyProcessesEachGetsAnother) {
+  constexpr int kProcesses = 16;
+  for (int k = 0; k < kProcesses; ++k) {
+    if (fork() != 0) continue;
+    for (int number = 0;; ++number) {
+      const auto lock = LockFile::create(path_ + std::to_string(number));
+      if (!lock) continue;
+      std::ofstream((directory_.path() / "log").string() + std::to_string(number), std::ios::app) << "x";
+      usleep(200000);
+      _exit(0);
+    }
+  }
+  for (int k = 0; k < kProcesses; ++k) waitpid(-1, nullptr, 0);
+  for (int number = 0; number < kProcesses; ++number)
+    EXPECT_EQ(std::filesystem::file_size((directory_.path() / "log").string() + std::to_string(number)), 1U) << number;
+}
+
+}  // namespace
+
+}  // namespace codesign
