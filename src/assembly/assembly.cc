@@ -9,6 +9,7 @@
 #include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
 #include "equations/mass_solution.h"
+#include "mechanism/constants.h"
 
 namespace codesign {
 namespace {

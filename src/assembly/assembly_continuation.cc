@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.h"
 #include "assembly/tree_coordinates.h"
+#include "mechanism/constants.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -10,6 +10,7 @@
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "math/dense.h"
+#include "mechanism/constants.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -7,6 +7,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "equations/formulas.h"
 #include "math/arrays.h"
 
 namespace codesign {

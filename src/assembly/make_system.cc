@@ -8,6 +8,7 @@
 #include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
 #include "assembly/start_workspace.h"
+#include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
 

@@ -7,6 +7,7 @@
 
 #include "assembly/start_workspace.h"
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "mechanism/signal_catalog.h"

@@ -8,6 +8,7 @@
 
 #include "assembly/determined_motion.h"
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 #include "math/arrays.h"
 #include "math/euler_parameters.h"
 

@@ -7,6 +7,7 @@
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "math/dense.h"
+#include "mechanism/constants.h"
 
 namespace codesign {
 namespace {

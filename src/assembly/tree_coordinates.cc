@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "codegen/number_types.h"
+#include "equations/formulas.h"
 #include "math/arrays.h"
 #include "math/euler_parameters.h"
 #include "mechanism/pose.h"

@@ -164,8 +164,8 @@ const std::vector<ExpressionFunction>& expression_function_table() {
       {"max", -1, [](In<Complex> z) { return extreme(z, 1.0); }},
       {"floor", 1, [](In<Complex> z) { return Complex(std::floor(z[0].real())); }},
       {"ceil", 1, [](In<Complex> z) { return Complex(std::ceil(z[0].real())); }},
-      {"radians", 1, [](In<Complex> z) { return z[0] * (kPi / 180.0); }},
-      {"degrees", 1, [](In<Complex> z) { return z[0] * (180.0 / kPi); }},
+      {"radians", 1, [](In<Complex> z) { return z[0] * (M_PI / 180.0); }},
+      {"degrees", 1, [](In<Complex> z) { return z[0] * (180.0 / M_PI); }},
   };
   return kTable;
 }

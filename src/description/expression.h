@@ -12,8 +12,6 @@
 
 namespace codesign {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// A function that expressions may call. All functions propagate a complex step exactly to first order; those that are not analytic (abs,
 /// min, max, floor, ...) branch by the real part.
 struct ExpressionFunction {

@@ -155,7 +155,7 @@ class Parser {
       if (function < 0) unknown("function", token, function_names());
       call(function, token);
     } else if (token.text == "pi") {
-      add({Code::kConstant, 0, 0, kPi});
+      add({Code::kConstant, 0, 0, M_PI});
     } else if (function >= 0) {
       scanner_.fail("the function '" + token.text + "' lacks its parentheses", token.at);
     } else {

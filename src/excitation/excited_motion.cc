@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/thread_engine.h"
+#include "equations/formulas.h"
 #include "identification/driven_motion.h"
 #include "identification/effort_tangent.h"
 #include "math/arrays.h"

@@ -6,7 +6,6 @@
 namespace codesign {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 
 /// A function with its first two derivatives.
 struct Shape {
@@ -48,7 +47,7 @@ TrajectoryBasis::Shapes TrajectoryBasis::at(double time) const {
 
 // Each shape combines neighbouring harmonics: the velocities of two sines, and the accelerations of two cosines, cancel at time 0.
 void TrajectoryBasis::add_fourier(double time, Shapes* shapes) const {
-  const double omega = 2.0 * kPi / period_;
+  const double omega = 2.0 * M_PI / period_;
   const auto add = [&](int harmonic, double sign) {
     const double l = harmonic, s = std::sin(l * omega * time), c = std::cos(l * omega * time);
     const Eigen::Index sine = 2 * (sign > 0.0 ? harmonic - 1 : harmonic - 2), cosine = sine + 1;
@@ -84,7 +83,7 @@ Eigen::VectorXd TrajectoryBasis::plain(int k) const {
   }
   const auto swings = static_cast<double>(1 + k % 4);
   for (Eigen::Index i = 0; i < size_; ++i)
-    coefficients[i] = std::sin(kPi * swings * static_cast<double>(i + 1) / static_cast<double>(size_ + 1));
+    coefficients[i] = std::sin(M_PI * swings * static_cast<double>(i + 1) / static_cast<double>(size_ + 1));
   return coefficients;
 }
 

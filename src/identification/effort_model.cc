@@ -7,6 +7,7 @@
 #include "engine/thread_engine.h"
 #include "identification/motion_projection.h"
 #include "math/arrays.h"
+#include "mechanism/constants.h"
 #include "text/cancel.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "assembly/start_workspace.h"
+#include "equations/formulas.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 

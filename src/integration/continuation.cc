@@ -3,6 +3,7 @@
 
 #include "assembly/assembly.h"
 #include "integration/integrator.h"
+#include "mechanism/constants.h"
 
 namespace codesign {
 namespace {

@@ -2,6 +2,7 @@
 #include "integration/integrator.h"
 
 #include "assembly/assembly.h"
+#include "equations/formulas.h"
 #include "integration/idas_integrator.h"
 #include "integration/rosenbrock_integrator.h"
 

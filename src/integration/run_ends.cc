@@ -10,6 +10,7 @@
 #include "assembly/determined_motion.h"
 #include "control/reference.h"
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 #include "math/dense.h"
 #include "text/number_text.h"
 

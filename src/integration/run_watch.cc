@@ -7,6 +7,7 @@
 
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_step.h"
+#include "mechanism/constants.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "equations/equations.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 

@@ -6,17 +6,13 @@
 
 namespace codesign {
 
-namespace {
-constexpr double kPi = 3.14159265358979323846;
-}  // namespace
-
 // Pairs of poles of the analog prototype, s^2 + q s + 1 with q = 2 sin(pi (2k + 1) / (2 n)), and the real pole of odd orders, taken to
 // discrete time by the bilinear transformation with the cutoff prewarped.
 ZeroPhaseFilter::ZeroPhaseFilter(int order, double cutoff, double rate) : padding_(3 * (order + 1)) {
   assert(order >= 1 && cutoff > 0.0 && cutoff < 0.5 * rate);
-  const double w = std::tan(kPi * cutoff / rate);
+  const double w = std::tan(M_PI * cutoff / rate);
   for (int k = 0; k < order / 2; ++k) {
-    const double q = 2.0 * std::sin(kPi * (2 * k + 1) / (2.0 * order)), scale = 1.0 / (1.0 + q * w + w * w);
+    const double q = 2.0 * std::sin(M_PI * (2 * k + 1) / (2.0 * order)), scale = 1.0 / (1.0 + q * w + w * w);
     sections_.push_back({w * w * scale, 2.0 * w * w * scale, w * w * scale, 2.0 * (w * w - 1.0) * scale, (1.0 - q * w + w * w) * scale});
   }
   if (order % 2 == 1) sections_.push_back({w / (1.0 + w), w / (1.0 + w), 0.0, (w - 1.0) / (w + 1.0), 0.0});

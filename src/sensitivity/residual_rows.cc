@@ -5,6 +5,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "equations/formulas.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 
 #include "equations/compiled.h"
 #include "integration/linkages.h"
+#include "mechanism/constants.h"
 
 namespace codesign {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "equations/compiled.h"
+#include "mechanism/constants.h"
 #include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {

@@ -3,6 +3,7 @@
 
 #include "elements/body.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "mechanism/mass_properties.h"

@@ -2,6 +2,7 @@
 #include <regex>
 
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "forces/bristles.h"
 #include "mechanism/topology.h"
 

@@ -7,6 +7,7 @@
 #include "equations/arm.h"
 #include "equations/compiled.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 namespace {

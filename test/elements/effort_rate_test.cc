@@ -8,6 +8,7 @@
 #include "control/signal.h"
 #include "equations/compiled.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "equations/generic_state.h"
 #include "equations/loaded_arm.h"
 #include "math/differences.h"

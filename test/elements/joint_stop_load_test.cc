@@ -3,6 +3,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "integration/mechanisms.h"
 
 namespace codesign {

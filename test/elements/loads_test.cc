@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "equations/generic_state.h"
 
 namespace codesign {

@@ -2,6 +2,7 @@
 
 #include "equations/compiled.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "cases/shipped.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "equations/loaded_arm.h"

@@ -6,6 +6,7 @@
 #include "codegen/value_code.h"
 #include "equations/compiled_equations.h"
 #include "equations/equation_code.h"
+#include "equations/formulas.h"
 #include "math/differences.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"

@@ -2,6 +2,7 @@
 #include "equations/equations.h"
 
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "system/system.h"
 
 namespace codesign {

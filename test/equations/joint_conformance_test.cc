@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "assembly/redundancy.h"
+#include "equations/formulas.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "math/differences.h"

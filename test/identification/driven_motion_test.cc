@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/compiled.h"
+#include "equations/formulas.h"
 #include "identification/recorded_motion.h"
 
 namespace codesign {

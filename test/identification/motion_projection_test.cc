@@ -3,6 +3,7 @@
 
 #include "cases/shipped.h"
 #include "equations/compiled.h"
+#include "equations/formulas.h"
 #include "identification/motion_projection.h"
 #include "identification/recorded_motion.h"
 #include "mechanism_codesign/simulation.h"

@@ -10,6 +10,7 @@
 
 #include "assembly/assembly.h"
 #include "assembly/make_system.h"
+#include "equations/formulas.h"
 #include "identification/effort_model.h"
 #include "integration/rosenbrock_integrator.h"
 #include "math/arrays.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/make_system.h"
+#include "equations/formulas.h"
 #include "integration/energy_balance.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"

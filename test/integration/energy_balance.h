@@ -6,6 +6,7 @@
 #include <string>
 
 #include "assembly/make_system.h"
+#include "equations/formulas.h"
 #include "integration/mechanisms.h"
 #include "integration/rosenbrock_integrator.h"
 #include "observation/energy.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/compiled.h"
+#include "equations/formulas.h"
 #include "equations/joint_cases.h"
 #include "integration/energy_balance.h"
 

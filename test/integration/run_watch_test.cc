@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 #include "integration/energy_balance.h"
 #include "integration/linkages.h"
 #include "integration/rosenbrock_integrator.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "equations/compiled.h"
+#include "equations/formulas.h"
 
 namespace codesign {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "equations/equations.h"
+#include "equations/formulas.h"
 #include "integration/servo.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 
 #include "equations/compiled.h"
 #include "math/differences.h"
+#include "mechanism/constants.h"
 #include "reading/urdf/urdf_fixture.h"
 #include "system/tree_kinematics.h"
 
