@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // The compiled code against the formulas. The tests of single elements also check the derivatives of both, for every load and controller.
 #include "equations/compiled_equations.h"
+#include "equations/formulas.h"
 
 #include <gtest/gtest.h>
 

@@ -63,9 +63,9 @@ void add_children(const urdf::LinkConstSharedPtr& link, KDL::Tree* tree) {
 }
 
 /// Forward dynamics from KDL's inverse dynamics: M q'' = -h(q, q').
-class Reference {
+class KdlReference {
  public:
-  explicit Reference(const std::string& urdf) : tree_("") {
+  explicit KdlReference(const std::string& urdf) : tree_("") {
     const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(urdf);
     tree_ = KDL::Tree(model->getRoot()->name);
     add_children(model->getRoot(), &tree_);
@@ -136,7 +136,7 @@ bool is_tree_of_simple_joints(const RobotDescription& robot) {
 double largest_difference(const std::string& urdf, int states, unsigned seed) {
   const RobotDescription robot = bare(read_urdf({"robot.urdf", urdf}));
   const Topology topology = derive_topology(robot);
-  Reference reference(urdf);
+  KdlReference reference(urdf);
   const std::map<std::string, unsigned> numbers = reference.joints();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.5, 1.5);

@@ -23,7 +23,7 @@ JointDescription joint(const std::string& name, JointType type, int child) {
 }
 
 /// A chain from the ground; its last joint moves only a massless pointer. One link has the same name as a joint.
-RobotDescription robot() {
+RobotDescription catalog_robot() {
   RobotDescription robot;
   robot.links = {link("ground", false), link("arm", true),        link("hinge", true),
                  link("plate", true),   link("plate_end", false), link("pointer", false)};
@@ -42,7 +42,7 @@ std::vector<ControllerDescription> controllers() {
   return {controller};
 }
 
-void check(const std::string& text) { check_signal(parse_signal(text, {"s.yaml", 2}, "here"), robot(), controllers(), "here"); }
+void check(const std::string& text) { check_signal(parse_signal(text, {"s.yaml", 2}, "here"), catalog_robot(), controllers(), "here"); }
 
 void expect_refused(const std::string& text, const std::string& message, const std::string& allowed) {
   try {
@@ -95,7 +95,7 @@ TEST(SignalCatalog, WhatIsCalledLikeTheMechanismKeepsItsSignals) {
   const auto check_in = [](const RobotDescription& robot, const std::string& text) {
     check_signal(parse_signal(text, {"s.yaml", 2}, "here"), robot, controllers(), "here");
   };
-  RobotDescription named = robot();
+  RobotDescription named = catalog_robot();
   named.links[1].name = "mechanism";
   for (const char* text : {"mechanism/position/x", "mechanism/total_energy", "mechanism/friction_power"}) check_in(named, text);
   named.joints[1].name = "mechanism";
@@ -155,7 +155,7 @@ TEST(SignalCatalog, DefaultsCoverJointsFrictionAndControllers) {
   const std::vector<std::string> expected = {
       "hinge/position",         "hinge/velocity", "slide/position",     "slide/velocity",         "slide/friction", "slide/normal_force",
       "slide/sliding_velocity", "plane/friction", "plane/normal_force", "plane/sliding_velocity", "speed/output"};
-  EXPECT_EQ(default_signals(robot(), controllers()), expected);
+  EXPECT_EQ(default_signals(catalog_robot(), controllers()), expected);
   for (const std::string& signal : expected) check(signal);
 }
 
