@@ -59,9 +59,10 @@ TEST_P(MethodChoiceTest, TheRunKnowsWhichMethodTookWhichSteps) {
   ASSERT_TRUE(simulation.start().ok());
   ASSERT_TRUE(simulation.advance(system->study().duration).ok());
   const std::vector<MethodChange>& methods = simulation.methods();
-  ASSERT_EQ(methods.size(), 1 + changes(*system).size());
+  // The run begins implicitly, since it has dry friction, which changes() counts as a change.
+  ASSERT_EQ(methods.size(), changes(*system).size());
   for (std::size_t k = 0; k < methods.size(); ++k) {
-    EXPECT_STREQ(methods[k].method, k % 2 == 0 ? "dopri5" : "rodas5p");
+    EXPECT_STREQ(methods[k].method, k % 2 == 0 ? "rodas5p" : "dopri5");
     EXPECT_TRUE(k == 0 ? methods[k].time == 0.0 : methods[k].time > methods[k - 1].time);
   }
 }
