@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_excite.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "reading/study/study_fields.h"
+#include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 
 namespace codesign {

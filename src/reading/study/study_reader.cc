@@ -2,20 +2,8 @@
 #include "reading/study/study_reader.h"
 
 #include "reading/parameter_table.h"
-#include "reading/study/study_basis.h"
-#include "reading/study/study_constraints.h"
-#include "reading/study/study_controllers.h"
-#include "reading/study/study_ensemble.h"
-#include "reading/study/study_excite.h"
-#include "reading/study/study_hardware.h"
-#include "reading/study/study_identify.h"
-#include "reading/study/study_initial_state.h"
-#include "reading/study/study_loads.h"
-#include "reading/study/study_objective.h"
+#include "reading/study/study_blocks.h"
 #include "reading/study/study_options.h"
-#include "reading/study/study_parameters.h"
-#include "reading/study/study_realization.h"
-#include "reading/study/study_watched.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {

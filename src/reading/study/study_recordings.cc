@@ -1,13 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_recordings.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "reading/study/study_fields.h"
-#include "reading/study/study_fitted_number.h"
+#include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 

@@ -1,9 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "description/quantity.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/parameter_table.h"
@@ -29,5 +31,13 @@ QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 
 /// The joint or loop named `name`. @throws InputError, located at `at`, if there is none or it does not have exactly one coordinate.
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);
+
+/// The bounds of a constraint, at least one of them.
+struct Between {
+  std::optional<Quantity> lower, upper;
+};
+
+/// Reads `between: [lower, upper]`, or `at_least` and `at_most` or one of these. Their order is not checked. @throws InputError
+Between read_between(const YamlValue& value, const ParameterTable& table);
 
 }  // namespace codesign
