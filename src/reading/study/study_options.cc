@@ -10,140 +10,78 @@
 
 namespace codesign {
 
-void read_whole(const YamlValue& parent, const std::string& key, int least, int most, int* count) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  const std::string allowed = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-  const double number = value->number();
-  if (number != std::floor(number)) value->fail("not an integer", allowed);
-  if (number < least || number > most) value->fail(key + " out of range", allowed);
-  *count = static_cast<int>(number);
-}
-
-void read_sampler(const YamlValue& parent, SamplerKind* sampler, std::uint32_t* seed) {
-  read_choice(parent, "sampler", kSamplerNames, sampler);
-  int number = static_cast<int>(*seed);
-  read_whole(parent, "seed", 0, std::numeric_limits<int>::max(), &number);
-  *seed = static_cast<std::uint32_t>(number);
+std::string OptionRange::in_words() const {
+  const bool is_whole = is_bounded() && has_least && has_most;
+  if (is_whole) return "a whole number from " + std::to_string(static_cast<int>(least)) + " to " + std::to_string(static_cast<int>(most));
+  const std::string end = is_bounded() ? "less than " + to_decimal(most) : "";
+  if (has_least) return end.empty() ? to_decimal(least) + " or more" : "from " + to_decimal(least) + " to " + end;
+  return "more than " + to_decimal(least) + (end.empty() ? "" : " and " + end);
 }
 
 namespace {
 
-// Smallest tolerances that double precision (rounding 1.1e-16) can meet: a relative error test needs some hundred roundings, an absolute
-// one the rounding of a position of 1 m, the objective a few roundings of its own.
-constexpr double kLeastRelative = 1e-13, kLeastAbsolute = 1e-16, kLeastOfObjective = 1e-15;
-
-void read_tolerance(const YamlValue& parent, const std::string& key, double least, double* tolerance) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  *tolerance = value->number();
-  if (*tolerance < least || *tolerance >= 1.0) value->fail("tolerance out of range", "from " + to_decimal(least) + " to less than 1");
+[[noreturn]] void refuse(const YamlValue& value, const std::string& key, const OptionRange& range) {
+  value.fail(range.fault != nullptr ? range.fault : key + " out of range", range.allowed != nullptr ? range.allowed : range.in_words());
 }
 
-void read_positive_or_zero(const YamlValue& parent, const std::string& key, const char* allowed, double* number) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  *number = value->number();
-  if (*number < 0.0) value->fail("number out of range", allowed);
-}
-
-void read_step(const YamlValue& parent, const std::string& key, double* step) {
-  read_positive_or_zero(parent, key, "a positive number of seconds, or 0 for none", step);
-}
-
-void read_count(const YamlValue& parent, const std::string& key, int* count) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  *count = value->integer();
-  if (*count < 1) value->fail("count out of range", "1 or more");
-}
-
-void read_positive(const YamlValue& parent, const std::string& key, bool zero_allowed, double* number) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  *number = value->number();
-  if (*number < 0.0 || (*number == 0.0 && !zero_allowed)) value->fail(key + " out of range", zero_allowed ? "0 or more" : "more than 0");
-}
-
-/// Reads `gradient:`. The adjoint exists for the steps of the Rosenbrock integrator only, and cannot take part in their error test.
-void read_gradient(const YamlValue& solver, SolverOptions* options) {
-  const auto value = solver.find("gradient");
-  if (!value) return;
-  read_choice(solver, "gradient", kGradientMethodNames, &options->gradient);
-  if (options->gradient != GradientMethod::kAdjoint) return;
-  if (options->integrator != IntegratorKind::kRosenbrock)
-    value->fail("the adjoint exists for the integrator rosenbrock only", "auto or direct with idas");
-  if (options->sensitivity_tolerance > 0.0)
-    value->fail("the adjoint computes no sensitivities, which sensitivity_tolerance needs for the error test",
-                "auto or direct with sensitivity_tolerance");
+/// The adjoint exists for the steps of the Rosenbrock integrator only, and cannot take part in their error test.
+void check_gradient(const YamlValue& solver, const SolverOptions& options) {
+  if (options.gradient != GradientMethod::kAdjoint) return;
+  const YamlValue value = solver.at("gradient");
+  if (options.integrator != IntegratorKind::kRosenbrock)
+    value.fail("the adjoint exists for the integrator rosenbrock only", "auto or direct with idas");
+  if (options.sensitivity_tolerance > 0.0)
+    value.fail("the adjoint computes no sensitivities, which sensitivity_tolerance needs for the error test",
+               "auto or direct with sensitivity_tolerance");
 }
 
 }  // namespace
 
-LimitOptions read_limit_options(const YamlValue& limits) {
-  limits.require_keys({}, {"effort", "position", "stiffness", "dissipation", "width"});
-  LimitOptions options;
-  if (const auto effort = limits.find("effort")) options.effort = effort->boolean();
-  if (const auto position = limits.find("position")) options.position = position->boolean();
-  read_positive(limits, "stiffness", false, &options.stiffness);
-  read_positive(limits, "dissipation", true, &options.dissipation);
-  read_positive(limits, "width", false, &options.width);
-  return options;
+void OptionReader::operator()(const std::string& key, bool& option) const {
+  if (const auto value = block.find(key)) option = value->boolean();
+}
+
+void OptionReader::operator()(const std::string& key, const OptionRange& range, double& option) const {
+  const auto value = block.find(key);
+  if (!value) return;
+  option = value->number();
+  if (!range.holds(option)) refuse(*value, key, range);
+}
+
+void OptionReader::operator()(const std::string& key, const OptionRange& range, int& option) const {
+  const auto value = block.find(key);
+  if (!value) return;
+  const double number = range.is_bounded() ? value->number() : value->integer();
+  if (number != std::floor(number)) value->fail("not an integer", range.in_words());
+  if (!range.holds(number)) refuse(*value, key, range);
+  option = static_cast<int>(number);
+}
+
+void OptionReader::operator()(const std::string& key, const OptionRange& range, std::uint32_t& option) const {
+  int number = static_cast<int>(option);
+  (*this)(key, range, number);
+  option = static_cast<std::uint32_t>(number);
 }
 
 SolverOptions read_solver_options(const YamlValue& solver) {
-  solver.require_keys({}, {"integrator", "method", "gradient", "relative_tolerance", "absolute_tolerance", "sensitivity_tolerance",
-                           "initial_step", "maximum_step", "maximum_steps", "maximum_speed", "closure_tolerance", "coordinates"});
   SolverOptions options;
-  read_choice(solver, "integrator", kIntegratorNames, &options.integrator);
-  read_choice(solver, "method", kRosenbrockMethodNames, &options.method);
-  read_tolerance(solver, "relative_tolerance", kLeastRelative, &options.relative_tolerance);
-  read_tolerance(solver, "absolute_tolerance", kLeastAbsolute, &options.absolute_tolerance);
-  read_tolerance(solver, "sensitivity_tolerance", kLeastRelative, &options.sensitivity_tolerance);
-  read_step(solver, "initial_step", &options.initial_step);
-  read_step(solver, "maximum_step", &options.maximum_step);
-  read_count(solver, "maximum_steps", &options.maximum_steps);
-  read_positive_or_zero(solver, "maximum_speed", "a positive speed in m/s and rad/s, or 0: chosen", &options.maximum_speed);
-  read_positive(solver, "closure_tolerance", true, &options.closure_tolerance);
-  read_choice(solver, "coordinates", kCoordinatesNames, &options.coordinates);
+  read_options(solver, &options);
   if (const auto coordinates = solver.find("coordinates")) options.coordinates_where = coordinates->where();
-  read_gradient(solver, &options);
+  check_gradient(solver, options);
   return options;
 }
 
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
-  optimizer.require_keys({}, {"algorithm", "max_evaluations", "relative_tolerance"});
   OptimizerOptions options;
-  options.where = optimizer.where();
-  if (const auto algorithm = optimizer.find("algorithm")) {
-    options.where = algorithm->where();
-    options.algorithm = algorithm->choice("algorithm", {"auto", "lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla",
-                                                        "bobyqa", "auglag_lbfgs", "levenberg_marquardt"});
-  }
-  read_count(optimizer, "max_evaluations", &options.max_evaluations);
-  read_tolerance(optimizer, "relative_tolerance", kLeastOfObjective, &options.relative_tolerance);
+  read_options(optimizer, &options);
+  options.where = optimizer.find("algorithm").value_or(optimizer).where();
   return options;
 }
 
 namespace {
 
-constexpr int kMostSamples = 100000, kMostValidated = 1000000;
-
-void read_level(const YamlValue& robust, RobustOptions* options) {
-  const auto level = robust.find("level");
-  if (!level) return;
-  if (options->measure != RobustMeasure::kCvar) level->fail("level belongs to cvar", "measure: cvar");
-  options->level = level->number();
-  if (!(options->level > 0.0 && options->level < 1.0)) level->fail("level out of range", "more than 0 and less than 1");
-}
-
-void read_factor(const YamlValue& robust, RobustOptions* options) {
-  const auto factor = robust.find("factor");
-  if (!factor) return;
-  if (options->measure != RobustMeasure::kMeanPlusDeviation)
-    factor->fail("factor belongs to mean_plus_deviation", "measure: mean_plus_deviation");
-  options->factor = factor->number();
-  if (options->factor < 0.0) factor->fail("factor out of range", "0 or more");
+void refuse_key(const YamlValue& robust, const char* key, const std::string& measure) {
+  if (const auto value = robust.find(key)) value->fail(std::string(key) + " belongs to " + measure, "measure: " + measure);
 }
 
 /// Runs alone are not sampled.
@@ -156,18 +94,16 @@ void refuse_samples(const YamlValue& robust) {
 }  // namespace
 
 RobustOptions read_robust(const YamlValue& robust, const EnsembleDescription& ensemble) {
-  robust.require_keys({}, {"measure", "level", "factor", "samples", "sampler", "seed", "validate", "failed"});
+  require_option_keys(robust, RobustOptions());
   if (!ensemble.is_ensemble())
     robust.fail("there is nothing to be robust against: the study has neither uncertain nor runs", "with the block uncertain or runs");
   RobustOptions options = default_robust(ensemble, robust.where());
   if (ensemble.uncertain.empty()) refuse_samples(robust);
-  read_choice(robust, "measure", kRobustMeasureNames, &options.measure);
-  read_level(robust, &options);
-  read_factor(robust, &options);
-  read_whole(robust, "samples", 1, kMostSamples, &options.samples);
-  read_sampler(robust, &options.sampler, &options.seed);
-  read_whole(robust, "validate", 0, kMostValidated, &options.validate);
-  read_choice(robust, "failed", kFailedSamplesNames, &options.failed);
+  const OptionReader reader{robust};
+  reader("measure", kRobustMeasureNames, options.measure);
+  if (options.measure != RobustMeasure::kCvar) refuse_key(robust, "level", "cvar");
+  if (options.measure != RobustMeasure::kMeanPlusDeviation) refuse_key(robust, "factor", "mean_plus_deviation");
+  visit_options(reader, &options);
   return options;
 }
 
@@ -179,8 +115,6 @@ RobustOptions default_robust(const EnsembleDescription& ensemble, const SourceLo
 }
 
 namespace {
-
-constexpr int kMostStarts = 100000, kMostScreened = 10000000;
 
 /// The parameter as the study names it; the coefficients of a `basis` controller are declared elsewhere.
 void require_bounds(const YamlValue& study_value, const Parameter& parameter) {
@@ -195,18 +129,12 @@ void require_bounds(const YamlValue& study_value, const Parameter& parameter) {
 
 MultistartOptions read_multistart(const YamlValue& study_value, const Study& study) {
   const YamlValue multistart = study_value.at("multistart");
-  multistart.require_keys({"starts"}, {"sampler", "seed", "screen", "cluster"});
+  require_option_keys(multistart, MultistartOptions(), {"starts"});
   if (study.tuned.empty()) multistart.fail("the study tunes nothing, so there is nothing to search for", "with tuned parameters only");
   MultistartOptions options;
   options.where = multistart.where();
-  read_whole(multistart, "starts", 1, kMostStarts, &options.starts);
-  read_sampler(multistart, &options.sampler, &options.seed);
-  options.screen = 4 * options.starts;
-  read_whole(multistart, "screen", options.starts, kMostScreened, &options.screen);
-  if (const auto cluster = multistart.find("cluster")) {
-    options.cluster = cluster->number();
-    if (!(options.cluster > 0.0 && options.cluster < 1.0)) cluster->fail("cluster out of range", "more than 0 and less than 1");
-  }
+  visit_options(OptionReader{multistart}, &options);
+  if (!multistart.find("screen")) options.screen = 4 * options.starts;
   for (int index : study.tuned) require_bounds(study_value, study.parameters[static_cast<std::size_t>(index)]);
   return options;
 }

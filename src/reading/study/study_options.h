@@ -5,35 +5,55 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "description/ensemble.h"
 #include "description/study.h"
+#include "reading/study/option_tables.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
 
-// Optional keys of the blocks of options; a missing key leaves the option at its default. All throw InputError.
+/// Reads one option, if the block has its key; else the option keeps its value. All throw InputError.
+struct OptionReader {
+  const YamlValue& block;
 
-/// Sets `*option` to the enumerator named at `key`, if the key exists. @param names in the order of the enumerators.
-template <class Enumeration, std::size_t N>
-void read_choice(const YamlValue& parent, const std::string& key, const std::array<const char*, N>& names, Enumeration* option) {
-  const auto value = parent.find(key);
-  if (!value) return;
-  const std::string name = value->choice(key, {names.begin(), names.end()});
-  *option = static_cast<Enumeration>(std::find(names.begin(), names.end(), name) - names.begin());
+  void operator()(const std::string& key, bool& option) const;
+  void operator()(const std::string& key, const OptionRange& range, double& option) const;
+  void operator()(const std::string& key, const OptionRange& range, int& option) const;
+  void operator()(const std::string& key, const OptionRange& range, std::uint32_t& option) const;
+  /// @param names of the choices: the option itself, or an enumeration in this order.
+  template <class Option, std::size_t N>
+  void operator()(const std::string& key, const std::array<const char*, N>& names, Option& option) const {
+    const auto value = block.find(key);
+    if (!value) return;
+    const std::string name = value->choice(key, {names.begin(), names.end()});
+    if constexpr (std::is_enum_v<Option>)
+      option = static_cast<Option>(std::find(names.begin(), names.end(), name) - names.begin());
+    else
+      option = name;
+  }
+};
+
+/// Checks that a block has all `required` keys, and else only `others` and those of its options. @throws InputError
+template <class Options>
+void require_option_keys(const YamlValue& block, Options options, const std::vector<std::string>& required = {},
+                         std::vector<std::string> others = {}) {
+  const auto add = [&](const char* key, const auto&...) {
+    if (std::find(required.begin(), required.end(), key) == required.end()) others.emplace_back(key);
+  };
+  visit_options(add, &options);
+  block.require_keys(required, others);
 }
 
-/// Sets `*count` to the whole number from `least` to `most` at `key`, if the key exists.
-void read_whole(const YamlValue& parent, const std::string& key, int least, int most, int* count);
-
-/// Reads the keys `sampler` and `seed`.
-void read_sampler(const YamlValue& parent, SamplerKind* sampler, std::uint32_t* seed);
+/// Reads a block that consists of options. @throws InputError
+template <class Options>
+void read_options(const YamlValue& block, Options* options, const std::vector<std::string>& required = {}) {
+  require_option_keys(block, *options, required);
+  visit_options(OptionReader{block}, options);
+}
 
 // All throw InputError for unknown keys and values out of range.
-
-/// Reads the map `limits:`.
-LimitOptions read_limit_options(const YamlValue& limits);
 
 /// Reads the map `solver:`.
 SolverOptions read_solver_options(const YamlValue& solver);

@@ -54,7 +54,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   read_watched(root, robot, table, loader, &study);
   study.used_parameters = robot.used_parameters;
   study.used_parameters.insert(table.used.begin(), table.used.end());
-  if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
+  if (const auto limits = root.find("limits")) read_options(*limits, &study.limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint_of_watched(root, study);

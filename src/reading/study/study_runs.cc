@@ -107,15 +107,15 @@ std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study&
 namespace {
 
 EngineOptions read_engine(const YamlValue& engine) {
-  constexpr int kMostWorkers = 4096;
-  engine.require_keys({}, {"type", "workers"});
   EngineOptions options;
-  read_choice(engine, "type", kEngineNames, &options.kind);
+  require_option_keys(engine, options);
+  const OptionReader reader{engine};
+  reader("type", kEngineNames, options.kind);
   const auto type = engine.find("type"), workers = engine.find("workers");
   if (type || workers) options.where = (type ? type : workers)->where();
   if (workers && options.kind == EngineKind::kSerial) workers->fail("the engine serial has no workers", "type: threads");
   if (workers && options.kind == EngineKind::kMpi) workers->fail("mpirun says how many workers the engine mpi has", "mpirun -n NUMBER");
-  read_whole(engine, "workers", 1, kMostWorkers, &options.workers);
+  visit_options(reader, &options);
   return options;
 }
 

@@ -38,6 +38,12 @@ double read_within_bounds(const YamlValue& value, const Parameter& parameter) {
   return number;
 }
 
+double read_above_zero(const YamlValue& value, const std::string& unit) {
+  const double number = value.number();
+  if (!(number > 0.0)) value.fail("not above zero", "more than 0" + unit);
+  return number;
+}
+
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   constexpr const char* kAllowed = "a finite number or \"${expression}\" of the parameters";
   const std::string text = value.text();

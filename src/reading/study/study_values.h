@@ -23,6 +23,9 @@ int untuned_parameter(const std::string& name, const Study& study, const YamlVal
 /// A finite number within the bounds of a parameter. @throws InputError
 double read_within_bounds(const YamlValue& value, const Parameter& parameter);
 
+/// A number above zero. @param unit for the message, for example " s". @throws InputError
+double read_above_zero(const YamlValue& value, const std::string& unit = "");
+
 /// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not finite at the parameters' start.
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
 

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_blocks.h"
 
+#include "reading/page_rows.h"
 #include "reading/study/study_fixture.h"
 
 namespace codesign {
@@ -11,6 +12,13 @@ std::string realization_text(const std::string& keys, const std::string& gains =
          "parameters: {tau: {initial: 0.02}}\ncontrollers:\n  speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: "
          "crank_joint, gains: " +
          gains + ", " + keys + "}\n";
+}
+
+TEST(StudyRealization, HasTheKeysOfThePage) {
+  std::set<std::string> page;
+  for (const PageRow& row : page_rows("study.md", 2)) page.insert(row.keys.begin(), row.keys.end());
+  for (const ControllerKind& kind : standard_laws().controllers)
+    for (const std::string& key : with_realization_keys(kind, {})) EXPECT_EQ(page.count(key), 1U) << key;
 }
 
 TEST(StudyRealization, ReadsEveryKey) {

@@ -11,27 +11,28 @@ YamlValue parse(const std::string& text) { return YamlValue::parse({"study.yaml"
 std::string message_of(const std::string& text) {
   try {
     int count = 0;
-    read_whole(parse(text), "count", 1, 10, &count);
+    OptionReader{parse(text)}("count", OptionRange{1, 10}, count);
   } catch (const InputError& error) {
     return error.what();
   }
   return "";
 }
 
-TEST(StudyFields, AMissingKeyChangesNothing) {
+TEST(OptionReader, AMissingKeyChangesNothing) {
   int count = 7;
-  SamplerKind sampler = SamplerKind::kRandom;
-  std::uint32_t seed = 3;
-  read_whole(parse("{}"), "count", 1, 10, &count);
-  read_sampler(parse("{}"), &sampler, &seed);
+  RobustOptions options;
+  options.sampler = SamplerKind::kRandom;
+  options.seed = 3;
+  OptionReader{parse("{}")}("count", OptionRange{1, 10}, count);
+  read_options(parse("{}"), &options);
   EXPECT_EQ(count, 7);
-  EXPECT_EQ(sampler, SamplerKind::kRandom);
-  EXPECT_EQ(seed, 3U);
+  EXPECT_EQ(options.sampler, SamplerKind::kRandom);
+  EXPECT_EQ(options.seed, 3U);
 }
 
-TEST(StudyFields, ReadsWholeNumbersWithinARange) {
+TEST(OptionReader, ReadsWholeNumbersWithinARange) {
   int count = 0;
-  read_whole(parse("count: 10"), "count", 1, 10, &count);
+  OptionReader{parse("count: 10")}("count", OptionRange{1, 10}, count);
   EXPECT_EQ(count, 10);
   EXPECT_EQ(message_of("count: 1"), "");
   EXPECT_EQ(message_of("count: 0"), "study.yaml:1: count: count out of range (value: 0, allowed: a whole number from 1 to 10)");
@@ -41,15 +42,14 @@ TEST(StudyFields, ReadsWholeNumbersWithinARange) {
   EXPECT_NE(message_of("count: many").find("not a number"), std::string::npos);
 }
 
-TEST(StudyFields, ReadsSamplerAndSeed) {
-  SamplerKind sampler = SamplerKind::kSobol;
-  std::uint32_t seed = 1;
-  read_sampler(parse("{sampler: latin_hypercube, seed: 2147483647}"), &sampler, &seed);
-  EXPECT_EQ(sampler, SamplerKind::kLatinHypercube);
-  EXPECT_EQ(seed, 2147483647U);
-  EXPECT_THROW(read_sampler(parse("{seed: -1}"), &sampler, &seed), InputError);
-  EXPECT_THROW(read_sampler(parse("{seed: 2147483648}"), &sampler, &seed), InputError);
-  EXPECT_THROW(read_sampler(parse("{sampler: sobel}"), &sampler, &seed), InputError);
+TEST(OptionReader, ReadsSamplerAndSeed) {
+  RobustOptions options;
+  read_options(parse("{sampler: latin_hypercube, seed: 2147483647}"), &options);
+  EXPECT_EQ(options.sampler, SamplerKind::kLatinHypercube);
+  EXPECT_EQ(options.seed, 2147483647U);
+  EXPECT_THROW(read_options(parse("{seed: -1}"), &options), InputError);
+  EXPECT_THROW(read_options(parse("{seed: 2147483648}"), &options), InputError);
+  EXPECT_THROW(read_options(parse("{sampler: sobel}"), &options), InputError);
 }
 
 std::string with_line(const std::string& line) { return kLeastStudy + line + "\n"; }

@@ -1,7 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/joint_reader.h"
 
+#include <map>
+
+#include "reading/page_rows.h"
 #include "reading/urdf/urdf_fixture.h"
+#include "text/decimal.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -26,6 +31,33 @@ TEST(FrictionReader, Defaults) {
   EXPECT_EQ(f.bristle_damping.nominal(), 10.0);
   EXPECT_EQ(f.dwell_time.nominal(), 2.0);
   EXPECT_EQ(f.where.line, 3);
+}
+
+/// The default that doc/annotations.md gives for a missing number.
+std::string shown_default(const FrictionNumberRule& rule) {
+  using M = FrictionNumberRule::Missing;
+  static const std::map<M, std::string> kWords = {{M::kRefused, "required"},       {M::kLengthOfOne, "none"},
+                                                  {M::kPinRadius, "`pin_radius`"}, {M::kMuStatic, "`mu_static`"},
+                                                  {M::kMuDynamic, "`mu_dynamic`"}, {M::kViscous, "`viscous`"}};
+  const bool is_none = rule.standard == 0.0 && !rule.zero_allowed;
+  return rule.missing != M::kStandard ? kWords.at(rule.missing) : is_none ? "none" : to_decimal(rule.standard);
+}
+
+TEST(FrictionReader, HasTheAttributesOfThePage) {
+  std::map<std::string, std::pair<std::string, std::string>> page;  // default and allowed values
+  for (const PageRow& row : page_rows("annotations.md", 4))
+    for (std::size_t k = 0; k < row.keys.size(); ++k) page[row.keys[k]] = {row.part(2, k), row.part(3, k)};
+  visit_friction_numbers([&](const FrictionNumberRule& rule) {
+    ASSERT_EQ(page.count(rule.attribute), 1U) << rule.attribute;
+    const auto [standard, allowed] = page[rule.attribute];
+    const std::optional<double> number = parse_number(standard);
+    EXPECT_EQ(number ? to_decimal(*number) : standard, shown_default(rule)) << rule.attribute;
+    EXPECT_EQ(allowed.rfind("> 0", 0) == 0, !rule.zero_allowed) << rule.attribute;
+    page.erase(rule.attribute);
+  });
+  page.erase("model");
+  page.erase("transverse_axis");
+  EXPECT_TRUE(page.empty()) << page.begin()->first;
 }
 
 TEST(FrictionReader, AllAttributesAndTwins) {
