@@ -15,6 +15,12 @@ inline std::vector<std::string> split_at(const std::string& text, const std::str
   return {std::sregex_token_iterator(text.begin(), text.end(), pattern, -1), {}};
 }
 
+/// The texts in backticks.
+inline std::vector<std::string> quoted_in(const std::string& cell) {
+  static const std::regex kQuoted("`([^`]+)`");
+  return {std::sregex_token_iterator(cell.begin(), cell.end(), kQuoted, 1), {}};
+}
+
 /// A row of a table of keys in doc/: "| `solver.initial_step`, `.maximum_step` | sentence | 0 |".
 struct PageRow {
   std::vector<std::string> keys;   ///< in full
@@ -31,15 +37,12 @@ struct PageRow {
 inline std::vector<PageRow> page_rows(const std::string& page, std::size_t cells) {
   std::vector<PageRow> rows;
   std::ifstream file(source_dir() + "/doc/" + page);
-  const std::regex quoted("`([^`]+)`");
   for (std::string line; std::getline(file, line);) {
     const std::vector<std::string> all = split_at(line, " \\| |^\\| | \\|$");
     if (all.size() != cells + 2) continue;
     PageRow row{{}, {all.begin() + 2, all.end()}};
-    for (std::sregex_iterator match(all[1].begin(), all[1].end(), quoted), end; match != end; ++match) {
-      const std::string key = (*match)[1];
+    for (const std::string& key : quoted_in(all[1]))
       row.keys.push_back(key[0] == '.' && !row.keys.empty() ? row.keys[0].substr(0, row.keys[0].rfind('.')) + key : key);
-    }
     if (!row.keys.empty()) rows.push_back(row);
   }
   return rows;
