@@ -61,14 +61,4 @@ SolverOptions read_solver_options(const YamlValue& solver);
 /// Reads the map `optimizer:`.
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer);
 
-/// Reads the map `robust:`.
-/// @param ensemble with the runs and the uncertain quantities of the study. @throws InputError
-RobustOptions read_robust(const YamlValue& robust, const EnsembleDescription& ensemble);
-
-/// The default without `robust:`: the mean, over 32 samples if something is uncertain, else over the runs. @param where for messages.
-RobustOptions default_robust(const EnsembleDescription& ensemble, const SourceLocation& where);
-
-/// Reads `multistart:` of a study whose parameters have been read. Every tuned parameter needs finite bounds. @throws InputError
-MultistartOptions read_multistart(const YamlValue& study_value, const Study& study);
-
 }  // namespace codesign
