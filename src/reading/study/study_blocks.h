@@ -67,10 +67,6 @@ std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<
 /// Reads them into ControllerDescription::realization; the gains must have been read. @throws InputError
 void read_realization(const YamlValue& value, const ParameterTable& table, ControllerDescription* controller);
 
-/// Checks that a study with sampled controllers does not select the adjoint, which cannot reverse their jumps. @throws InputError if it
-/// does.
-void refuse_adjoint_of_sampled(const YamlValue& study_value, const Study& study);
-
 /// Reads `hardware:`, doc/study.md: for controllers of the study, the namespaces of their gains on the robot. The controllers must have
 /// been read. @throws InputError for an unknown controller, a controller without gains of control_toolbox, a bad or repeated namespace, or
 /// an `i` gain without `i_clamp`.
@@ -85,10 +81,6 @@ void read_objective(const YamlValue& study_value, const RobotDescription& robot,
 /// read. @param table of Study::parameters. @throws InputError
 void read_watched(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, const TrajectoryLoader& loader,
                   Study* study);
-
-/// Checks that a study with watched signals does not select the adjoint, which cannot compute their derivatives. @throws InputError if it
-/// does.
-void refuse_adjoint_of_watched(const YamlValue& study_value, const Study& study);
 
 /// Reads all of a study except the blocks of EnsembleDescription.
 using RunReader = std::function<Study(const YamlValue& study_value)>;

@@ -68,15 +68,6 @@ void read_realization(const YamlValue& value, const ParameterTable& table, Contr
                                readable(kMostQueued * realization.sample_time) + " s");
 }
 
-void refuse_adjoint_of_sampled(const YamlValue& study_value, const Study& study) {
-  const auto sampled = [](const ControllerDescription& controller) { return controller.realization.is_sampled(); };
-  if (study.solver.gradient != GradientMethod::kAdjoint || std::none_of(study.controllers.begin(), study.controllers.end(), sampled))
-    return;
-  study_value.at("solver")
-      .at("gradient")
-      .fail("the adjoint does not go back over the samples of controllers with sample_time", "auto, direct");
-}
-
 namespace {
 
 /// @throws InputError, located at `at`, if no controller has this name.

@@ -152,12 +152,4 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot, c
   study->watched = std::move(watched);
 }
 
-void refuse_adjoint_of_watched(const YamlValue& study_value, const Study& study) {
-  if (study.watched.empty() || study.solver.gradient != GradientMethod::kAdjoint) return;
-  study_value.at("solver")
-      .at("gradient")
-      .fail("the adjoint has no derivatives of the extreme values that path, final, objective.peak and peaks in constraints need",
-            "auto, direct");
-}
-
 }  // namespace codesign

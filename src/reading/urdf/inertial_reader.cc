@@ -37,16 +37,14 @@ ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& tabl
   return shape;
 }
 
-}  // namespace
-
+/// The solids of a link's `<visual>` or `<collision>` elements.
+/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh, whose volume is not computed.
 std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table) {
   std::vector<ShapeDescription> shapes;
   for (const XmlElement& visual : link.children(tag)) shapes.push_back(read_solid(visual, table));
   if (shapes.empty()) link.fail("the link has no <" + tag + "> to compute its mass from");
   return shapes;
 }
-
-namespace {
 
 std::string as_xml(const MassProperties<double>& m) {
   const auto attribute = [&](const char* name, int i, int k) {
@@ -57,8 +55,7 @@ std::string as_xml(const MassProperties<double>& m) {
          attribute("iyz", 1, 2) + attribute("izz", 2, 2) + "/>";
 }
 
-}  // namespace
-
+/// Checks that the written values agree with the values of the shapes to 1e-6 (relative). @throws InputError
 void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
                      const ParameterTable& table) {
   constexpr double kRelative = 1e-6;
@@ -70,12 +67,11 @@ void check_agreement(const XmlElement& element, const InertialDescription& writt
   if (!agree) element.fail("mass, centre or inertia differ from those of the shapes", as_xml(a), as_xml(b));
 }
 
-void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
-                        const std::string& message) {
+/// Throws InputError; its allowed value is the computed inertial as XML, ready to be pasted.
+[[noreturn]] void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
+                                     const std::string& message) {
   element.fail(message, "", as_xml(mass_properties(from_shapes, table.values)));
 }
-
-namespace {
 
 constexpr std::array<const char*, 6> kInertia = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
 

@@ -2,26 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "description/robot.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/xml/xml_document.h"
 
 namespace codesign {
-
-/// The solids of a link's `<visual>` or `<collision>` elements.
-/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh, whose volume is not computed.
-std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table);
-
-/// Checks that the written values agree with the values of the shapes to 1e-6 (relative). @throws InputError
-void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
-                     const ParameterTable& table);
-
-/// Throws InputError; its allowed value is the computed inertial as XML, ready to be pasted.
-[[noreturn]] void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
-                                     const std::string& message);
 
 /// A link's `<inertial>`; std::nullopt if there is none, or if mass and inertia are all zero, as some exporters write massless links.
 /// Whether a body can have these numbers is checked later, when it is known which links form a body (check_bodies()).

@@ -126,8 +126,7 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
   joint->damping = joint->dry_friction = 0.0;
 }
 
-}  // namespace
-
+/// Reads the attribute `type` of a joint, or of a loop if `joint` is one. @throws InputError
 void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint) {
   const std::string name = element.text("type");
   std::vector<std::string> known;
@@ -143,6 +142,8 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
   throw unknown_name(element.where("type"), element.label(), joint->is_loop ? "loop type" : "joint type", name, known);
 }
 
+/// Reads the parts that joints and loops have in common: axis, dynamics, friction, actuator and torsion spring.
+/// @param joint its type and links must be set. @throws InputError
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
   const ParameterTable& table = context.table;
   const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
@@ -161,6 +162,19 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context, Joi
                                            read_quantity_or(0.0, *spring, "free_position", Range::kAny, table)};
 }
 
+void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
+  const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");
+  if (second_axis) {
+    if (loop->type != JointType::kUniversal) second_axis->fail("only a loop of type codesign:universal has a second axis");
+    loop->second_axis = read_axis(*second_axis, context.table);
+  }
+  if (length && loop->type != JointType::kDistance) length->fail("only a loop of type codesign:distance has a length");
+  if (loop->type == JointType::kDistance)
+    loop->distance = read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
+}
+
+}  // namespace
+
 JointDescription read_joint(const XmlElement& element, const ReadContext& context) {
   JointDescription joint;
   joint.where = element.where();
@@ -176,21 +190,6 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   read_mimic_of_joint(element, context, &joint);
   return joint;
 }
-
-namespace {
-
-void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
-  const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");
-  if (second_axis) {
-    if (loop->type != JointType::kUniversal) second_axis->fail("only a loop of type codesign:universal has a second axis");
-    loop->second_axis = read_axis(*second_axis, context.table);
-  }
-  if (length && loop->type != JointType::kDistance) length->fail("only a loop of type codesign:distance has a length");
-  if (loop->type == JointType::kDistance)
-    loop->distance = read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
-}
-
-}  // namespace
 
 JointDescription read_loop(const XmlElement& element, const ReadContext& context) {
   JointDescription loop;

@@ -27,18 +27,11 @@ struct ReadContext {
 /// Reads one `<codesign:friction>`. @param axis of the joint; the transverse axis must not be parallel to it. @throws InputError
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ReadContext& context);
 
-/// Reads the attribute `type` of a joint, or of a loop if `joint` is one. @throws InputError
-void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint);
-
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);
 
 /// Reads a `<loop>`, of URDF+ or with one of our types. @throws InputError
 JointDescription read_loop(const XmlElement& element, const ReadContext& context);
-
-/// Reads the parts that joints and loops have in common: axis, dynamics, friction, actuator and torsion spring.
-/// @param joint its type and links must be set. @throws InputError
-void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint);
 
 /// Sets the gear ratio of every `<codesign:actuator>` without `gear_ratio` to the mechanical reduction in the ROS `<transmission>` of its
 /// joint. A reduction that cannot be used is ignored with a warning: `transmission_not_read`, `transmission_contradicts` or
