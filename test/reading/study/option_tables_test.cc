@@ -30,7 +30,7 @@ struct PageCheck {
       ADD_FAILURE() << "doc/study.md has no row for " << block << "." << key;
       return {};
     }
-    const PageOption found = row->second;
+    PageOption found = row->second;
     left.erase(row);
     return found;
   }
@@ -68,13 +68,14 @@ struct PageCheck {
 /// @param others keys of the block that are no options.
 template <class Options>
 void expect_on_page(const std::string& block, const std::vector<std::string>& others = {}) {
+  const std::string prefix = block + ".";
   std::map<std::string, PageOption> left;
   for (const PageRow& row : page_rows("study.md", 2))
     for (std::size_t k = 0; k < row.keys.size(); ++k)
-      if (row.keys[k].rfind(block + ".", 0) == 0) left.emplace(row.keys[k], PageOption{row.cells[0], row.part(1, k)});
+      if (row.keys[k].rfind(prefix, 0) == 0) left.emplace(row.keys[k], PageOption{row.cells[0], row.part(1, k)});
   Options defaults;
   visit_options(PageCheck{block, left}, &defaults);
-  for (const std::string& other : others) left.erase(block + "." + other);
+  for (const std::string& other : others) left.erase(std::string(prefix).append(other));
   for (const auto& [key, row] : left) ADD_FAILURE() << "no option of the code is " << key << " of doc/study.md";
 }
 
