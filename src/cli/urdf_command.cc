@@ -3,7 +3,7 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "jobs/json.h"
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {

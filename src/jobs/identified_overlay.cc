@@ -8,7 +8,7 @@
 #include "description/robot.h"
 #include "description/study.h"
 #include "mechanism_codesign/version.h"
-#include "reading/urdf/set_values.h"
+#include "reading/urdf/overlay.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -16,10 +16,24 @@ namespace codesign {
 /// so that the table knows which parameters are used. Not thread-safe.
 struct ParameterTable {
   ParameterTable() = default;
-  explicit ParameterTable(const std::vector<Parameter>& parameters);
+  explicit ParameterTable(const std::vector<Parameter>& parameters) {
+    for (const Parameter& parameter : parameters) {
+      index.emplace(parameter.name, static_cast<int>(names.size()));
+      names.push_back(parameter.name);
+      values.push_back(parameter.value);
+    }
+  }
 
   /// The expression that stands inside `${...}`; from now on its parameters are used. @throws std::invalid_argument as Expression.
-  std::shared_ptr<const Expression> parse(const std::string& text) const;
+  std::shared_ptr<const Expression> parse(const std::string& text) const {
+    const auto index_of = [this](const std::string& name) {
+      const auto found = index.find(name);
+      return found == index.end() ? -1 : found->second;
+    };
+    auto expression = std::make_shared<const Expression>(text, ExpressionScope{index_of, [this] { return names; }});
+    used.insert(expression->dependencies().begin(), expression->dependencies().end());
+    return expression;
+  }
 
   std::vector<std::string> names;
   std::vector<double> values;

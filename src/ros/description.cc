@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/description.h"
 
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 
 namespace codesign {
 namespace {

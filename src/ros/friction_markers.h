@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "mechanism_codesign/frame.h"
-#include "reading/urdf/link_solids.h"
+#include "reading/urdf/pictures.h"
 #include "ros/conversions.h"
 
 namespace codesign {

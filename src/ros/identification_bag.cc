@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 #include "ros/bag_writer.h"
 #include "ros/effort_markers.h"
 #include "ros/scene_text.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 #include "ros/bag_writer.h"
 #include "ros/scene_text.h"
 #include "text/number_text.h"

@@ -14,7 +14,7 @@
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "observation/observer.h"
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/description.h"
 #include "ros/inputs.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanism_codesign/frame.h"
-#include "reading/urdf/link_solids.h"
+#include "reading/urdf/pictures.h"
 
 namespace codesign {
 

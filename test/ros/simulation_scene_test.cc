@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/pendulum.h"
 

@@ -1,10 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_basis.h"
+#include "reading/study/study_blocks.h"
 
 #include <unordered_set>
 
 #include "description/expression.h"
-#include "reading/study/study_parameters.h"
 #include "reading/study/study_values.h"
 
 namespace codesign {

@@ -1,12 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_controllers.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 
 #include "mechanism/signal_catalog.h"
-#include "reading/study/study_basis.h"
-#include "reading/study/study_realization.h"
-#include "reading/study/study_references.h"
 #include "reading/study/study_values.h"
 
 namespace codesign {

@@ -1,24 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_excite.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "reading/study/study_fields.h"
+#include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {
 
-constexpr int kMostHarmonics = 50, kLeastKnots = 5, kMostKnots = 500, kMostPeriods = 1000, kMostSearches = 1000, kMostEvaluations = 1000000;
 constexpr double kMostPoints = 1e6;
-
-double read_above_zero(const YamlValue& value) {
-  const double number = value.number();
-  if (!(number > 0.0)) value.fail("not above zero", "more than 0");
-  return number;
-}
 
 void read_magnitude(const YamlValue& parent, const std::string& key, std::optional<double>* magnitude) {
   if (const auto value = parent.find(key)) *magnitude = read_above_zero(*value);
@@ -72,46 +65,34 @@ void read_followers(const YamlValue& limits, const RobotDescription& robot, Exci
   }
 }
 
-void read_shape(const YamlValue& excite, ExcitationDescription* description) {
-  read_choice(excite, "trajectory", kTrajectoryNames, &description->trajectory);
-  if (const auto period = excite.find("period")) description->period = read_above_zero(*period);
-  read_whole(excite, "harmonics", 2, kMostHarmonics, &description->harmonics);
-  read_whole(excite, "knots", kLeastKnots, kMostKnots, &description->knots);
-  const bool is_spline = description->trajectory == TrajectoryKind::kSpline;
+void check_shape(const YamlValue& excite, const ExcitationDescription& description) {
+  const bool is_spline = description.trajectory == TrajectoryKind::kSpline;
   if (const auto harmonics = excite.find("harmonics"); harmonics && is_spline)
     harmonics->fail("a spline has no harmonics", "knots, or trajectory: fourier");
   if (const auto knots = excite.find("knots"); knots && !is_spline)
     knots->fail("a Fourier series has no knots", "harmonics, or trajectory: spline");
 }
 
-void read_recording_plan(const YamlValue& excite, ExcitationDescription* description) {
-  read_whole(excite, "periods", 1, kMostPeriods, &description->periods);
-  if (const auto rate = excite.find("sample_rate")) description->sample_rate = read_above_zero(*rate);
-  const double samples = description->period * description->sample_rate;
-  const int waves = description->trajectory == TrajectoryKind::kSpline ? description->knots : description->harmonics;
+void check_recording_plan(const YamlValue& excite, const ExcitationDescription& description) {
+  const double samples = description.period * description.sample_rate;
+  const int waves = description.trajectory == TrajectoryKind::kSpline ? description.knots : description.harmonics;
   const YamlValue at = excite.find("sample_rate").value_or(excite);
   if (samples < 4.0 * waves)
     at.fail("the samples do not show the trajectory", "at least " + std::to_string(4 * waves) + " samples in a period");
-  if (samples * description->periods > kMostPoints) at.fail("more than a million samples", "a lower rate, or a shorter motion");
+  if (samples * description.periods > kMostPoints) at.fail("more than a million samples", "a lower rate, or a shorter motion");
 }
 
 }  // namespace
 
 ExcitationDescription read_excitation(const YamlValue& excite, const RobotDescription& robot) {
-  excite.require_keys({"joints"}, {"limits", "noise", "trajectory", "period", "harmonics", "knots", "periods", "sample_rate", "starts",
-                                   "seed", "search", "max_evaluations"});
   ExcitationDescription description;
+  require_option_keys(excite, description, {"joints"}, {"limits", "noise"});
   description.where = excite.where();
   read_joints(excite, robot, &description);
   if (const auto limits = excite.find("limits")) read_followers(*limits, robot, &description);
-  read_shape(excite, &description);
-  read_recording_plan(excite, &description);
-  read_whole(excite, "starts", 1, kMostSearches, &description.starts);
-  int seed = static_cast<int>(description.seed);
-  read_whole(excite, "seed", 0, 1000000000, &seed);
-  description.seed = static_cast<std::uint32_t>(seed);
-  read_choice(excite, "search", kTrajectorySearchNames, &description.search);
-  read_whole(excite, "max_evaluations", 1, kMostEvaluations, &description.max_evaluations);
+  visit_options(OptionReader{excite}, &description);
+  check_shape(excite, description);
+  check_recording_plan(excite, description);
   return description;
 }
 

@@ -1,42 +1,22 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_identify.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 #include <limits>
 #include <string>
 
-#include "reading/study/study_fields.h"
-#include "reading/study/study_fitted_number.h"
-#include "reading/study/study_recordings.h"
+#include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 
 namespace codesign {
 namespace {
 
-double read_positive_number(const YamlValue& value, const std::string& unit) {
-  const double number = value.number();
-  if (!(number > 0.0)) value.fail("not above zero", "more than 0" + unit);
-  return number;
-}
-
-void read_cutoff(const YamlValue& filter, const std::string& key, double* cutoff) {
-  const auto value = filter.find(key);
-  if (!value) return;
-  *cutoff = value->number();
-  if (*cutoff < 0.0) value->fail("a cutoff is a frequency", "more than 0 Hz, or 0 for no filter");
-}
-
 FilterOptions read_filter(const YamlValue& filter) {
-  constexpr int kHighestOrder = 8, kMostDecimated = 1000;
-  filter.require_keys({}, {"cutoff", "residual_cutoff", "order", "decimate"});
   FilterOptions options;
   options.where = filter.where();
-  read_cutoff(filter, "cutoff", &options.cutoff);
-  options.residual_cutoff = options.cutoff;
-  read_cutoff(filter, "residual_cutoff", &options.residual_cutoff);
-  read_whole(filter, "order", 1, kHighestOrder, &options.order);
-  read_whole(filter, "decimate", 1, kMostDecimated, &options.decimate);
+  read_options(filter, &options);
+  if (!filter.find("residual_cutoff")) options.residual_cutoff = options.cutoff;
   return options;
 }
 
@@ -71,28 +51,18 @@ bool has_fitted(const RecordingDescription& recording) {
 bool has_fitted(const JointCalibration& joint) { return joint.effort_scale.is_fitted || joint.delay.is_fitted || joint.offset.is_fitted; }
 
 LossOptions read_loss(const YamlValue& loss) {
-  loss.require_keys({"type"}, {"scale"});
   LossOptions options;
-  read_choice(loss, "type", kLossNames, &options.kind);
-  if (const auto scale = loss.find("scale")) {
-    options.scale = read_positive_number(*scale, ", in units of the residuals' spread");
-    if (options.kind == LossKind::kNone) scale->fail("without a loss there is nothing to scale", "type: huber or soft_l1");
-  }
+  read_options(loss, &options, {"type"});
+  if (const auto scale = loss.find("scale"); scale && options.kind == LossKind::kNone)
+    scale->fail("without a loss there is nothing to scale", "type: huber or soft_l1");
   return options;
 }
 
 IntervalOptions read_intervals(const YamlValue& intervals) {
-  intervals.require_keys({}, {"level", "noise", "lag", "profiles"});
   IntervalOptions options;
-  if (const auto level = intervals.find("level")) {
-    options.level = level->number();
-    if (!(options.level > 0.0 && options.level < 1.0)) level->fail("the level is a probability", "between 0 and 1, such as 0.95");
-  }
-  read_choice(intervals, "noise", kNoiseNames, &options.noise);
-  read_whole(intervals, "lag", 1, std::numeric_limits<int>::max(), &options.lag);
+  read_options(intervals, &options);
   if (const auto lag = intervals.find("lag"); lag && options.noise == NoiseModel::kWhite)
     lag->fail("white noise has no lag", "noise: correlated or bootstrap");
-  if (const auto profiles = intervals.find("profiles")) options.profiles = profiles->boolean();
   return options;
 }
 
@@ -104,7 +74,7 @@ std::vector<PriorDescription> read_priors(const YamlValue& prior, const Study& s
   for (const auto& [name, value] : prior.entries()) {
     const auto place = std::find(known.begin(), known.end(), name) - known.begin();
     if (place == static_cast<std::ptrdiff_t>(known.size())) throw unknown_name(value.where(), value.path(), "tuned parameter", name, known);
-    const double deviation = read_positive_number(value, ", relative to the start of the fit");
+    const double deviation = read_above_zero(value, ", relative to the start of the fit");
     const std::size_t tuned = static_cast<std::size_t>(place) - std::min(static_cast<std::size_t>(place), kFreeInertiaParts.size());
     const bool is_named = place >= static_cast<std::ptrdiff_t>(kFreeInertiaParts.size());
     if (is_named && study.parameters[static_cast<std::size_t>(study.tuned[tuned])].value == 0.0)
@@ -118,7 +88,7 @@ std::vector<PriorDescription> read_priors(const YamlValue& prior, const Study& s
 
 double segment_of(const YamlValue& identify) {
   const auto segment = identify.find("segment");
-  return segment ? read_positive_number(*segment, " s") : IdentificationDescription().segment;
+  return segment ? read_above_zero(*segment, " s") : IdentificationDescription().segment;
 }
 
 IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study,
@@ -133,7 +103,7 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
     description.holdout = read_recording_list(*holdout, robot, study);
     refuse_fitted_starts(description.holdout);
   }
-  read_choice(identify, "residual", kResidualNames, &description.residual);
+  OptionReader{identify}("residual", kResidualNames, description.residual);
   description.segment = segment_of(identify);
   if (const auto filter = identify.find("filter")) description.filter = read_filter(*filter);
   if (const auto joints = identify.find("joints"))

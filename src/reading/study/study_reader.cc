@@ -1,21 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_reader.h"
 
+#include <algorithm>
+
 #include "reading/parameter_table.h"
-#include "reading/study/study_basis.h"
-#include "reading/study/study_constraints.h"
-#include "reading/study/study_controllers.h"
-#include "reading/study/study_ensemble.h"
-#include "reading/study/study_excite.h"
-#include "reading/study/study_hardware.h"
-#include "reading/study/study_identify.h"
-#include "reading/study/study_initial_state.h"
-#include "reading/study/study_loads.h"
-#include "reading/study/study_objective.h"
+#include "reading/study/study_blocks.h"
 #include "reading/study/study_options.h"
-#include "reading/study/study_parameters.h"
-#include "reading/study/study_realization.h"
-#include "reading/study/study_watched.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
@@ -43,6 +33,18 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
   return {items[0].number(), items[1].number(), items[2].number()};
 }
 
+/// The adjoint can neither compute the derivatives of extreme values nor reverse the jumps of sampled controllers.
+void refuse_adjoint(const YamlValue& root, const Study& study) {
+  if (study.solver.gradient != GradientMethod::kAdjoint) return;
+  const auto sampled = [](const ControllerDescription& controller) { return controller.realization.is_sampled(); };
+  const YamlValue at = root.at("solver").at("gradient");
+  if (!study.watched.empty())
+    at.fail("the adjoint has no derivatives of the extreme values that path, final, objective.peak and peaks in constraints need",
+            "auto, direct");
+  if (std::any_of(study.controllers.begin(), study.controllers.end(), sampled))
+    at.fail("the adjoint does not go back over the samples of controllers with sample_time", "auto, direct");
+}
+
 /// Reads all blocks of one run and its optimization, that is all except the blocks of read_ensemble(). Does not check the keys of the root.
 Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot, const TrajectoryLoader& loader) {
   Study study;
@@ -66,11 +68,10 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   read_watched(root, robot, table, loader, &study);
   study.used_parameters = robot.used_parameters;
   study.used_parameters.insert(table.used.begin(), table.used.end());
-  if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
+  if (const auto limits = root.find("limits")) read_options(*limits, &study.limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
-  refuse_adjoint_of_watched(root, study);
-  refuse_adjoint_of_sampled(root, study);
+  refuse_adjoint(root, study);
   return study;
 }
 

@@ -1,13 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_recordings.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "reading/study/study_fields.h"
-#include "reading/study/study_fitted_number.h"
+#include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 
@@ -79,13 +78,13 @@ void read_bag(const YamlValue& value, RecordingDescription* recording) {
   recording->is_bag = true;
   recording->file = value.at("bag").text();
   recording->topic = value.at("topic").text();
-  read_choice(value, "stamp", kStampNames, &recording->stamp);
+  OptionReader{value}("stamp", kStampNames, recording->stamp);
 }
 
 void read_table(const YamlValue& value, const RobotDescription& robot, RecordingDescription* recording) {
   value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps", "start", "set"});
   recording->file = value.at("csv").text();
-  read_choice(value, "delimiter", kCellDelimiterNames, &recording->delimiter);
+  OptionReader{value}("delimiter", kCellDelimiterNames, recording->delimiter);
   if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
 }
 
@@ -123,7 +122,7 @@ RecordingDescription read_recording(const YamlValue& value, const RobotDescripti
   if (from) recording.from = from->number();
   if (to) recording.to = to->number();
   if (!(recording.from < recording.to)) (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
-  read_choice(value, "gaps", kGapRuleNames, &recording.gaps);
+  OptionReader{value}("gaps", kGapRuleNames, recording.gaps);
   if (const auto starts = value.find("start")) read_start_positions(*starts, robot, &recording);
   if (const auto set = value.find("set")) recording.settings = read_settings(*set, study);
   return recording;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_uncertain.h"
+#include "reading/study/study_blocks.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "description/robot.h"
-#include "reading/study/study_identified.h"
 #include "reading/study/study_values.h"
 #include "text/number_text.h"
 

@@ -38,6 +38,12 @@ double read_within_bounds(const YamlValue& value, const Parameter& parameter) {
   return number;
 }
 
+double read_above_zero(const YamlValue& value, const std::string& unit) {
+  const double number = value.number();
+  if (!(number > 0.0)) value.fail("not above zero", "more than 0" + unit);
+  return number;
+}
+
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   constexpr const char* kAllowed = "a finite number or \"${expression}\" of the parameters";
   const std::string text = value.text();
@@ -73,6 +79,23 @@ const JointDescription& scalar_joint(const std::string& name, const RobotDescrip
     if (scalar) known.push_back(joint.name);
   }
   throw unknown_name(at.where(), at.path(), "joint", name, known);
+}
+
+Between read_between(const YamlValue& value, const ParameterTable& table) {
+  const auto between = value.find("between"), at_least = value.find("at_least"), at_most = value.find("at_most");
+  if (between ? at_least || at_most : !at_least && !at_most)
+    value.fail("a constraint needs bounds, either by between or by at_least and at_most",
+               "between: [lower, upper]; or at_least, at_most or both");
+  Between bounds;
+  if (between) {
+    const std::vector<YamlValue> items = between->items();
+    if (items.size() != 2) between->fail("two bounds are needed, found " + std::to_string(items.size()), "[lower, upper]");
+    bounds.lower = read_quantity(items[0], table);
+    bounds.upper = read_quantity(items[1], table);
+  }
+  if (at_least) bounds.lower = read_quantity(*at_least, table);
+  if (at_most) bounds.upper = read_quantity(*at_most, table);
+  return bounds;
 }
 
 }  // namespace codesign

@@ -1,9 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "description/quantity.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/parameter_table.h"
@@ -21,6 +23,9 @@ int untuned_parameter(const std::string& name, const Study& study, const YamlVal
 /// A finite number within the bounds of a parameter. @throws InputError
 double read_within_bounds(const YamlValue& value, const Parameter& parameter);
 
+/// A number above zero. @param unit for the message, for example " s". @throws InputError
+double read_above_zero(const YamlValue& value, const std::string& unit = "");
+
 /// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not finite at the parameters' start.
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
 
@@ -29,5 +34,13 @@ QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 
 /// The joint or loop named `name`. @throws InputError, located at `at`, if there is none or it does not have exactly one coordinate.
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);
+
+/// The bounds of a constraint, at least one of them.
+struct Between {
+  std::optional<Quantity> lower, upper;
+};
+
+/// Reads `between: [lower, upper]`, or `at_least` and `at_most` or one of these. Their order is not checked. @throws InputError
+Between read_between(const YamlValue& value, const ParameterTable& table);
 
 }  // namespace codesign

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/vocabulary.h"
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "mechanism/pose.h"
-#include "reading/urdf/foreign_loops.h"
+#include "reading/urdf/joint_reader.h"
 #include "reading/urdf/quantity_reader.h"
 
 namespace codesign {

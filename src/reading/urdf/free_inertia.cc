@@ -1,12 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/free_inertia.h"
+#include "reading/urdf/inertial_reader.h"
 
 #include <cctype>
 #include <string>
 
 #include "mechanism/mass_properties.h"
+#include "reading/urdf/overlay.h"
 #include "reading/urdf/quantity_reader.h"
-#include "reading/urdf/set_values.h"
 #include "text/number_text.h"
 
 namespace codesign {

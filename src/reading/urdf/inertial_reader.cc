@@ -2,13 +2,75 @@
 #include "reading/urdf/inertial_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "reading/urdf/inertial_check.h"
+#include "mechanism/mass_properties.h"
 #include "reading/urdf/quantity_reader.h"
-#include "reading/urdf/shape_reader.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
+
+ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& table) {
+  ShapeDescription shape;
+  shape.origin = read_origin(visual, table);
+  const XmlElement geometry = visual.only("geometry");
+  const std::vector<XmlElement> kinds = geometry.children();
+  if (kinds.size() != 1) geometry.fail("the geometry does not hold exactly one shape", "", "<box>, <cylinder> or <sphere>");
+  const XmlElement& kind = kinds.front();
+  if (kind.tag() == "box") {
+    shape.kind = ShapeDescription::Kind::kBox;
+    shape.size = read_vector(kind, "size", table);
+    for (const Quantity& side : shape.size)
+      if (side.nominal() <= 0.0) kind.fail_at("size", "the box has no volume", "sides > 0");
+  } else if (kind.tag() == "cylinder") {
+    shape.kind = ShapeDescription::Kind::kCylinder;
+    shape.size[0] = read_quantity(kind, "radius", Range::kPositive, table);
+    shape.size[1] = read_quantity(kind, "length", Range::kPositive, table);
+  } else if (kind.tag() == "sphere") {
+    shape.kind = ShapeDescription::Kind::kSphere;
+    shape.size[0] = read_quantity(kind, "radius", Range::kPositive, table);
+  } else {
+    kind.fail("mass cannot be computed from this shape", "<" + kind.tag() + ">", "<box>, <cylinder> or <sphere>");
+  }
+  return shape;
+}
+
+/// The solids of a link's `<visual>` or `<collision>` elements.
+/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh, whose volume is not computed.
+std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table) {
+  std::vector<ShapeDescription> shapes;
+  for (const XmlElement& visual : link.children(tag)) shapes.push_back(read_solid(visual, table));
+  if (shapes.empty()) link.fail("the link has no <" + tag + "> to compute its mass from");
+  return shapes;
+}
+
+std::string as_xml(const MassProperties<double>& m) {
+  const auto attribute = [&](const char* name, int i, int k) {
+    return std::string(" ") + name + "=\"" + to_decimal(m.inertia(i, k)) + "\"";
+  };
+  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) + "\"/> <mass value=\"" + to_decimal(m.mass) +
+         "\"/> <inertia" + attribute("ixx", 0, 0) + attribute("ixy", 0, 1) + attribute("ixz", 0, 2) + attribute("iyy", 1, 1) +
+         attribute("iyz", 1, 2) + attribute("izz", 2, 2) + "/>";
+}
+
+/// Checks that the written values agree with the values of the shapes to 1e-6 (relative). @throws InputError
+void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
+                     const ParameterTable& table) {
+  constexpr double kRelative = 1e-6;
+  const MassProperties<double> a = mass_properties(written, table.values), b = mass_properties(from_shapes, table.values);
+  const double size = std::sqrt(b.inertia.trace() / b.mass);
+  const bool agree = std::abs(a.mass - b.mass) <= kRelative * b.mass &&
+                     (a.centre - b.centre).norm() <= kRelative * (size + b.centre.norm()) &&
+                     (a.inertia - b.inertia).norm() <= kRelative * b.inertia.norm();
+  if (!agree) element.fail("mass, centre or inertia differ from those of the shapes", as_xml(a), as_xml(b));
+}
+
+/// Throws InputError; its allowed value is the computed inertial as XML, ready to be pasted.
+[[noreturn]] void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
+                                     const std::string& message) {
+  element.fail(message, "", as_xml(mass_properties(from_shapes, table.values)));
+}
 
 constexpr std::array<const char*, 6> kInertia = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
 

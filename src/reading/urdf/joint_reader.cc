@@ -1,12 +1,29 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/joint_reader.h"
 
-#include "reading/urdf/friction_reader.h"
+#include <algorithm>
+#include <tuple>
+
 #include "reading/urdf/quantity_reader.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
 namespace codesign {
+
+int ReadContext::link(const XmlElement& element, const std::string& attribute) const {
+  const std::string name = element.text(attribute);
+  const auto found = std::find(links.begin(), links.end(), name);
+  if (found == links.end()) throw unknown_name(element.where(attribute), element.label(), "link", name, links);
+  return static_cast<int>(found - links.begin());
+}
+
+std::pair<int, int> ReadContext::ends(const XmlElement& element) const {
+  const XmlElement successor = element.only("successor");
+  const std::pair<int, int> result = {link(element.only("predecessor"), "link"), link(successor, "link")};
+  if (result.first == result.second) successor.fail_at("link", "predecessor and successor are the same link", "two links");
+  return result;
+}
+
 namespace {
 
 /// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
@@ -109,8 +126,7 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context, Joint
   joint->damping = joint->dry_friction = 0.0;
 }
 
-}  // namespace
-
+/// Reads the attribute `type` of a joint, or of a loop if `joint` is one. @throws InputError
 void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint) {
   const std::string name = element.text("type");
   std::vector<std::string> known;
@@ -126,6 +142,8 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
   throw unknown_name(element.where("type"), element.label(), joint->is_loop ? "loop type" : "joint type", name, known);
 }
 
+/// Reads the parts that joints and loops have in common: axis, dynamics, friction, actuator and torsion spring.
+/// @param joint its type and links must be set. @throws InputError
 void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
   const ParameterTable& table = context.table;
   const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
@@ -144,6 +162,19 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context, Joi
                                            read_quantity_or(0.0, *spring, "free_position", Range::kAny, table)};
 }
 
+void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
+  const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");
+  if (second_axis) {
+    if (loop->type != JointType::kUniversal) second_axis->fail("only a loop of type codesign:universal has a second axis");
+    loop->second_axis = read_axis(*second_axis, context.table);
+  }
+  if (length && loop->type != JointType::kDistance) length->fail("only a loop of type codesign:distance has a length");
+  if (loop->type == JointType::kDistance)
+    loop->distance = read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
+}
+
+}  // namespace
+
 JointDescription read_joint(const XmlElement& element, const ReadContext& context) {
   JointDescription joint;
   joint.where = element.where();
@@ -158,6 +189,20 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   read_limit_of_joint(element, context, &joint);
   read_mimic_of_joint(element, context, &joint);
   return joint;
+}
+
+JointDescription read_loop(const XmlElement& element, const ReadContext& context) {
+  JointDescription loop;
+  loop.is_loop = true;
+  loop.where = element.where();
+  loop.name = element.text("name");
+  read_joint_type(element, *context.laws, &loop);
+  std::tie(loop.parent, loop.child) = context.ends(element);
+  loop.origin = read_origin(element.only("predecessor"), context.table);
+  loop.child_origin = read_origin(element.only("successor"), context.table);
+  read_joint_parts(element, context, &loop);
+  read_type_specific(element, context, &loop);
+  return loop;
 }
 
 }  // namespace codesign

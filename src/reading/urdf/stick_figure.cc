@@ -1,13 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
 
-#include "reading/urdf/mesh_finder.h"
-#include "reading/urdf/plain_numbers.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -1,9 +1,151 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/urdf_reader.h"
 
-#include "reading/urdf/annotated_urdf.h"
+#include <algorithm>
+#include <tuple>
+
+#include "mechanism/constants.h"
+#include "reading/urdf/inertial_reader.h"
+#include "reading/urdf/joint_reader.h"
+#include "reading/urdf/overlay.h"
+#include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/urdf_checks.h"
+#include "reading/urdf/vocabulary.h"
 
 namespace codesign {
+namespace {
+
+/// Checks every twin, also the twins of visuals, which are not simulated: write_tuned_urdf() writes their values.
+void check_twins(const XmlElement& element, const std::string& path, const ParameterTable& table) {
+  const ElementRule* rule = find_rule(path);
+  if (rule != nullptr) {
+    for (const std::string& name : rule->twins) {
+      if (!element.has(kPrefix + name)) continue;
+      const bool is_vector = name == "xyz" || name == "rpy" || name == "size";
+      read_quantities(element, name, is_vector ? 3 : 1, table);
+    }
+  }
+  for (const XmlElement& child : element.children()) check_twins(child, path + "/" + child.tag(), table);
+}
+
+LinkDescription read_link(const XmlElement& element, const ParameterTable& table) {
+  LinkDescription link;
+  link.where = element.where();
+  link.name = element.text("name");
+  link.inertial = read_inertial(element, table);
+  return link;
+}
+
+CouplingDescription read_coupling(const XmlElement& element, const ReadContext& context, const RobotDescription& robot) {
+  CouplingDescription coupling;
+  coupling.where = element.where();
+  coupling.name = element.text("name");
+  std::tie(coupling.predecessor, coupling.successor) = context.ends(element);
+  const bool rolls = element.has("type");
+  if (rolls && element.text("type") != "rolling") element.fail_at("type", "the type of the coupling is unknown", "rolling, or no type");
+  for (const char* end : {"predecessor", "successor"})
+    if (const auto origin = element.only(end).child("origin"); origin && !rolls)
+      origin->fail("only a coupling of type rolling has points, and a ratio without them", "", "<ratio value=\"...\"/> alone");
+  if (rolls && !element.child("ratio")) {
+    coupling.ratio = rolling_ratio(element, coupling, robot, context.table);
+    return coupling;
+  }
+  const XmlElement ratio = element.only("ratio");
+  coupling.ratio = read_quantity(ratio, "value", Range::kAny, context.table);
+  if (coupling.ratio.nominal() == 0.0) ratio.fail_at("value", "the ratio is zero", "any other number");
+  return coupling;
+}
+
+SpringDamperDescription read_spring_damper(const XmlElement& element, const ReadContext& context) {
+  SpringDamperDescription spring;
+  spring.where = element.where();
+  spring.name = element.text("name");
+  std::tie(spring.predecessor, spring.successor) = context.ends(element);
+  spring.predecessor_origin = read_origin(element.only("predecessor"), context.table);
+  spring.successor_origin = read_origin(element.only("successor"), context.table);
+  spring.stiffness = read_quantity(element, "stiffness", Range::kNonNegative, context.table);
+  spring.damping = read_quantity_or(0.0, element, "damping", Range::kNonNegative, context.table);
+  spring.free_length = read_quantity_or(0.0, element, "free_length", Range::kNonNegative, context.table);
+  return spring;
+}
+
+/// Text or elements beside the `<robot>` of an overlay are an error, since they would be lost.
+XmlDocument load_overlay(SourceText source) {
+  Warnings beside = cut_trailing_text(&source);
+  XmlDocument overlay(source);
+  check_namespace(overlay);
+  check_prefixes(overlay);
+  refuse_text(overlay);
+  append(check_surroundings(overlay), &beside);
+  if (!beside.empty()) throw InputError({beside.front().where, "", "something stands after </robot>", "", "one <robot> element"});
+  return overlay;
+}
+
+/// Sorts by file, the model's before overlays, and by line.
+void sort_by_place(const std::string& file, Warnings* warnings) {
+  std::stable_sort(warnings->begin(), warnings->end(), [&file](const Warning& a, const Warning& b) {
+    const bool a_first = a.where.file == file, b_first = b.where.file == file;
+    if (a_first != b_first) return a_first;
+    return a.where.file == b.where.file && a.where.line < b.where.line;
+  });
+}
+
+}  // namespace
+
+XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws) {
+  SourceText text = urdf;
+  const Warnings trailing = cut_trailing_text(&text);
+  XmlDocument document(text);
+  document.note(trailing);
+  check_namespace(document);
+  check_prefixes(document);
+  document.note(check_surroundings(document));
+  refuse_set_values(document);
+  for (const SourceText& source : overlays) {
+    const XmlDocument overlay = load_overlay(source);
+    merge_overlay(overlay, &document);
+  }
+  check_annotations(document);
+  Warnings warnings;
+  check_vocabulary(document, &warnings);
+  document.note(warnings);
+  write_out_free_inertias(&document);
+  apply_set_values(&document, laws);
+  return document;
+}
+
+RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
+  const XmlElement element(document.robot(), &document);
+  RobotDescription robot;
+  robot.laws = laws;
+  robot.file = document.file();
+  robot.warnings = document.warnings();
+  robot.name = element.text("name");
+  robot.parameters = read_parameters(element);
+  ReadContext context{{}, ParameterTable(robot.parameters), &robot.warnings, &laws};
+  for (const XmlElement& link : element.children("link")) robot.links.push_back(read_link(link, context.table));
+  if (robot.links.empty()) element.fail("the robot has no links");
+  for (const LinkDescription& link : robot.links) context.links.push_back(link.name);
+  for (const XmlElement& joint : element.children("joint")) robot.joints.push_back(read_joint(joint, context));
+  close_with_second_parents(&robot);
+  for (const XmlElement& loop : element.children("loop")) robot.joints.push_back(read_loop(loop, context));
+  for (const XmlElement& coupling : element.children("coupling")) robot.couplings.push_back(read_coupling(coupling, context, robot));
+  read_constraints(element, context, &robot);
+  for (const XmlElement& spring : element.children("codesign:spring_damper"))
+    robot.spring_dampers.push_back(read_spring_damper(spring, context));
+  read_transmissions(element, &robot);
+  check_twins(element, "robot", context.table);
+  robot.used_parameters = context.table.used;
+  check_names(robot);
+  robot.root = find_root(robot);
+  warn_of_foreign_loops(element, robot, &robot.warnings);
+  check_mimics(&robot);
+  check_bodies(robot, &robot.warnings);
+  check_friction(robot);
+  check_with_urdfdom(document);
+  sort_by_place(robot.file, &robot.warnings);
+  return robot;
+}
 
 RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws) {
   return read_robot(load_annotated_urdf(urdf, overlays, laws), laws);

@@ -7,6 +7,7 @@
 
 #include "description/robot.h"
 #include "mechanism_codesign/source_text.h"
+#include "reading/xml/xml_document.h"
 
 namespace codesign {
 
@@ -22,5 +23,17 @@ RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>
 /// own. @param laws as of read_urdf(). @throws InputError if values are missing or not finite.
 std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters,
                              std::optional<FrictionModel> law = std::nullopt, const Laws& laws = standard_laws());
+
+/// Parses the URDF, merges the overlays and checks all element and attribute names. @throws InputError
+XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws = standard_laws());
+
+/// The mechanism that the document describes, with the warnings of the document and of reading it. @throws InputError
+RobotDescription read_robot(const XmlDocument& document, const Laws& laws = standard_laws());
+
+/// Gives the parameters of a document other defaults. Every attribute with a twin and every inertial computed from shapes follows. A bound
+/// that a value exceeds is moved to the value, so that the document stays valid.
+/// @param robot as read_robot() reads the document. @param values of its parameters, in their order. @throws InputError if a value, or the
+/// value of a twin, is not finite
+void write_design(const RobotDescription& robot, const std::vector<double>& values, XmlDocument* document);
 
 }  // namespace codesign

@@ -1,10 +1,95 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/annotated_urdf.h"
-#include "reading/urdf/design_writer.h"
-#include "reading/urdf/twin.h"
 #include "reading/urdf/urdf_reader.h"
 
+#include <array>
+#include <cmath>
+
+#include "mechanism/mass_properties.h"
+#include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/vocabulary.h"
+#include "text/number_text.h"
+
 namespace codesign {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// The design to write. `values` are the values of the parameters in `table`.
+struct Design {
+  const XmlDocument& document;
+  ParameterTable table;
+  std::vector<double> values;
+};
+
+std::vector<double> twin_values(const XmlElement& element, const std::string& twin, const Design& design) {
+  const std::size_t count = split_words(element.text(twin.substr(sizeof(kPrefix) - 1))).size();
+  std::vector<double> values;
+  for (const Quantity& quantity : parse_quantities(element, twin, count, design.table)) {
+    values.push_back(quantity.at(design.values));
+    if (!std::isfinite(values.back())) element.fail_at(twin, twin + " is not finite at the values to write");
+  }
+  return values;
+}
+
+void write_twins(XMLElement* node, const std::string& path, const Design& design) {
+  const ElementRule* rule = find_rule(path);
+  const XmlElement element(node, &design.document);
+  if (rule != nullptr) {
+    for (const std::string& name : rule->twins)
+      if (element.has(kPrefix + name))
+        node->SetAttribute(name.c_str(), format_numbers(twin_values(element, kPrefix + name, design)).c_str());
+  }
+  for (XMLElement* child = node->FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+    write_twins(child, path + "/" + child->Name(), design);
+}
+
+/// Writes the new defaults. A bound that a value exceeds, since a study has wider ones, is moved to the value, so that the file stays
+/// valid.
+void write_parameters(XMLElement* robot, const std::vector<Parameter>& parameters, const std::vector<double>& values) {
+  const char* tag = "codesign:parameter";
+  std::size_t k = 0;
+  for (XMLElement* node = robot->FirstChildElement(tag); node != nullptr; node = node->NextSiblingElement(tag), ++k) {
+    const std::string value = to_decimal(values[k]);
+    node->SetAttribute("value", value.c_str());
+    if (values[k] < parameters[k].lower) node->SetAttribute("lower", value.c_str());
+    if (values[k] > parameters[k].upper) node->SetAttribute("upper", value.c_str());
+  }
+}
+
+void write_inertial(XMLElement* inertial, const MassProperties<double>& properties) {
+  XMLElement* origin = inertial->FirstChildElement("origin");
+  if (origin == nullptr) origin = inertial->InsertNewChildElement("origin");
+  const Vector3<double>& centre = properties.centre;
+  origin->SetAttribute("xyz", format_numbers({centre[0], centre[1], centre[2]}).c_str());
+  origin->SetAttribute("rpy", "0 0 0");
+  inertial->FirstChildElement("mass")->SetAttribute("value", to_decimal(properties.mass).c_str());
+  const std::array<std::array<const char*, 3>, 3> names = {{{"ixx", "ixy", "ixz"}, {"ixy", "iyy", "iyz"}, {"ixz", "iyz", "izz"}}};
+  XMLElement* inertia = inertial->FirstChildElement("inertia");
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      inertia->SetAttribute(names[i][j], to_decimal(properties.inertia(static_cast<int>(i), static_cast<int>(j))).c_str());
+}
+
+void write_inertials(XMLElement* robot, const std::vector<LinkDescription>& links, const std::vector<double>& values) {
+  std::size_t k = 0;
+  for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link"), ++k) {
+    const std::optional<InertialDescription>& inertial = links[k].inertial;
+    if (inertial && inertial->density) write_inertial(link->FirstChildElement("inertial"), mass_properties(*inertial, values));
+  }
+}
+
+}  // namespace
+
+void write_design(const RobotDescription& robot, const std::vector<double>& values, XmlDocument* document) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!std::isfinite(values[k]))
+      throw InputError(
+          {robot.parameters[k].where, robot.parameters[k].name, "the value to write is not finite", to_decimal(values[k]), ""});
+  write_twins(document->robot(), "robot", {*document, ParameterTable(robot.parameters), values});
+  write_inertials(document->robot(), robot.links, values);
+  write_parameters(document->robot(), robot.parameters, values);
+}
+
 namespace {
 
 using tinyxml2::XMLElement;

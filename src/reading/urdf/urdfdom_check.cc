@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/urdfdom_check.h"
+#include "reading/urdf/urdf_checks.h"
 
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>

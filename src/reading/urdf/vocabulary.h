@@ -23,4 +23,23 @@ const Vocabulary* find_vocabulary(const std::string& path);
 /// The URDF elements that may have a child with this tag, for example "<visual>", "<collision>"; empty if URDF does not have the tag.
 std::vector<std::string> elements_with(const std::string& child);
 
+/// The attributes and children that one kind of element may have; doc/annotations.md describes them for users.
+struct ElementRule {
+  std::string path;                   ///< tags from `robot` down, separated by slashes
+  bool strict = false;                ///< only the listed names are allowed; else only names with the prefix `codesign:` are checked
+  std::vector<std::string> plain;     ///< attributes that cannot depend on parameters
+  std::vector<std::string> twins;     ///< attributes that may have a twin `codesign:...` with an expression
+  std::vector<std::string> own;       ///< attributes with the prefix that are not twins; listed without the prefix
+  std::vector<std::string> children;  ///< all allowed children if strict, else the allowed children with the prefix
+};
+
+/// The rule for a path such as `robot/joint/origin`; null if elements of this path have no annotations.
+const ElementRule* find_rule(const std::string& path);
+
+/// The names of all elements with the prefix `codesign:`.
+std::vector<std::string> annotation_elements();
+
+/// The elements that an annotation may be a child of, for example `<joint>`, `<loop>`.
+std::vector<std::string> places_of(const std::string& annotation);
+
 }  // namespace codesign

@@ -1,13 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/vocabulary_check.h"
+#include "reading/urdf/urdf_checks.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "reading/urdf/annotation_rules.h"
-#include "reading/urdf/annotation_schema.h"
-#include "reading/urdf/twin.h"
+#include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"

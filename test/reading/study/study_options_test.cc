@@ -6,6 +6,52 @@
 namespace codesign {
 namespace {
 
+YamlValue parse(const std::string& text) { return YamlValue::parse({"study.yaml", text}); }
+
+std::string message_of(const std::string& text) {
+  try {
+    int count = 0;
+    OptionReader{parse(text)}("count", OptionRange{1, 10}, count);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OptionReader, AMissingKeyChangesNothing) {
+  int count = 7;
+  RobustOptions options;
+  options.sampler = SamplerKind::kRandom;
+  options.seed = 3;
+  OptionReader{parse("{}")}("count", OptionRange{1, 10}, count);
+  read_options(parse("{}"), &options);
+  EXPECT_EQ(count, 7);
+  EXPECT_EQ(options.sampler, SamplerKind::kRandom);
+  EXPECT_EQ(options.seed, 3U);
+}
+
+TEST(OptionReader, ReadsWholeNumbersWithinARange) {
+  int count = 0;
+  OptionReader{parse("count: 10")}("count", OptionRange{1, 10}, count);
+  EXPECT_EQ(count, 10);
+  EXPECT_EQ(message_of("count: 1"), "");
+  EXPECT_EQ(message_of("count: 0"), "study.yaml:1: count: count out of range (value: 0, allowed: a whole number from 1 to 10)");
+  EXPECT_NE(message_of("count: 11").find("out of range"), std::string::npos);
+  EXPECT_NE(message_of("count: 1e300").find("out of range"), std::string::npos);
+  EXPECT_NE(message_of("count: 2.5").find("not an integer"), std::string::npos);
+  EXPECT_NE(message_of("count: many").find("not a number"), std::string::npos);
+}
+
+TEST(OptionReader, ReadsSamplerAndSeed) {
+  RobustOptions options;
+  read_options(parse("{sampler: latin_hypercube, seed: 2147483647}"), &options);
+  EXPECT_EQ(options.sampler, SamplerKind::kLatinHypercube);
+  EXPECT_EQ(options.seed, 2147483647U);
+  EXPECT_THROW(read_options(parse("{seed: -1}"), &options), InputError);
+  EXPECT_THROW(read_options(parse("{seed: 2147483648}"), &options), InputError);
+  EXPECT_THROW(read_options(parse("{sampler: sobel}"), &options), InputError);
+}
+
 std::string with_line(const std::string& line) { return kLeastStudy + line + "\n"; }
 
 TEST(StudyOptions, ReadsTheSolver) {

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/study/study_runs.h"
+#include "reading/study/study_blocks.h"
 
 #include "reading/study/study_fixture.h"
 

@@ -1,9 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/vocabulary.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+
+#include "reading/page_rows.h"
 
 namespace codesign {
 namespace {
@@ -27,6 +30,26 @@ TEST(AnnotationRules, EveryChildOfAStrictElementHasItsRule) {
     EXPECT_TRUE(rule->strict) << path;
     for (const std::string& child : rule->children) EXPECT_NE(find_rule(path + ("/" + child)), nullptr) << path << "/" << child;
   }
+}
+
+TEST(AnnotationRules, HaveTheTwinsOfThePage) {
+  const std::string link = "robot/link/", joint = "robot/joint/", loop = "robot/loop/";
+  std::map<std::string, std::string> paths = {{"<origin>", joint + "origin"}, {"<mass>", link + "inertial/mass"}};
+  paths["<inertia>"] = link + "inertial/inertia";
+  for (const char* shape : {"box", "cylinder", "sphere"}) paths["<" + std::string(shape) + ">"] = link + "visual/geometry/" + shape;
+  for (const char* tag : {"axis", "dynamics", "codesign:actuator", "mimic", "limit"}) paths["<" + std::string(tag) + ">"] = joint + tag;
+  for (const char* tag : {"codesign:second_axis", "codesign:length"}) paths["<" + std::string(tag) + ">"] = loop + tag;
+  paths["<ratio>"] = "robot/coupling/ratio";
+  for (const PageRow& row : page_rows("annotations.md", 1)) {
+    const std::vector<std::string> parts = split_at(row.cells[0], "; ");
+    for (std::size_t k = 0; k < row.keys.size(); ++k) {
+      const auto path = paths.find(row.keys[k]);
+      if (path == paths.end()) continue;
+      EXPECT_EQ(find_rule(path->second)->twins, quoted_in(parts.size() == row.keys.size() ? parts[k] : row.cells[0])) << path->first;
+      paths.erase(path);
+    }
+  }
+  EXPECT_TRUE(paths.empty()) << paths.begin()->first;
 }
 
 TEST(AnnotationRules, ListsTheElementsOfOurOwn) {

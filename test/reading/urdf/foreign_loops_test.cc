@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/foreign_loops.h"
+#include "reading/urdf/joint_reader.h"
 
 #include "reading/urdf/urdf_fixture.h"
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/free_inertia.h"
+#include "reading/urdf/inertial_reader.h"
 
 #include <gtest/gtest.h>
 

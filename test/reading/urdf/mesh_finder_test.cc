@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/mesh_finder.h"
+#include "reading/urdf/pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,70 @@
 #include "reading/urdf/quantity_reader.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
+
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {
+
+SourceText with_origin(const std::string& attributes) { return pendulum("<origin " + attributes + "/>"); }
+
+QuantityVector xyz_of(const std::string& attributes) { return read_urdf(with_origin(attributes)).joints[0].origin.xyz; }
+
+TEST(Twin, MixesNumbersAndExpressions) {
+  const QuantityVector xyz = xyz_of(R"(xyz="0.5 -0.1 0.4" codesign:xyz="0.5 -${length/2} ${2 * length}")");
+  EXPECT_TRUE(xyz[0].is_constant());
+  EXPECT_DOUBLE_EQ(xyz[1].nominal(), -0.1);
+  EXPECT_DOUBLE_EQ(xyz[1].at(std::vector<double>{0.3}), -0.15);
+  EXPECT_DOUBLE_EQ(xyz[2].at(std::vector<double>{0.3}), 0.6);
+}
+
+TEST(Twin, ASignBeforeAnExpressionAppliesToTheWhole) {
+  EXPECT_DOUBLE_EQ(xyz_of(R"(xyz="-0.3 0.3 0" codesign:xyz="-${length + 0.1} +${length + 0.1} 0")")[0].at(std::vector<double>{0.3}), -0.4);
+}
+
+TEST(Twin, MustEqualThePlainValue) {
+  expect_error(with_origin(R"(xyz="0 0 0.3" codesign:xyz="0 0 ${length}")"),
+               {"test.urdf:2: <joint name=\"hinge\"> <origin>: ", "codesign:xyz is 0 0 0.2 at the default parameters, xyz is 0 0 0.3"});
+  EXPECT_NO_THROW(xyz_of(R"(xyz="0 0 0.2000001" codesign:xyz="0 0 ${length}")"));
+  expect_error(with_origin(R"(xyz="0 0 0.200001" codesign:xyz="0 0 ${length}")"), {"equal values"});
+  EXPECT_NO_THROW(xyz_of(R"(xyz="0 0 1e-13" codesign:xyz="0 0 ${length - length}")"));
+}
+
+TEST(Twin, BadExpressions) {
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${lenght}")"),
+               {"unknown name 'lenght', did you mean 'length'?", "value: 0 0 ${lenght}"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"), {"a number is missing"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length")"), {"${ without its }"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 length")"), {"'length' in codesign:xyz is not a number"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"), {"'2${length}' is not an expression"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${sqrt(-length)}")"), {"not finite at the default parameters"});
+  expect_error(with_origin(R"(xyz="0 0 ${length}")"), {"a plain attribute contains an expression", "codesign:xyz"});
+}
+
+TEST(Twin, BadNumbers) {
+  expect_error(with_origin(R"(xyz="0 0 zero")"), {"'zero' in xyz is not a number"});
+  expect_error(with_origin(R"(xyz="0 0 1.2.3")"), {"is not a number"});
+  expect_error(with_origin(R"(xyz="0 0 nan")"), {"xyz is not finite"});
+  expect_error(with_origin(R"(xyz="0 0 -inf")"), {"xyz is not finite"});
+  expect_error(with_origin(R"(xyz="0 0 1e999")"), {"is not a number"});
+  expect_error(with_origin(R"(xyz="0 0")"), {"wrong number of values (2)", "3 values"});
+  expect_error(with_origin(R"(xyz="")"), {"the attribute xyz is empty"});
+}
+
+TEST(Twin, CountsOfTwinAndPlainMustAgree) {
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 ${length}")"), {"codesign:xyz has the wrong number"});
+}
+
+TEST(Twin, OfVisualsAreCheckedToo) {
+  const auto visual = [](const char* box) {
+    return robot_text(link_with("ground", std::string("<visual><geometry><box ") + box + "/></geometry></visual>"));
+  };
+  EXPECT_NO_THROW(read_urdf(visual(R"(size="1 1 0.2" codesign:size="1 1 ${length}")")));
+  expect_error(visual(R"(size="1 1 0.3" codesign:size="1 1 ${length}")"),
+               {"<link name=\"ground\"> <visual> <geometry> <box>", "equal values"});
+}
 
 class QuantityReader : public ::testing::Test {
  protected:
@@ -35,6 +96,42 @@ TEST_F(QuantityReader, OriginsAndAxes) {
   EXPECT_EQ(read_origin(robot_.only("y"), table_).xyz[2].nominal(), 0.0);
   EXPECT_THROW(read_axis(robot_, table_), InputError);
   EXPECT_EQ(read_axis(robot_.only("x").only("origin"), table_)[0].nominal(), 1.0);
+}
+
+SourceText with_parameter(const std::string& attributes) {
+  return {"test.urdf", "<robot name=\"x\" xmlns:codesign=\"urn:x\"><link name=\"a\"/>\n<codesign:parameter " + attributes + "/></robot>"};
+}
+
+TEST(ParameterReader, ReadsValueBoundsAndUnit) {
+  const Parameter p = read_urdf(with_parameter(R"(name="rod_length" value="0.3" lower="0.2" upper="0.4" unit="m")")).parameters.at(0);
+  EXPECT_EQ(p.name, "rod_length");
+  EXPECT_EQ(p.value, 0.3);
+  EXPECT_EQ(p.lower, 0.2);
+  EXPECT_EQ(p.upper, 0.4);
+  EXPECT_EQ(p.unit, "m");
+  EXPECT_EQ(p.where.line, 2);
+}
+
+TEST(ParameterReader, BoundsMayBeOpen) {
+  const Parameter p = read_urdf(with_parameter(R"(name="k" value="-3")")).parameters.at(0);
+  EXPECT_TRUE(std::isinf(p.lower) && p.lower < 0.0);
+  EXPECT_TRUE(std::isinf(p.upper) && p.upper > 0.0);
+}
+
+TEST(ParameterReader, Faults) {
+  expect_error(with_parameter(R"(name="k" value="0.5" lower="1" upper="2")"),
+               {"test.urdf:2:", "outside its bounds", "value: 0.5, allowed: [1, 2]"});
+  expect_error(with_parameter(R"(name="k" value="1.5" lower="2" upper="1")"),
+               {"the lower bound is above the upper bound", "at most upper=1"});
+  expect_error(with_parameter(R"(name="k")"), {"the attribute value is missing"});
+  expect_error(with_parameter(R"(value="1")"), {"the attribute name is missing"});
+  expect_error(with_parameter(R"(name="k" value="inf")"), {"value is not finite"});
+  expect_error(with_parameter(R"(name="k" value="one")"), {"'one' in value is not a number"});
+  expect_error(with_parameter(R"(name="2k" value="1")"), {"'2k' is not an identifier"});
+  expect_error(with_parameter(R"(name="sin" value="1")"), {"'sin' is a function or constant of expressions"});
+  expect_error(with_parameter(R"(name="k" value="1" min="0")"), {"unknown attribute min"});
+  expect_error(with_parameter("name=\"k\" value=\"1\"/>\n<codesign:parameter name=\"k\" value=\"2\""),
+               {"test.urdf:3:", "a second parameter of this name"});
 }
 
 }  // namespace

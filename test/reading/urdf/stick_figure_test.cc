@@ -1,11 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "reading/urdf/stick_figure.h"
+#include "reading/urdf/pictures.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "reading/urdf/link_solids.h"
 #include "reading/urdf/urdf_reader.h"
 #include "temporary_directory.h"
 
