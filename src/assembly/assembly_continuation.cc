@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.h"
 #include "assembly/tree_coordinates.h"
+#include "equations/compiled_system.h"
 #include "mechanism/constants.h"
 #include "text/number_text.h"
 
@@ -21,7 +22,7 @@ constexpr double kShortest = 1.0 / 1024;  // part of the way between two designs
 double to_four_digits(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
 /// The tuned parameters with their values: a = 0.1, b = 0.2.
-std::string design_text(const Study& study, const std::vector<double>& parameters) {
+std::string design_text(const MotionStudy& study, const std::vector<double>& parameters) {
   constexpr std::size_t kMost = 12;
   std::string text;
   for (std::size_t k = 0; k < std::min(kMost, study.tuned.size()); ++k) {

@@ -6,6 +6,7 @@
 
 #include "assembly/redundancy.h"
 #include "assembly/start_workspace.h"
+#include "description/study.h"
 #include "math/dense.h"
 
 namespace codesign {
@@ -148,7 +149,7 @@ Counts count_equations(const CompiledSystem& system, const std::vector<double>& 
   const Layout& layout = system.layout();
   Counts counts;
   if (layout.has_forest()) {
-    Study study = system.study();
+    Study study = system.whole_study();
     study.solver.coordinates = CoordinatesKind::kAbsolute;
     counts = count_absolute(CompiledSystem(system.robot(), study), parameters, status);
   } else {

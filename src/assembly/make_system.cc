@@ -8,6 +8,7 @@
 #include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
 #include "assembly/start_workspace.h"
+#include "description/study.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
@@ -175,7 +176,7 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   }
   const std::optional<Redundancy> redundancy = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;
-  if (redundancy) result = std::make_shared<const CompiledSystem>(system->robot(), system->study(), redundancy->sharing);
+  if (redundancy) result = std::make_shared<const CompiledSystem>(system->robot(), system->whole_study(), redundancy->sharing);
   if (result->sharing().drops()) {
     // With fewer rows enforced, other positions can start, and other velocities contradict.
     StartWorkspace enforced(*result, result->parameters());

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "description/motion_study.h"
 #include "description/robot.h"
-#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/warning.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "description/study.h"
+#include "description/motion_study.h"
 
 namespace codesign {
 
@@ -21,7 +21,7 @@ struct ControlEvent {
 /// are multiples of T, not sums, so that no error accumulates. The samples at t = 0 belong to the assembled start.
 class ControlClock {
  public:
-  explicit ControlClock(const Study& study);
+  explicit ControlClock(const MotionStudy& study);
 
   bool is_empty() const { return controllers_.empty(); }
   /// Begins at t = 0, after the samples at t = 0.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "description/study.h"
+#include "description/motion_study.h"
 #include "mechanism/topology.h"
 #include "text/number_text.h"
 
@@ -18,7 +18,7 @@ bool reads(const Signal& signal, SignalKind kind, int controller) {
 
 class Resolver {
  public:
-  Resolver(const Study& study, const RobotDescription& robot, const Topology& topology)
+  Resolver(const MotionStudy& study, const RobotDescription& robot, const Topology& topology)
       : study_(study), robot_(robot), topology_(topology), controllers_(study.controllers.size()) {}
 
   std::vector<Controller> resolve(const std::vector<Signal>& observed, int* states) {
@@ -212,7 +212,7 @@ class Resolver {
     return actuator && !actuator->rotor_inertia.is_zero();
   }
 
-  const Study& study_;
+  const MotionStudy& study_;
   const RobotDescription& robot_;
   const Topology& topology_;
   std::vector<Controller> controllers_;
@@ -236,7 +236,7 @@ std::string find_impossible(const ControllerDescription& description, const Cont
   return "";
 }
 
-std::vector<Controller> resolve_controllers(const Study& study, const RobotDescription& robot, const Topology& topology,
+std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot, const Topology& topology,
                                             const std::vector<Signal>& observed, int* states) {
   return Resolver(study, robot, topology).resolve(observed, states);
 }

@@ -6,7 +6,7 @@
 
 #include "control/reference.h"
 #include "control/signal.h"
-#include "description/study.h"
+#include "description/motion_study.h"
 #include "forces/actuation.h"
 #include "mechanism/driven_tree.h"
 
@@ -87,7 +87,7 @@ struct Controller {
 /// @param observed other signals that may read controllers: the signals of the objective.
 /// @param states number of extra states; grows by one for each integral that is needed.
 /// @throws InputError for unknown names, signals that a controller cannot read, and joints that it cannot drive.
-std::vector<Controller> resolve_controllers(const Study& study, const RobotDescription& robot, const Topology& topology,
+std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot, const Topology& topology,
                                             const std::vector<Signal>& observed, int* states);
 
 }  // namespace codesign

@@ -9,7 +9,7 @@ namespace codesign {
 
 struct ControllerDescription;
 struct SignalDescription;
-struct Study;
+struct MotionStudy;
 
 struct RobotDescription;
 

@@ -3,6 +3,12 @@
 
 namespace codesign {
 
+MotionStudy::MotionStudy() = default;
+MotionStudy::MotionStudy(const MotionStudy&) = default;
+MotionStudy::MotionStudy(MotionStudy&&) noexcept = default;
+MotionStudy& MotionStudy::operator=(const MotionStudy&) = default;
+MotionStudy& MotionStudy::operator=(MotionStudy&&) noexcept = default;
+MotionStudy::~MotionStudy() = default;
 Study::Study() = default;
 Study::Study(const Study&) = default;
 Study::Study(Study&&) noexcept = default;

@@ -50,32 +50,32 @@ ParameterConstraint make_constraint(const std::string& text, const std::string& 
   return {text, std::move(margin), where, element};
 }
 
-bool has_objective(const Study& study) {
+bool has_objective(const MotionStudy& study) {
   const auto is_peak = [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; };
   return !study.integral.empty() || !study.terminal.empty() || std::any_of(study.watched.begin(), study.watched.end(), is_peak);
 }
 
-std::vector<double> start_parameters(const Study& study) {
+std::vector<double> start_parameters(const MotionStudy& study) {
   std::vector<double> values;
   values.reserve(study.parameters.size());
   for (const Parameter& parameter : study.parameters) values.push_back(parameter.value);
   return values;
 }
 
-std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho) {
+std::vector<double> parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho) {
   std::vector<double> values;
   parameters_at(study, rho, &values);
   return values;
 }
 
-void parameters_at(const Study& study, const Eigen::VectorXd& rho, std::vector<double>* values) {
+void parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho, std::vector<double>* values) {
   values->clear();
   for (const Parameter& parameter : study.parameters) values->push_back(parameter.value);
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     (*values)[static_cast<std::size_t>(study.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
 }
 
-Eigen::VectorXd start_of(const Study& study) {
+Eigen::VectorXd start_of(const MotionStudy& study) {
   Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
@@ -116,7 +116,7 @@ std::optional<InputFault> find_missing_bounds(const Parameter& parameter) {
                     "lower and upper, both given"};
 }
 
-std::vector<std::string> tuned_names(const Study& study) {
+std::vector<std::string> tuned_names(const MotionStudy& study) {
   std::vector<std::string> names;
   names.reserve(study.tuned.size());
   for (int index : study.tuned) names.push_back(study.parameters[static_cast<std::size_t>(index)].name);

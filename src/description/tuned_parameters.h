@@ -23,16 +23,16 @@ ParameterConstraint make_constraint(const std::string& text, const std::string& 
                                     const std::vector<std::string>& names, const SourceLocation& where, const std::string& element);
 
 /// Start values of all named parameters, in the order of Study::parameters.
-std::vector<double> start_parameters(const Study& study);
+std::vector<double> start_parameters(const MotionStudy& study);
 
 /// All named parameters, in the order of Study::parameters: the tuned ones from `rho` (p entries, order of Study::tuned), the others at
 /// their start values.
-std::vector<double> parameters_at(const Study& study, const Eigen::VectorXd& rho);
+std::vector<double> parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho);
 /// The same. @param values overwritten, its memory is used again.
-void parameters_at(const Study& study, const Eigen::VectorXd& rho, std::vector<double>* values);
+void parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho, std::vector<double>* values);
 
 /// The start of rho: the start values of the p tuned parameters, in the order of Study::tuned.
-Eigen::VectorXd start_of(const Study& study);
+Eigen::VectorXd start_of(const MotionStudy& study);
 
 /// Checks that the study has something to tune. @throws InputError if not.
 void require_tuned(const Study& study);
@@ -53,6 +53,6 @@ InputError tuned_error(const SourceLocation& where, const std::string& element, 
 std::optional<InputFault> find_missing_bounds(const Parameter& parameter);
 
 /// Names of the tuned parameters, in the order of rho.
-std::vector<std::string> tuned_names(const Study& study);
+std::vector<std::string> tuned_names(const MotionStudy& study);
 
 }  // namespace codesign

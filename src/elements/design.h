@@ -77,7 +77,7 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   set_constant_loads(system, this);
   rows.resize(constants.pairs.size());
   for (std::size_t k = 0; k < rows.size(); ++k) pair_rows(system.topology().pairs[k].kind, constants.pairs[k], &rows[k]);
-  const Study& study = system.study();
+  const MotionStudy& study = system.study();
   controllers.resize(study.controllers.size());
   for (std::size_t k = 0; k < controllers.size(); ++k) controller_constants(study.controllers[k], parameters, &controllers[k]);
   const auto evaluate = [this](const std::vector<ObjectiveTerm>& terms, ObjectiveNumbers<T>* numbers) {

@@ -91,7 +91,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
   result.threshold = measured.threshold;
   if (with_gradient) result.total.gradient = result.gradients * measured.by_value;
   if (derivatives == Derivatives::kGaussNewton) combine_roots(members, &result);
-  check_finite(scenarios_.front().system->study().duration, &result);
+  check_finite(scenarios_.front().system->whole_study().duration, &result);
   return result;
 }
 
@@ -131,7 +131,7 @@ bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradien
     if (!member.status.ok()) {
       const bool interrupted = member.status.is_interrupted();
       // Constraints need the extreme values of every sample, and a failed sample has none.
-      const bool is_constrained = !scenarios_[k].system->study().watched.empty();
+      const bool is_constrained = !scenarios_[k].system->whole_study().watched.empty();
       if (options_.failed == FailedSamples::kRefuse || interrupted || is_constrained) {
         result->total.status = interrupted ? member.status : named(member.status, scenarios_[k]);
         result->values.resize(0);

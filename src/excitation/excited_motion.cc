@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "description/study.h"
 #include "engine/thread_engine.h"
 #include "equations/formulas.h"
 #include "identification/driven_motion.h"
@@ -83,7 +84,7 @@ ExcitedMotion::ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJ
 
 ExcitedMotion::~ExcitedMotion() = default;
 
-Eigen::Index ExcitedMotion::parameters() const { return static_cast<Eigen::Index>(driven_.system->study().tuned.size()); }
+Eigen::Index ExcitedMotion::parameters() const { return static_cast<Eigen::Index>(driven_.system->whole_study().tuned.size()); }
 
 Status ExcitedMotion::begin(const Eigen::VectorXd& positions) {
   if (Status status = assemble_driven(system_, joints_, driven_, parameters_, positions, &rest_); !status.ok()) return status;

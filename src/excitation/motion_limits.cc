@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "text/number_text.h"

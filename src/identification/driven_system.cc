@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "assembly/start_workspace.h"
+#include "description/study.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"
 
@@ -66,7 +67,7 @@ void refuse_friction_states(const CompiledSystem& system) {
 /// @param usual holds positions at the study's own start. @param joints indices in the description. @param positions one per joint.
 Study study_near(const StartWorkspace& usual, const CompiledSystem& of, const std::vector<int>& joints, const Eigen::VectorXd& positions,
                  const std::vector<int>& held) {
-  Study study = without_control(of.study());
+  Study study = without_control(of.whole_study());
   study.initial_state.clear();
   for (std::size_t joint = 0; joint < of.robot().joints.size(); ++joint) {
     const JointDescription& description = of.robot().joints[joint];
@@ -91,7 +92,7 @@ class DependentCoordinates {
   DependentCoordinates(const CompiledSystem& system, const std::vector<MeasuredJoint>& measured, const std::vector<int>& joints)
       : system_(system), measured_(measured), joints_(joints), start_(system, system.parameters()) {
     if (Status status = start_.solve_positions(); !status.ok())
-      throw InputError({{system.study().file, 0}, "initial_state", status.cause, "", "a start that can be assembled"});
+      throw InputError({{system.whole_study().file, 0}, "initial_state", status.cause, "", "a start that can be assembled"});
     find();
   }
 
@@ -188,7 +189,7 @@ DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<Meas
   DrivenSystem driven = choose_drives(of, measured, joints, positions);
   std::vector<int> drives;
   for (int k : driven.drives) drives.push_back(joints[to_index(k)]);
-  driven.system = std::make_shared<const CompiledSystem>(of.robot(), without_control(of.study()), of.sharing(), drives);
+  driven.system = std::make_shared<const CompiledSystem>(of.robot(), without_control(of.whole_study()), of.sharing(), drives);
   return driven;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "description/study.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/status.h"
 #include "system/state.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "description/study.h"
 #include "engine/thread_engine.h"
 #include "identification/motion_projection.h"
 #include "math/arrays.h"
@@ -65,7 +66,7 @@ Eigen::MatrixXd some_positions(const MotionSamples& motion) {
 struct EffortModel::EffortWorker {
   EffortWorker(const DrivenSystem& driven, const std::vector<int>& shifted)
       : motion(driven),
-        tangents(LaneCount{static_cast<int>(driven.system->study().tuned.size() + shifted.size())}, *driven.system, shifted) {}
+        tangents(LaneCount{static_cast<int>(driven.system->whole_study().tuned.size() + shifted.size())}, *driven.system, shifted) {}
 
   void forget() {
     motion.forget();

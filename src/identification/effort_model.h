@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "description/study.h"
 #include "identification/driven_system.h"
 #include "identification/effort_tangent.h"
 #include "mechanism_codesign/status.h"
@@ -40,7 +41,7 @@ class EffortModel {
   const std::vector<std::string>& drives() const { return names_; }
   const DrivenSystem& driven() const { return driven_; }
   int samples() const { return static_cast<int>(motion_.position.cols()); }
-  int parameters() const { return static_cast<int>(driven_.system->study().tuned.size()); }
+  int parameters() const { return static_cast<int>(driven_.system->whole_study().tuned.size()); }
 
   /// Adds constants to the positions given to the constructor. @param shifts [rad or m], one row per shifted joint and column per recording
   void shift(const Eigen::MatrixXd& shifts);

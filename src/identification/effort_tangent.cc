@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/effort_tangent.h"
 
+#include "description/study.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -12,7 +14,7 @@ EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes
       layout_(system.layout()),
       at_(layout_),
       lanes_(lanes),
-      seeded_{lanes.first, std::clamp(static_cast<int>(system.study().tuned.size()) - lanes.first, 0, lanes.count)},
+      seeded_{lanes.first, std::clamp(static_cast<int>(system.whole_study().tuned.size()) - lanes.first, 0, lanes.count)},
       shifted_(std::move(shifted)),
       equations_(system),
       y_(at_.size()),
@@ -24,7 +26,7 @@ EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes
 template <int N>
 void EffortTangent<N>::constraint_errors(const State<double>& state) {
   equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
-  const int parameters = static_cast<int>(system_.study().tuned.size());
+  const int parameters = static_cast<int>(system_.whole_study().tuned.size());
   for (int lane = seeded_.count; lane < lanes_.count; ++lane)
     Phi_(lane, system_.drive_row(shifted_[static_cast<std::size_t>(lanes_.first + lane - parameters)])) -= 1.0;
 }

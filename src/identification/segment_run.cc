@@ -9,7 +9,7 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
     : system_(*of.system), starts_(of.starts), integrator_(system_), groups_(system_, integrator_.step().tableau()) {
   state_.resize(system_.layout());
   groups_.for_each([](auto* group) { group->step.keep_previous(true); });
-  const double tolerance = system_.study().solver.sensitivity_tolerance;
+  const double tolerance = system_.whole_study().solver.sensitivity_tolerance;
   stages_ = [this, tolerance](RosenbrockStep<double>* step) {
     double error = 0.0;
     for_each_group([&](auto* group) {
@@ -24,9 +24,9 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
 }
 
 void SegmentRun::choose(SegmentLanes lanes) {
-  const int all = static_cast<int>(system_.study().tuned.size());
+  const int all = static_cast<int>(system_.whole_study().tuned.size());
   // If the error test includes sensitivities, all derivatives are computed in every run, so that steps do not depend on `lanes`.
-  const bool is_whole = lanes == SegmentLanes::kAll || system_.study().solver.sensitivity_tolerance > 0.0;
+  const bool is_whole = lanes == SegmentLanes::kAll || system_.whole_study().solver.sensitivity_tolerance > 0.0;
   first_lane_ = is_whole ? 0 : lanes == SegmentLanes::kStart ? all - starts_ : all;
 }
 
@@ -48,7 +48,7 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
   choose(lanes);
   const auto outputs = static_cast<Eigen::Index>(system_.watched().size()), count = static_cast<Eigen::Index>(times.size());
   values_.resize(count, outputs);
-  slopes_.resize(count * outputs, static_cast<Eigen::Index>(system_.study().tuned.size()));
+  slopes_.resize(count * outputs, static_cast<Eigen::Index>(system_.whole_study().tuned.size()));
   if (Status status = start(parameters, begin); !status.ok()) return status;
   for (Eigen::Index row = 0; row < count; ++row) {
     const double time = times[static_cast<std::size_t>(row)];

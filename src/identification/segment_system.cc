@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "description/study.h"
 #include "math/arrays.h"
 #include "text/number_text.h"
 
@@ -15,7 +16,7 @@ constexpr double kNoLimit = 1e9;  // [m/s or rad/s] a segment may begin in any m
 /// Builds the study of a segment.
 class SegmentStudy {
  public:
-  SegmentStudy(const CompiledSystem& of, const FitVariables& variables) : study_(of.study()), variables_(variables) {
+  SegmentStudy(const CompiledSystem& of, const FitVariables& variables) : study_(of.whole_study()), variables_(variables) {
     study_.initial_state.clear();
     study_.integral.clear();
     study_.terminal.clear();
@@ -150,7 +151,7 @@ std::vector<MotionOutput> motion_outputs(const CompiledSystem& of, const std::ve
     outputs.push_back({joint.name, MeasuredQuantity::kPosition});
     if (std::all_of(recordings.begin(), recordings.end(), [&](const JointRecording& each) { return has_velocities(each, joint.name); }))
       outputs.push_back({joint.name, MeasuredQuantity::kVelocity});
-    if (joint.with_effort && is_driven(of.study(), joint.name)) outputs.push_back({joint.name, MeasuredQuantity::kEffort});
+    if (joint.with_effort && is_driven(of.whole_study(), joint.name)) outputs.push_back({joint.name, MeasuredQuantity::kEffort});
   }
   return outputs;
 }
@@ -158,19 +159,19 @@ std::vector<MotionOutput> motion_outputs(const CompiledSystem& of, const std::ve
 SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& variables, const std::vector<MeasuredJoint>& joints,
                                   const std::vector<std::string>& independent, const std::vector<MotionOutput>& outputs,
                                   const JointRecording& recording) {
-  refuse_idas(of.study());
-  refuse_sampled(of.study());
+  refuse_idas(of.whole_study());
+  refuse_sampled(of.whole_study());
   SegmentSystem result;
   result.outputs = outputs;
   // Controllers may read functions of time, which use the clock of the recording. Without controllers the times begin at zero, where they
   // are more exact.
-  if (of.study().controllers.empty()) result.epoch = recording.times.front();
+  if (of.whole_study().controllers.empty()) result.epoch = recording.times.front();
   SegmentStudy segment(of, variables);
   segment.study().duration = recording.times.back() - result.epoch;
   std::vector<double> times = recording.times;
   for (double& time : times) time -= result.epoch;
   for (const MeasuredJoint& joint : joints) {
-    if (!joint.with_effort || !moves_mass(of, joint.name) || is_driven(of.study(), joint.name)) continue;
+    if (!joint.with_effort || !moves_mass(of, joint.name) || is_driven(of.whole_study(), joint.name)) continue;
     segment.drive(joint.name, std::make_shared<const SampledFunction>(times, recording.find(joint.name)->effort));
     result.inputs.push_back(joint.name);
   }

@@ -41,7 +41,7 @@ void disconnect(const std::vector<std::string>& names, Study* study) {
 }
 
 /// Whether a controller is applied.
-bool drives(const Study& study) {
+bool drives(const MotionStudy& study) {
   return std::any_of(study.controllers.begin(), study.controllers.end(), [](const auto& controller) { return !controller.output.empty(); });
 }
 
@@ -72,7 +72,7 @@ std::vector<std::string> drivable_joints(const CompiledSystem& system) {
   return joints;
 }
 
-CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& options) : study(of.study()), joints(drivable_joints(of)) {
+CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& options) : study(of.whole_study()), joints(drivable_joints(of)) {
   if (options.joints) {
     check_joints(*options.joints, joints);
     joints = *options.joints;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/trajectory_course.h"
+#include "description/study.h"
 #include "equations/compiled_system.h"
 
 namespace codesign {

@@ -192,7 +192,7 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
 
 // The largest speed that setpoints and references ask for. Angles and lengths are not distinguished: it counts for both kinds of speed.
 double MotionWatch::target(const Equations<double>& equations) const {
-  const Study& study = system_.study();
+  const MotionStudy& study = system_.study();
   double largest = 0.0;
   const auto look = [&](const Signal& signal, const Reference<double>& reference) {
     const bool velocity = reads(signal, kVelocities), position = reads(signal, kPositions);

@@ -5,7 +5,7 @@
 
 namespace codesign {
 
-BreakTimes::BreakTimes(const Study& study) : apart_(1e-12 * study.duration) {
+BreakTimes::BreakTimes(const MotionStudy& study) : apart_(1e-12 * study.duration) {
   for (const ControllerDescription& controller : study.controllers) {
     add(controller.setpoint);
     add(controller.feedforward);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "description/study.h"
+#include "description/motion_study.h"
 #include "mechanism_codesign/status.h"
 #include "text/number_text.h"
 
@@ -93,7 +93,7 @@ class RestartPace {
 /// these are the instants of all samples, since its second derivative jumps there; they are shifted by the start value of its delay.
 class BreakTimes {
  public:
-  explicit BreakTimes(const Study& study);
+  explicit BreakTimes(const MotionStudy& study);
 
   /// The first break time after `t` if it is before `limit`, else `limit`; all in [s].
   double next(double t, double limit) const;

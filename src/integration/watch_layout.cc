@@ -27,7 +27,7 @@ std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<
 
 }  // namespace
 
-WatchLayout::WatchLayout(const Study& study) {
+WatchLayout::WatchLayout(const MotionStudy& study) {
   if (study.watched.empty()) return;
   breaks_ = BreakTimes(study).times();
   for (const WatchedSignal& watched : study.watched) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "description/study.h"
+#include "description/motion_study.h"
 
 namespace codesign {
 
@@ -30,7 +30,7 @@ class WatchLayout {
     int size() const { return static_cast<int>(instants.size()) + 2 * windows(); }
   };
 
-  explicit WatchLayout(const Study& study);
+  explicit WatchLayout(const MotionStudy& study);
 
   /// One entry per watched signal.
   const std::vector<Entry>& entries() const { return entries_; }

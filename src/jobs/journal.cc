@@ -34,7 +34,7 @@ std::map<const CompiledSystem*, int> number_systems(const Problem& problem) {
 
 std::vector<Eigen::Index> count_extremes(const Problem& problem) {
   std::vector<Eigen::Index> counts;
-  for (const auto& system : distinct_systems(problem)) counts.push_back(WatchLayout(system->study()).size());
+  for (const auto& system : distinct_systems(problem)) counts.push_back(WatchLayout(system->whole_study()).size());
   return counts;
 }
 

@@ -160,7 +160,7 @@ std::vector<std::string> default_signals(const RobotDescription& robot, const st
   return signals;
 }
 
-std::vector<SignalDescription> signals_of(const Study& study) {
+std::vector<SignalDescription> signals_of(const MotionStudy& study) {
   std::vector<SignalDescription> signals;
   const auto add = [&signals](const SignalDescription& signal) {
     const auto is_same = [&signal](const SignalDescription& other) { return other.text == signal.text; };

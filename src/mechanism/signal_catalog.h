@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "description/motion_study.h"
 #include "description/robot.h"
-#include "description/study.h"
 
 namespace codesign {
 
@@ -28,6 +28,6 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
 std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
 
 /// The signals that a study uses, each once: the signals of its objective and constraints, then the signals of its controllers.
-std::vector<SignalDescription> signals_of(const Study& study);
+std::vector<SignalDescription> signals_of(const MotionStudy& study);
 
 }  // namespace codesign

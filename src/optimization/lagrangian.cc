@@ -115,7 +115,7 @@ double tolerance_of_range(const WatchedResult& watched) {
 void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel,
                         std::vector<WatchedResult>* watched) {
   constexpr int kInstants = 201;
-  const std::vector<WatchedSignal>& bounds = scenario.system->study().watched;
+  const std::vector<WatchedSignal>& bounds = scenario.system->whole_study().watched;
   std::vector<SignalDescription> signals;
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < watched->size(); ++k) {
@@ -133,7 +133,7 @@ void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho, co
     }
     return true;
   };
-  simulate(&simulation, scenario.system->study().duration, kInstants, widen, cancel);
+  simulate(&simulation, scenario.system->whole_study().duration, kInstants, widen, cancel);
 }
 
 bool meets_constraints(const OptimizationResult& result) {

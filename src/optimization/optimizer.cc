@@ -13,7 +13,7 @@ namespace codesign {
 
 OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
                             const TrialObserver& observer, const std::atomic<bool>* cancel) {
-  const Study& study = system->study();
+  const Study& study = system->whole_study();
   require_tuned(study);
   const Ensemble ensemble(system);
   return search_locally(study, options, start_of(study), ensemble, observer, cancel);

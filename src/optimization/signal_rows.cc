@@ -35,7 +35,7 @@ Eigen::VectorXd SlackForm::gradient() const {
 
 double SlackForm::constraint(int i, double psi, const Eigen::VectorXd& y) const { return psi - y[0] - (y.size() > 1 ? y[i + 1] : 0.0); }
 
-SignalRows::SignalRows(const Study& study) : study_(study), layout_(study) {
+SignalRows::SignalRows(const MotionStudy& study) : study_(study), layout_(study) {
   for (std::size_t k = 0; k < study.watched.size(); ++k) {
     const WatchedSignal& watched = study.watched[k];
     if (watched.role == WatchedSignal::Role::kPeak) {

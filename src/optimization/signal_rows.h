@@ -57,7 +57,7 @@ struct SignalRow {
 /// The rows of all watched signals of a study, which are the same at every design.
 class SignalRows {
  public:
-  explicit SignalRows(const Study& study);
+  explicit SignalRows(const MotionStudy& study);
 
   const std::vector<SignalRow>& inequalities() const { return inequalities_; }
   const std::vector<SignalRow>& equalities() const { return equalities_; }
@@ -76,7 +76,7 @@ class SignalRows {
   void add(std::size_t watched, double sign, int peak);
   const Quantity& bound(const SignalRow& row) const;
 
-  const Study& study_;
+  const MotionStudy& study_;
   const WatchLayout layout_;
   std::vector<SignalRow> inequalities_, equalities_;
   std::vector<std::size_t> peaks_;

@@ -55,7 +55,7 @@ SmoothProgram::SmoothProgram(const Ensemble& ensemble) : ensemble_(ensemble), sl
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
   rows_.reserve(scenarios.size());
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    const SignalRows& rows = rows_.emplace_back(scenarios[i].system->study());
+    const SignalRows& rows = rows_.emplace_back(scenarios[i].system->whole_study());
     first_peak_.push_back(peaks_);
     peaks_ += static_cast<int>(rows.peaks().size());
     for (const SignalRow& row : rows.inequalities()) inequality_places_.push_back({i, &row});
@@ -72,7 +72,7 @@ bool SmoothProgram::bounds_read(int parameter) const {
     const std::vector<int>& read = bound->expression()->dependencies();
     return std::find(read.begin(), read.end(), parameter) != read.end();
   };
-  const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->study().watched;
+  const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->whole_study().watched;
   return std::any_of(watched.begin(), watched.end(), [&](const WatchedSignal& one) { return reads(one.lower) || reads(one.upper); });
 }
 
@@ -104,7 +104,7 @@ void SmoothProgram::take(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     if (rows_[i].peaks().empty()) continue;
     const auto column = static_cast<Eigen::Index>(i);
     Eigen::VectorXd of_peaks = Eigen::VectorXd::Zero(rho.size());
-    smooth_values_[column] -= peak_terms(scenario.system->study(), all.extremes[i], &of_peaks);
+    smooth_values_[column] -= peak_terms(scenario.system->whole_study(), all.extremes[i], &of_peaks);
     smooth_gradients_.col(column) -= of_peaks;
   }
 }
@@ -138,7 +138,7 @@ SmoothProgram::Value SmoothProgram::objective(const Eigen::VectorXd& slack) cons
 
 double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
   const std::size_t watched = rows_[scenario].peaks()[static_cast<std::size_t>(peak)];
-  const double weight = ensemble_.scenarios()[scenario].system->study().watched[watched].weight;
+  const double weight = ensemble_.scenarios()[scenario].system->whole_study().watched[watched].weight;
   return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
 }
 
@@ -187,13 +187,13 @@ std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& 
   Scenario nominal = ensemble_.scenarios().front();
   nominal.values.clear();
   const std::vector<double> parameters = nominal.parameters(rho);
-  for (const WatchedSignal& signal : nominal.system->study().watched) results.push_back(describe_bounds(signal, parameters));
+  for (const WatchedSignal& signal : nominal.system->whole_study().watched) results.push_back(describe_bounds(signal, parameters));
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (std::size_t k = 0; k < results.size(); ++k) {
       widen(rows_[i].layout().entries()[k], extremes[i], initial[i], static_cast<int>(i), &results[k]);
       results[k].violation = std::max(results[k].violation, rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
     }
-  const std::vector<WatchedSignal>& watched = nominal.system->study().watched;
+  const std::vector<WatchedSignal>& watched = nominal.system->whole_study().watched;
   for (std::size_t k = 0; k < results.size(); ++k) results[k].tolerance = watched[k].tolerance.value_or(tolerance_of_range(results[k]));
   return results;
 }

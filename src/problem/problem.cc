@@ -138,7 +138,7 @@ std::vector<std::string> Problem::tuned_names() const { return codesign::tuned_n
 Eigen::VectorXd Problem::start() const { return start_of(study()); }
 const OptimizerOptions& Problem::optimizer_options() const { return study().optimizer; }
 const RobotDescription& Problem::robot() const { return contents_->system->robot(); }
-const Study& Problem::study() const { return contents_->system->study(); }
+const Study& Problem::study() const { return contents_->system->whole_study(); }
 const std::shared_ptr<const CompiledSystem>& Problem::system() const { return contents_->system; }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,

@@ -49,10 +49,10 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
 RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
                        const std::function<bool()>& stop) {
   RecordedRun run;
-  Simulation simulation(system, parameters, signals_of(system->study()));
+  Simulation simulation(system, parameters, signals_of(system->whole_study()));
   run.names = simulation.names();
   run.link_parents = link_parents(system->robot());
-  const double duration = system->study().duration;
+  const double duration = system->whole_study().duration;
   const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
   const auto stopped = [&stop] { return stop && stop(); };
   run.status = simulation.start();

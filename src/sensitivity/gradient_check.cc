@@ -7,6 +7,7 @@
 #include <random>
 
 #include "control/control_clock.h"
+#include "description/study.h"
 #include "elements/state_view.h"
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
@@ -125,7 +126,7 @@ Eigen::MatrixXd directions_of(const GradientCheck& check) {
 
 /// parameters + step * direction, with the tuned parameters in the direction.
 template <class T>
-std::vector<T> moved(const Study& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const T& step) {
+std::vector<T> moved(const MotionStudy& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const T& step) {
   std::vector<T> result(parameters.begin(), parameters.end());
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     result[static_cast<std::size_t>(study.tuned[k])] += step * direction[static_cast<Eigen::Index>(k)];
@@ -134,7 +135,7 @@ std::vector<T> moved(const Study& study, const std::vector<double>& parameters, 
 
 /// The largest step along a direction that changes no tuned parameter by more than its `size`.
 template <class Size>
-double step_along(const Study& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const Size& size) {
+double step_along(const MotionStudy& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const Size& size) {
   double step = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     if (const double component = std::abs(direction[static_cast<Eigen::Index>(k)]); component > 0.0)
@@ -146,7 +147,7 @@ double step_along(const Study& study, const std::vector<double>& parameters, con
 void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   for (Eigen::Index k = 0; k < check->reference.size(); ++k) {
     if (std::isfinite(check->reference[k]) && std::isfinite(check->reference_error[k])) continue;
-    const Study& study = system.study();
+    const MotionStudy& study = system.study();
     const bool along = check->directions.size() > 0;
     const std::string name =
         along ? "along direction " + std::to_string(k + 1)
@@ -178,7 +179,7 @@ void check_by_complex_step(const CompiledSystem& system, const std::vector<doubl
 /// tightened.
 void check_by_differences(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
                           GradientCheck* check) {
-  Study study = system.study();
+  Study study = system.whole_study();
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
   study.solver.integrator = IntegratorKind::kRosenbrock;

@@ -18,7 +18,7 @@ namespace codesign {
 namespace {
 
 const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
-  const Study& study = system.study();
+  const MotionStudy& study = system.study();
   return study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
 }
 
@@ -51,7 +51,7 @@ class Evaluator::Implementation {
     Evaluation evaluation;
     std::unique_ptr<GradientEngine>& engine = derivatives == Derivatives::kGaussNewton ? root_engine_ : engine_;
     if (!engine) engine = make_gradient_engine(*system_, derivatives);
-    if (const ControllerDescription* rounded = derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->study())) {
+    if (const ControllerDescription* rounded = derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->whole_study())) {
       evaluation.status = {StatusCode::kNonFiniteGradient, 0.0,
                            "there is no gradient: controllers." + rounded->name + ".quantization rounds a measurement"};
       return evaluation;

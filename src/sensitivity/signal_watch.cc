@@ -7,7 +7,9 @@
 #include <limits>
 #include <optional>
 
+#include "assembly/assembly.h"
 #include "equations/compiled_system.h"
+#include "equations/equations.h"
 
 namespace codesign {
 namespace {
@@ -29,11 +31,11 @@ Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
   return peak;
 }
 
-double peak_terms(const Study& study, const Extremes& extremes, Eigen::VectorXd* gradient) {
+double peak_terms(const MotionStudy& study, const Extremes& extremes, Eigen::VectorXd* gradient) {
   return peak_terms(study, WatchLayout(study), extremes, gradient);
 }
 
-double peak_terms(const Study& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient) {
+double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient) {
   const auto is_peak = [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; };
   if (std::none_of(study.watched.begin(), study.watched.end(), is_peak)) return 0.0;
   double sum = 0.0;

@@ -20,8 +20,8 @@ Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values);
 
 /// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without peaks. @param gradient if not null, their
 /// gradient is added to it. @param layout of the study.
-double peak_terms(const Study& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient);
-double peak_terms(const Study& study, const Extremes& extremes, Eigen::VectorXd* gradient);
+double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient);
+double peak_terms(const MotionStudy& study, const Extremes& extremes, Eigen::VectorXd* gradient);
 
 /// Finds the numbers of the watched signals, doc/theory.md (21a), while an integration runs: their values at given instants and the
 /// largest and smallest values between them, with derivatives by the tuned parameters.

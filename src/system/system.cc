@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
@@ -57,7 +58,11 @@ void cut_long_chains(const Topology& topology, std::vector<bool>* cut) {
 }  // namespace
 
 System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
-    : robot_(with_start_rotations(robot, study)), study_(study), topology_(derive_topology(robot_)), sharing_(std::move(sharing)) {
+    : robot_(with_start_rotations(robot, study)),
+      study_(std::make_shared<const Study>(study)),
+      motion_(study_.get()),
+      topology_(derive_topology(robot_)),
+      sharing_(std::move(sharing)) {
   for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
   drives_ = static_cast<int>(drives.size());
   refuse_unsupported();
@@ -74,14 +79,14 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
   collect_bristles();
 }
 
-std::vector<double> System::parameters() const { return start_parameters(study_); }
+std::vector<double> System::parameters() const { return start_parameters(study()); }
 
-std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study_, rho); }
+std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study(), rho); }
 
 void System::choose_forest() {
-  if (study_.solver.coordinates != CoordinatesKind::kJoint) return;
+  if (study().solver.coordinates != CoordinatesKind::kJoint) return;
   if (const SignalDescription* signal = mechanism_friction())
-    throw InputError({study_.solver.coordinates_where, "solver.coordinates",
+    throw InputError({study().solver.coordinates_where, "solver.coordinates",
                       "a controller that reads the friction of the whole mechanism: not available in joint coordinates", signal->text,
                       "auto or absolute"});
   layout_.forest = tree_forest(topology_, cut_pairs());
@@ -89,14 +94,14 @@ void System::choose_forest() {
 
 CoordinatesKind System::best_coordinates() const {
   // In joint coordinates motions can be polynomials, which idas follows exactly in a few steps too long for its quadratures.
-  const bool is_possible = study_.solver.integrator != IntegratorKind::kIdas && !mechanism_friction();
+  const bool is_possible = study().solver.integrator != IntegratorKind::kIdas && !mechanism_friction();
   return is_possible ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
 }
 
 /// The inputs of all controllers.
 std::vector<const SignalDescription*> System::controller_inputs() const {
   std::vector<const SignalDescription*> inputs;
-  for (const ControllerDescription& controller : study_.controllers) {
+  for (const ControllerDescription& controller : study().controllers) {
     inputs.push_back(&controller.input);
     for (const FeedbackTerm& term : controller.feedback) inputs.push_back(&term.signal);
   }
@@ -157,13 +162,13 @@ void System::lay_out() {
 void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study_.controllers), static_cast<int>(k)});
+      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study().controllers), static_cast<int>(k)});
     }
   };
-  resolve(study_.integral, &integral_);
-  resolve(study_.terminal, &terminal_);
-  for (const WatchedSignal& watched : study_.watched)
-    watched_.push_back(resolve_signal(watched.signal, robot_, topology_, study_.controllers));
+  resolve(study().integral, &integral_);
+  resolve(study().terminal, &terminal_);
+  for (const WatchedSignal& watched : study().watched)
+    watched_.push_back(resolve_signal(watched.signal, robot_, topology_, study().controllers));
 }
 
 void System::resolve_controllers() {
@@ -171,12 +176,12 @@ void System::resolve_controllers() {
   for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
     for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
   observed.insert(observed.end(), watched_.begin(), watched_.end());
-  controllers_ = codesign::resolve_controllers(study_, robot_, topology_, observed, &layout_.states);
+  controllers_ = codesign::resolve_controllers(study(), robot_, topology_, observed, &layout_.states);
 }
 
 void System::check_signals() const {
-  for (std::size_t k = 0; k < study_.controllers.size(); ++k) {
-    const ControllerDescription& description = study_.controllers[k];
+  for (std::size_t k = 0; k < study().controllers.size(); ++k) {
+    const ControllerDescription& description = study().controllers[k];
     check_readable(controllers_[k].input, description.input);
     for (std::size_t term = 0; term < description.feedback.size(); ++term)
       check_readable(controllers_[k].feedback[term], description.feedback[term].signal);
@@ -184,9 +189,9 @@ void System::check_signals() const {
   const auto check = [this](const std::vector<ResolvedTerm>& resolved, const std::vector<ObjectiveTerm>& terms) {
     for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[static_cast<std::size_t>(term.description)].signal);
   };
-  check(integral_, study_.integral);
-  check(terminal_, study_.terminal);
-  for (std::size_t k = 0; k < watched_.size(); ++k) check_readable(watched_[k], study_.watched[k].signal);
+  check(integral_, study().integral);
+  check(terminal_, study().terminal);
+  for (std::size_t k = 0; k < watched_.size(); ++k) check_readable(watched_[k], study().watched[k].signal);
 }
 
 bool System::begins_controllers() const {
@@ -210,10 +215,10 @@ void System::collect_loads() {
         load.constant_friction = !joint.dry_friction.is_zero();
         load.spring = joint.spring.has_value();
         load.passive = !joint.damping.is_zero() || load.spring;
-        load.stop = study_.limits.position && has_stops(joint);
-        load.saturated = study_.limits.effort && joint.limit && joint.limit->bounds_effort();
-        for (std::size_t k = 0; k < study_.loads.size(); ++k)
-          if (study_.loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
+        load.stop = study().limits.position && has_stops(joint);
+        load.saturated = study().limits.effort && joint.limit && joint.limit->bounds_effort();
+        for (std::size_t k = 0; k < study().loads.size(); ++k)
+          if (study().loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
@@ -226,8 +231,8 @@ void System::collect_loads() {
 }
 
 void System::collect_link_loads() {
-  for (std::size_t k = 0; k < study_.loads.size(); ++k) {
-    const LoadDescription& load = study_.loads[k];
+  for (std::size_t k = 0; k < study().loads.size(); ++k) {
+    const LoadDescription& load = study().loads[k];
     for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
       if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
         throw InputError({load.where, "loads", "the joint moves only a link without <inertial>, so a load on it has nothing to act on",
@@ -331,7 +336,7 @@ void System::check_couplings() const {
 void System::check_effort_rate(const SignalReference& term, const SignalDescription& description) const {
   for (std::size_t c = 0; c < controllers_.size(); ++c) {
     if (controllers_[c].pair != term.pair || controllers_[c].element != term.element || controllers_[c].has_output_rate) continue;
-    const ControllerDescription& controller = study_.controllers[c];
+    const ControllerDescription& controller = study().controllers[c];
     const bool sampled = controller.realization.is_sampled();
     throw InputError({description.where, "signal",
                       "the effort of the joint has no rate: the output of the controller \"" + controller.name + "\" " +

@@ -1,18 +1,21 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "control/controller.h"
 #include "control/signal.h"
+#include "description/motion_study.h"
 #include "description/robot.h"
-#include "description/study.h"
 #include "forces/bristles.h"
 #include "mechanism/topology.h"
 #include "system/reaction_sharing.h"
 #include "system/state.h"
 
 namespace codesign {
+
+struct Study;
 
 /// The signal of one objective term, weight (signal - reference)^2; theory (21).
 struct ResolvedTerm {
@@ -68,7 +71,9 @@ class System {
 
   /// The model, with the study's start rotations of floating joints.
   const RobotDescription& robot() const { return robot_; }
-  const Study& study() const { return study_; }
+  /// What the equations read of the study; and all of it.
+  const MotionStudy& study() const { return *motion_; }
+  const Study& whole_study() const { return *study_; }
   const Topology& topology() const { return topology_; }
   const Layout& layout() const { return layout_; }
   const std::vector<Controller>& controllers() const { return controllers_; }
@@ -131,7 +136,8 @@ class System {
   void refuse_unsupported() const;
 
   RobotDescription robot_;
-  Study study_;
+  std::shared_ptr<const Study> study_;
+  const MotionStudy* motion_;
   Topology topology_;
   int drives_ = 0;  ///< the last ones of Topology::couplings
   Layout layout_;

@@ -202,7 +202,7 @@ int tree_joint(const RobotDescription& robot, const InitialJointState& initial) 
   return -1;
 }
 
-RobotDescription with_start_rotations(RobotDescription robot, const Study& study) {
+RobotDescription with_start_rotations(RobotDescription robot, const MotionStudy& study) {
   for (const InitialJointState& initial : study.initial_state) {
     const int joint = tree_joint(robot, initial);
     if (joint < 0 || !initial.rotation) continue;

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "description/motion_study.h"
 #include "description/robot.h"
-#include "description/study.h"
 #include "mechanism/constants.h"
 #include "mechanism/pose.h"
 #include "system/state.h"
@@ -81,6 +81,6 @@ void state_coordinates(const System& system, const TreeLayout& layout, const Con
 int tree_joint(const RobotDescription& robot, const InitialJointState& initial);
 
 /// The model with the rotations that the study's `initial_state` gives for floating joints as their JointDescription::start_rotation.
-RobotDescription with_start_rotations(RobotDescription robot, const Study& study);
+RobotDescription with_start_rotations(RobotDescription robot, const MotionStudy& study);
 
 }  // namespace codesign
