@@ -8,12 +8,8 @@
 #include <limits>
 #include <memory>
 #include <utility>
-#include <vector>
 
-#include "jobs/finished_job.h"
-#include "ros/apply/gain_ramp.h"
 #include "ros/apply/reconfigure_client.h"
-#include "ros/apply/robot_watch.h"
 #include "ros/bags/bag_files.h"
 #include "ros/common/replies.h"
 #include "text/decimal.h"

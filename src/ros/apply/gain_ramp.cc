@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -22,68 +20,12 @@ Clock::duration seconds(double value) { return std::chrono::duration_cast<Clock:
 
 }  // namespace
 
-/// The answers to the last request of each server.
-class GainRamp::Answers {
- public:
-  explicit Answers(std::size_t servers) : slots_(servers) {}
-
-  /// Begins a new request and returns its number.
-  int expect(std::size_t server) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    slots_[server].is_there = false;
-    return ++slots_[server].request;
-  }
-
-  /// Answers to older requests are ignored.
-  void put(std::size_t server, int request, const GainServer::Answer& answer) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    Slot& slot = slots_[server];
-    if (slot.request != request) return;
-    slot.answer = answer;
-    slot.is_there = true;
-    changed_.notify_all();
-  }
-
-  bool wait(Clock::duration longest) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    return changed_.wait_for(lock, longest, [this] {
-      return std::all_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.is_there || slot.request == 0; });
-    });
-  }
-
-  bool is_there(std::size_t server) const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return slots_[server].is_there;
-  }
-
-  GainServer::Answer of(std::size_t server) const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return slots_[server].is_there ? slots_[server].answer : GainServer::Answer();
-  }
-
- private:
-  struct Slot {
-    int request = 0;
-    bool is_there = false;
-    GainServer::Answer answer;
-  };
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Slot> slots_;
-};
-
 bool RampOutcome::is_known() const {
   return std::all_of(now.begin(), now.end(), [](const GainServer::Answer& answer) { return answer.has_value(); });
 }
 
 GainRamp::GainRamp(std::vector<RampServer> servers, const RampOptions& options, Guard guard)
-    : servers_(std::move(servers)),
-      options_(options),
-      guard_(std::move(guard)),
-      answers_(std::make_shared<Answers>(servers_.size())),
-      was_sent_(servers_.size(), false) {}
-
-GainRamp::~GainRamp() = default;
+    : servers_(std::move(servers)), options_(options), guard_(std::move(guard)), sent_(servers_.size()) {}
 
 RampOutcome GainRamp::run() {
   for (const RampServer& one : servers_) outcome_.now.emplace_back(one.before);
@@ -101,14 +43,21 @@ bool GainRamp::send_step(double share) {
   std::vector<GainValues> sent;
   for (const RampServer& one : servers_) sent.push_back(between(one.before, one.after, share));
   for (std::size_t k = 0; k < servers_.size(); ++k) send(k, sent[k]);
-  return wait_for_answers() && confirm(sent);
+  return wait_for_step() && confirm(sent);
 }
 
 void GainRamp::send(std::size_t server, const GainValues& values) {
-  was_sent_[server] = true;
-  const int request = answers_->expect(server);
-  servers_[server].server->send(
-      values, [answers = answers_, server, request](const GainServer::Answer& answer) { answers->put(server, request, answer); });
+  const auto answered = std::make_shared<std::promise<GainServer::Answer>>();
+  sent_[server] = {answered, answered->get_future().share()};
+  servers_[server].server->send(values, [answered](const GainServer::Answer& answer) { answered->set_value(answer); });
+}
+
+/// Whether the last request of every server has been answered within a time.
+bool GainRamp::wait_for_answers(Clock::duration longest) const {
+  const Time end = Clock::now() + longest;
+  return std::all_of(sent_.begin(), sent_.end(), [end](const Request& request) {
+    return !request.was_sent() || request.answer.wait_until(end) == std::future_status::ready;
+  });
 }
 
 /// False as soon as the guard gives an alarm.
@@ -122,9 +71,9 @@ bool GainRamp::wait_until(Time end) {
   } while (true);
 }
 
-bool GainRamp::wait_for_answers() {
+bool GainRamp::wait_for_step() {
   const Time end = Clock::now() + seconds(options_.patience);
-  while (!answers_->wait(kGlance)) {
+  while (!wait_for_answers(kGlance)) {
     alarm_ = guard_();
     if (alarm_) return false;
     if (Clock::now() >= end) break;
@@ -135,10 +84,10 @@ bool GainRamp::wait_for_answers() {
 bool GainRamp::confirm(const std::vector<GainValues>& sent) {
   for (std::size_t k = 0; k < servers_.size(); ++k) {
     const std::string& name = servers_[k].server->name();
-    const GainServer::Answer answer = answers_->of(k);
+    const GainServer::Answer answer = sent_[k].last();
     if (!answer)
-      alarm_ = RampAlarm{answers_->is_there(k) ? name + " has refused the values or is gone"
-                                               : name + " has not answered within " + to_decimal(options_.patience) + " s"};
+      alarm_ = RampAlarm{sent_[k].is_answered() ? name + " has refused the values or is gone"
+                                                : name + " has not answered within " + to_decimal(options_.patience) + " s"};
     else if (const std::string difference = altered(sent[k], *answer); !difference.empty())
       alarm_ = RampAlarm{name + " has altered the values: " + difference};
     if (alarm_) return false;
@@ -150,19 +99,19 @@ bool GainRamp::confirm(const std::vector<GainValues>& sent) {
 void GainRamp::roll_back() {
   outcome_.alarm = alarm_->sentence;
   for (std::size_t k = 0; k < servers_.size(); ++k)
-    if (was_sent_[k]) {
+    if (sent_[k].was_sent()) {
       outcome_.now[k].reset();
       send(k, servers_[k].before);
     }
-  if (std::none_of(was_sent_.begin(), was_sent_.end(), [](bool sent) { return sent; })) return;
-  if (!answers_->wait(seconds(options_.grace))) {
+  if (std::none_of(sent_.begin(), sent_.end(), [](const Request& request) { return request.was_sent(); })) return;
+  if (!wait_for_answers(seconds(options_.grace))) {
     for (std::size_t k = 0; k < servers_.size(); ++k)
-      if (was_sent_[k] && !answers_->is_there(k)) servers_[k].server->overtake();
-    answers_->wait(seconds(options_.rollback_patience));
+      if (sent_[k].was_sent() && !sent_[k].is_answered()) servers_[k].server->overtake();
+    wait_for_answers(seconds(options_.rollback_patience));
   }
   outcome_.rollback_seconds = std::chrono::duration<double>(Clock::now() - alarm_->since).count();
   for (std::size_t k = 0; k < servers_.size(); ++k) {
-    const GainServer::Answer answer = was_sent_[k] ? answers_->of(k) : GainServer::Answer();
+    const GainServer::Answer answer = sent_[k].last();
     if (answer && altered(servers_[k].before, *answer).empty()) outcome_.now[k] = servers_[k].before;
   }
 }

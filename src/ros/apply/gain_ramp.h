@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <future>
 #include <limits>
 #include <map>
 #include <memory>
@@ -91,18 +92,29 @@ class GainRamp {
   using Guard = std::function<std::optional<RampAlarm>()>;
 
   GainRamp(std::vector<RampServer> servers, const RampOptions& options, Guard guard);
-  ~GainRamp();
 
   /// Returns after the hold time with the new values, or when the rollback has ended.
   RampOutcome run();
 
  private:
-  class Answers;
-  using Time = std::chrono::steady_clock::time_point;
+  using Clock = std::chrono::steady_clock;
+  using Time = Clock::time_point;
+
+  /// The last request to a server. Its callback, which may run after the end of the ramp, shares the promise.
+  struct Request {
+    std::shared_ptr<std::promise<GainServer::Answer>> answered;
+    std::shared_future<GainServer::Answer> answer;
+
+    bool was_sent() const { return answer.valid(); }
+    bool is_answered() const { return was_sent() && answer.wait_for(Clock::duration::zero()) == std::future_status::ready; }
+    /// Empty as long as there is no answer.
+    GainServer::Answer last() const { return is_answered() ? answer.get() : GainServer::Answer(); }
+  };
 
   bool send_step(double share);
   bool wait_until(Time end);
-  bool wait_for_answers();
+  bool wait_for_answers(Clock::duration longest) const;
+  bool wait_for_step();
   bool confirm(const std::vector<GainValues>& sent);
   void send(std::size_t server, const GainValues& values);
   void roll_back();
@@ -110,8 +122,7 @@ class GainRamp {
   std::vector<RampServer> servers_;
   const RampOptions options_;
   const Guard guard_;
-  std::shared_ptr<Answers> answers_;  ///< shared with callbacks that may run after the end of the ramp
-  std::vector<bool> was_sent_;
+  std::vector<Request> sent_;
   std::optional<RampAlarm> alarm_;
   RampOutcome outcome_;
 };

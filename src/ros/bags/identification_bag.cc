@@ -85,8 +85,7 @@ class ShowWriter {
     for (const char* side : {"measured", "identified"})
       places.transforms.push_back(place_in_world(side, Eigen::Vector3d::Zero(), BagWriter::stamp(0.0)));
     writer_.write_latched("tf_static", 0.0, places);
-    stage_.scene.header.stamp = BagWriter::stamp(0.0);
-    stage_.scene.header.frame_id = "world";
+    stage_.scene.header = header_of({BagWriter::stamp(0.0), "world"});
     writer_.write_latched("scene", 0.0, stage_.scene);
   }
 

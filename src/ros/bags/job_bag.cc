@@ -87,8 +87,7 @@ class JobBagWriter {
     places.transforms = {place_in_world("initial", -0.5 * apart, begin_), place_in_world("tuned", 0.5 * apart, begin_),
                          place_in_world("caption", stage.caption, begin_)};
     writer_.write_latched(place + "tf_static", 0.0, places);
-    stage.scene.header.stamp = begin_;
-    stage.scene.header.frame_id = "world";
+    stage.scene.header = header_of({begin_, "world"});
     writer_.write_latched(place + "scene", 0.0, stage.scene);
     return stage;
   }

@@ -7,7 +7,6 @@
 
 #include "jobs/saved_result.h"
 #include "mechanism_codesign/error.h"
-#include "reading/urdf/stick_figure.h"
 #include "ros/common/parameters.h"
 
 namespace codesign {
@@ -113,14 +112,14 @@ void require_every_parameter(const Inputs& inputs, const RobotDescription& robot
   }
 }
 
-bool describes(const std::string& text, const Problem& problem, const std::string& effective) {
-  if (trimmed(text) == trimmed(effective) || trimmed(text) == trimmed(with_sticks(effective))) return true;
+bool describes(const std::string& text, const Problem& problem, const std::string& effective, const std::string& drawn) {
+  if (trimmed(text) == trimmed(effective) || trimmed(text) == trimmed(drawn)) return true;
   return problem.overlays().empty() && has_the_values_of_its_model(problem) && trimmed(text) == trimmed(problem.urdf().text);
 }
 
-Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective) {
+Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective, const std::string& drawn) {
   std::string text;
-  if (!node.getParam("robot_description", text) || describes(text, problem, effective)) return {};
+  if (!node.getParam("robot_description", text) || describes(text, problem, effective, drawn)) return {};
   const std::string name = node.resolveName("robot_description");
   return {warn("description_differs", {{name, 0},
                                        "robot_description",

@@ -35,11 +35,11 @@ void require_every_parameter(const Inputs& inputs, const RobotDescription& robot
 const std::vector<std::string>& input_parameters();
 
 /// `description_differs` if the parameter `robot_description`, which robot_state_publisher and rviz use, describes a mechanism other than
-/// `effective`, the URDF that is simulated. No warning if the parameter is not set.
-Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective);
+/// `effective`, the URDF that is simulated. No warning if the parameter is not set. @param drawn the same URDF with_sticks().
+Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective, const std::string& drawn);
 
-/// Whether the URDF `text` describes the simulated mechanism: it equals `effective`, with or without sticks for links that have no visual,
-/// or it is the model's own file and neither overlays nor parameter values change the model.
-bool describes(const std::string& text, const Problem& problem, const std::string& effective);
+/// Whether the URDF `text` describes the simulated mechanism: it equals `effective` or `drawn`, or it is the model's own file and neither
+/// overlays nor parameter values change the model.
+bool describes(const std::string& text, const Problem& problem, const std::string& effective, const std::string& drawn);
 
 }  // namespace codesign

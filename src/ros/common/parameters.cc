@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -30,34 +29,25 @@ T content(XmlRpcValue value) {
 }
 
 void emit(XmlRpcValue value, YAML::Emitter* out) {
-  switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean:
-      *out << content<bool>(value);
-      break;
-    case XmlRpcValue::TypeInt:
-      *out << content<int>(value);
-      break;
-    case XmlRpcValue::TypeDouble:
-      *out << to_decimal(content<double>(value));
-      break;
-    case XmlRpcValue::TypeString:
-      *out << YAML::DoubleQuoted << content<std::string>(value);
-      break;
-    case XmlRpcValue::TypeArray:
-      *out << YAML::BeginSeq;
-      for (int i = 0; i < value.size(); ++i) emit(value[i], out);
-      *out << YAML::EndSeq;
-      break;
-    case XmlRpcValue::TypeStruct:
-      *out << YAML::BeginMap;
-      for (auto& [key, child] : value) {
-        *out << YAML::Key << key << YAML::Value;
-        emit(child, out);
-      }
-      *out << YAML::EndMap;
-      break;
-    default:
-      *out << YAML::Null;
+  const XmlRpcValue::Type type = value.getType();
+  if (type == XmlRpcValue::TypeBoolean) {
+    *out << content<bool>(value);
+  } else if (type == XmlRpcValue::TypeInt) {
+    *out << content<int>(value);
+  } else if (type == XmlRpcValue::TypeDouble) {
+    *out << to_decimal(content<double>(value));
+  } else if (type == XmlRpcValue::TypeString) {
+    *out << YAML::DoubleQuoted << content<std::string>(value);
+  } else if (type == XmlRpcValue::TypeArray) {
+    *out << YAML::BeginSeq;
+    for (int i = 0; i < value.size(); ++i) emit(value[i], out);
+    *out << YAML::EndSeq;
+  } else if (type == XmlRpcValue::TypeStruct) {
+    *out << YAML::BeginMap;
+    for (auto& [key, child] : value) emit(child, &(*out << YAML::Key << key << YAML::Value));
+    *out << YAML::EndMap;
+  } else {
+    *out << YAML::Null;
   }
 }
 
@@ -96,10 +86,6 @@ bool is_number(const XmlRpcValue& value, double* number) {
 }
 
 std::string text_of(const XmlRpcValue& value) { return content<std::string>(value); }
-
-double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback) {
-  return read_positive(private_node, key, fallback, std::numeric_limits<double>::max());
-}
 
 double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback, double largest) {
   XmlRpcValue value;

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,9 @@ namespace codesign {
 /// Reads a parameter of any type. False if it is not set or is an empty text, which launch files use for "not set".
 bool find_parameter(const ros::NodeHandle& node, const std::string& key, XmlRpc::XmlRpcValue* value);
 
-/// A finite number above zero, or `fallback` if the parameter is not set. @throws InputError for any other value.
-double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback);
-
-/// As above, with an upper limit `largest`.
-double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback, double largest);
+/// A finite number above zero, at most `largest`, or `fallback` if the parameter is not set. @throws InputError for any other value.
+double read_positive(const ros::NodeHandle& private_node, const std::string& key, double fallback,
+                     double largest = std::numeric_limits<double>::max());
 
 /// A truth value, also as the text `true` or `false`, or `fallback` if the parameter is not set. @throws InputError for any other value.
 bool read_flag(const ros::NodeHandle& private_node, const std::string& key, bool fallback);

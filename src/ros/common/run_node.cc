@@ -9,7 +9,6 @@
 #include <chrono>
 #include <csignal>
 #include <iostream>
-#include <string>
 #include <thread>
 
 namespace codesign {

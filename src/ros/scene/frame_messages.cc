@@ -6,22 +6,13 @@
 namespace codesign {
 namespace {
 
-std_msgs::Header header_of(const MessageContext& context) {
-  std_msgs::Header header;
-  header.stamp = context.stamp;
-  header.frame_id = context.root_frame;
-  return header;
-}
-
 /// The pose of a link relative to another one, without the names of the frames.
 geometry_msgs::TransformStamped transform_of(const LinkSample& parent, const LinkSample& child) {
   const Eigen::Quaterniond to_parent = parent.orientation.conjugate();
   const Eigen::Vector3d position = to_parent * (child.position - parent.position);
   const Eigen::Quaterniond orientation = (to_parent * child.orientation).normalized();
   geometry_msgs::TransformStamped message;
-  message.transform.translation.x = position.x();
-  message.transform.translation.y = position.y();
-  message.transform.translation.z = position.z();
+  message.transform.translation = xyz<geometry_msgs::Vector3>(position);
   message.transform.rotation.w = orientation.w();
   message.transform.rotation.x = orientation.x();
   message.transform.rotation.y = orientation.y();
@@ -90,8 +81,7 @@ tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& f
   tf2_msgs::TFMessage message;
   for (const auto& [link, parent] : names.free_links) {
     geometry_msgs::TransformStamped transform = transform_of(frame.links[parent], frame.links[link]);
-    transform.header.stamp = context.stamp;
-    transform.header.frame_id = names.links[parent];
+    transform.header = header_of({context.stamp, names.links[parent]});
     transform.child_frame_id = names.links[link];
     message.transforms.push_back(transform);
   }
@@ -104,8 +94,7 @@ tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<s
   for (std::size_t i = 0; i < names.links.size(); ++i) {
     if (parents[i] == i) continue;
     geometry_msgs::TransformStamped transform = transform_of(frame.links[parents[i]], frame.links[i]);
-    transform.header.stamp = stamp;
-    transform.header.frame_id = prefix + names.links[parents[i]];
+    transform.header = header_of({stamp, prefix + names.links[parents[i]]});
     transform.child_frame_id = prefix + names.links[i];
     message.transforms.push_back(transform);
   }
@@ -116,8 +105,7 @@ tf2_msgs::TFMessage placed_link_transforms(const FrameNames& names, const std::v
                                            const ros::Time& stamp, const std::string& prefix) {
   tf2_msgs::TFMessage message;
   geometry_msgs::TransformStamped root = transform_of(frame.links[0], frame.links[0]);
-  root.header.stamp = stamp;
-  root.header.frame_id = prefix.substr(0, prefix.size() - 1);
+  root.header = header_of({stamp, prefix.substr(0, prefix.size() - 1)});
   root.child_frame_id = prefix + names.links[0];
   message.transforms.push_back(root);
   const tf2_msgs::TFMessage links = link_transforms(names, parents, frame, stamp, prefix);

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
-#include <vector>
 
 #include "text/number_text.h"
 
@@ -27,14 +25,6 @@ Interval inside(const Eigen::Vector3d& from, const Eigen::Vector3d& along, const
     part.second = std::min(part.second, std::max(one, other));
   }
   return part;
-}
-
-geometry_msgs::Point to_point(const Eigen::Vector3d& position) {
-  geometry_msgs::Point point;
-  point.x = position.x();
-  point.y = position.y();
-  point.z = position.z();
-  return point;
 }
 
 /// The direction in which an arrow moves. Force: at a right angle to it, as much towards the viewer as possible. Torque: along its axis,
@@ -72,6 +62,13 @@ Eigen::Vector3d outside(const Eigen::Vector3d& from, const Eigen::Vector3d& axis
 
 }  // namespace
 
+std_msgs::Header header_of(const MessageContext& context) {
+  std_msgs::Header header;
+  header.stamp = context.stamp;
+  header.frame_id = context.root_frame;
+  return header;
+}
+
 double way_out(const Eigen::Vector3d& from, const Eigen::Vector3d& along, const Frame& frame, const LinkBoxes& boxes, double clearance) {
   std::vector<Interval> parts;
   for (std::size_t k = 0; k < boxes.size() && k < frame.links.size(); ++k) {
@@ -89,14 +86,7 @@ double way_out(const Eigen::Vector3d& from, const Eigen::Vector3d& along, const 
   return reached;
 }
 
-std_msgs::ColorRGBA friction_color(bool is_torque) {
-  std_msgs::ColorRGBA color;
-  color.r = is_torque ? 0.1F : 0.9F;
-  color.g = is_torque ? 0.7F : 0.05F;
-  color.b = is_torque ? 0.9F : 0.25F;
-  color.a = 1.0F;
-  return color;
-}
+std_msgs::ColorRGBA friction_color(bool is_torque) { return is_torque ? rgba(0.1F, 0.7F, 0.9F, 1.0F) : rgba(0.9F, 0.05F, 0.25F, 1.0F); }
 
 ArrowEnds friction_arrow(const FrictionSample& sample, bool is_torque, const Frame& frame, const MarkerStyle& style) {
   Eigen::Vector3d along = is_torque ? style.metres_per_newton_metre * sample.torque : style.metres_per_newton * sample.force;
@@ -118,7 +108,7 @@ visualization_msgs::Marker arrow_marker(const Eigen::Vector3d& from, const Eigen
   marker.type = visualization_msgs::Marker::ARROW;
   marker.action = along.norm() > shaft_diameter ? visualization_msgs::Marker::ADD : visualization_msgs::Marker::DELETE;
   marker.pose.orientation.w = 1.0;
-  marker.points = {to_point(from), to_point(from + along)};
+  marker.points = {xyz<geometry_msgs::Point>(from), xyz<geometry_msgs::Point>(from + along)};
   marker.scale.x = shaft_diameter;
   marker.scale.y = 2.5 * shaft_diameter;
   marker.scale.z = std::min(3.0 * shaft_diameter, 0.5 * along.norm());
@@ -133,8 +123,7 @@ visualization_msgs::MarkerArray friction_markers(const FrameNames& names, const 
     const bool is_torque = names.friction_is_torque[i];
     const ArrowEnds ends = friction_arrow(sample, is_torque, frame, style);
     visualization_msgs::Marker marker = arrow_marker(ends.from, ends.to - ends.from, style.shaft_diameter);
-    marker.header.stamp = context.stamp;
-    marker.header.frame_id = context.root_frame;
+    marker.header = header_of(context);
     marker.ns = names.frictions[i];
     marker.color = friction_color(is_torque);
     message.markers.push_back(marker);
@@ -184,8 +173,7 @@ visualization_msgs::MarkerArray effort_markers(const ComparedMotion& motion, con
     const auto add = [&](const std::string& side, double effort, double thickness, const std_msgs::ColorRGBA& colored) {
       message.markers.push_back(arrow_marker(from, scale * effort * axis, thickness * style.shaft_diameter));
       visualization_msgs::Marker& marker = message.markers.back();
-      marker.header.stamp = context.stamp;
-      marker.header.frame_id = context.root_frame;
+      marker.header = header_of(context);
       marker.ns = motion.names.joints[joint.joint] + "/" + side;
       marker.color = colored;
     };

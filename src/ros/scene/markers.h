@@ -19,6 +19,18 @@ struct MessageContext {
   std::string root_frame;
 };
 
+std_msgs::Header header_of(const MessageContext& context);
+
+/// A place or a displacement as a message with x, y and z.
+template <class Message>
+Message xyz(const Eigen::Vector3d& vector) {
+  Message message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
 /// The distance from a point to the outside of all solids along a ray [m]: the smallest s >= 0 such that the next `clearance` metres beyond
 /// `from` + s * `along` lie in no box. Boxes that touch, or are nearer to each other than `clearance`, are left together.
 /// @param along a unit vector, in world axes like `from`. @param boxes in the order of the frame's links.

@@ -7,7 +7,6 @@
 
 #include "equations/compiled_system.h"
 #include "mechanism/signal_catalog.h"
-#include "mechanism_codesign/simulation.h"
 #include "observation/observer.h"
 #include "text/decimal.h"
 

@@ -154,9 +154,7 @@ visualization_msgs::Marker text_marker(const std::string& text, const Eigen::Vec
   visualization_msgs::Marker marker;
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
   marker.text = text;
-  marker.pose.position.x = place.x();
-  marker.pose.position.y = place.y();
-  marker.pose.position.z = place.z();
+  marker.pose.position = xyz<geometry_msgs::Point>(place);
   marker.pose.orientation.w = 1.0;
   marker.scale.z = letter;
   marker.color.a = 1.0F;
@@ -236,8 +234,7 @@ visualization_msgs::MarkerArray caption(const std::vector<CaptionLine>& lines, c
     const Eigen::Vector3d place = first - 1.6 * static_cast<double>(k) * layout.letter * layout.view.up();
     message.markers.push_back(text_marker(lines[k].text, place, layout.letter));
     visualization_msgs::Marker& marker = message.markers.back();
-    marker.header.stamp = context.stamp;
-    marker.header.frame_id = context.root_frame;
+    marker.header = header_of(context);
     marker.ns = "caption";
     marker.id = static_cast<std::int32_t>(k);
     marker.color = lines[k].color;
@@ -247,12 +244,9 @@ visualization_msgs::MarkerArray caption(const std::vector<CaptionLine>& lines, c
 
 geometry_msgs::TransformStamped place_in_world(const std::string& frame, const Eigen::Vector3d& place, const ros::Time& stamp) {
   geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = "world";
+  transform.header = header_of({stamp, "world"});
   transform.child_frame_id = frame;
-  transform.transform.translation.x = place.x();
-  transform.transform.translation.y = place.y();
-  transform.transform.translation.z = place.z();
+  transform.transform.translation = xyz<geometry_msgs::Vector3>(place);
   transform.transform.rotation.w = 1.0;
   return transform;
 }
@@ -260,8 +254,7 @@ geometry_msgs::TransformStamped place_in_world(const std::string& frame, const E
 visualization_msgs::Marker label(const std::string& name, const std::string& frame, const std::string& text, const Stage& stage,
                                  const ros::Time& stamp) {
   visualization_msgs::Marker marker = text_marker(text, stage.label, stage.letter);
-  marker.header.stamp = stamp;
-  marker.header.frame_id = frame;
+  marker.header = header_of({stamp, frame});
   marker.ns = name;
   return marker;
 }

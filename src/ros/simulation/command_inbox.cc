@@ -11,6 +11,13 @@ constexpr std::uint32_t kWaitingCommands = 1000;
 /// Largest number of commands that wait for the run, so that a controller that sends to a run that has ended does not fill the memory.
 constexpr std::size_t kMostCommands = 10 * kWaitingCommands;
 
+/// The stamp of the frame that a message answers; zero: any. The stamp of a trajectory is the time at which it begins.
+ros::Time answered_stamp(const sensor_msgs::JointState& message) { return message.header.stamp; }
+template <class Message>
+ros::Time answered_stamp(const Message&) {
+  return {};
+}
+
 }  // namespace
 
 std::string legal_name(const std::string& text) {
@@ -22,45 +29,26 @@ std::string legal_name(const std::string& text) {
 
 CommandInbox::CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node, const CommandInputs& inputs, NodeState* state, Bell* bell)
     : inputs_(inputs), state_(state), bell_(bell) {
-  const auto listen = [&](ros::NodeHandle& of, const std::string& name, auto read) {
-    using Message = std::decay_t<typename decltype(read)::Message>;
-    const std::string topic = of.resolveName(name);
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-        [this, topic, read](const boost::shared_ptr<const Message>& message) {
-          receive(topic, read.stamp(*message), [&] { return read(topic, *message); });
-        };
-    subscribers_.push_back(of.subscribe<Message>(name, kWaitingCommands, callback, {}, ros::TransportHints().tcpNoDelay()));
-  };
-  struct Efforts {
-    using Message = sensor_msgs::JointState;
-    const CommandInputs& inputs;
-    ros::Time stamp(const Message& message) const { return message.header.stamp; }
-    Command operator()(const std::string& topic, const Message& message) const { return read_efforts(inputs, topic, message); }
-  };
-  struct EffortArray {
-    using Message = std_msgs::Float64MultiArray;
-    const CommandInputs& inputs;
-    ros::Time stamp(const Message&) const { return {}; }
-    Command operator()(const std::string& topic, const Message& message) const { return read_efforts(inputs, topic, message); }
-  };
-  struct Setpoint {
-    using Message = std_msgs::Float64;
-    const CommandInputs& inputs;
-    std::size_t controller;
-    ros::Time stamp(const Message&) const { return {}; }
-    Command operator()(const std::string& topic, const Message& message) const { return read_setpoint(inputs, topic, controller, message); }
-  };
-  struct Trajectory {
-    using Message = trajectory_msgs::JointTrajectory;
-    const CommandInputs& inputs;
-    ros::Time stamp(const Message&) const { return {}; }  // the stamp in the header is the time at which the trajectory begins
-    Command operator()(const std::string& topic, const Message& message) const { return read_trajectory(inputs, topic, message); }
-  };
-  listen(private_node, "command/effort", Efforts{inputs});
-  listen(private_node, "command/efforts", EffortArray{inputs});
-  listen(private_node, "command/trajectory", Trajectory{inputs});
+  listen<sensor_msgs::JointState>(private_node, "command/effort",
+                                  [this](const auto& topic, const auto& message) { return read_efforts(inputs_, topic, message); });
+  listen<std_msgs::Float64MultiArray>(private_node, "command/efforts",
+                                      [this](const auto& topic, const auto& message) { return read_efforts(inputs_, topic, message); });
+  listen<trajectory_msgs::JointTrajectory>(private_node, "command/trajectory", [this](const auto& topic, const auto& message) {
+    return read_trajectory(inputs_, topic, message);
+  });
   for (std::size_t k = 0; k < inputs.controllers.size(); ++k)
-    listen(node, legal_name(inputs.controllers[k]) + "/command", Setpoint{inputs, k});
+    listen<std_msgs::Float64>(node, legal_name(inputs.controllers[k]) + "/command",
+                              [this, k](const auto& topic, const auto& message) { return read_setpoint(inputs_, topic, k, message); });
+}
+
+template <class Message, class Read>
+void CommandInbox::listen(ros::NodeHandle& node, const std::string& name, const Read& read) {
+  const std::string topic = node.resolveName(name);
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback = [this, topic,
+                                                                                   read](const boost::shared_ptr<const Message>& message) {
+    receive(topic, answered_stamp(*message), [&] { return read(topic, *message); });
+  };
+  subscribers_.push_back(node.subscribe<Message>(name, kWaitingCommands, callback, {}, ros::TransportHints().tcpNoDelay()));
 }
 
 void CommandInbox::note_answer(const ros::Time& stamp) { answered_ = answered_ || stamp.isZero() || stamp >= awaited_; }

@@ -36,6 +36,8 @@ class CommandInbox {
   void receive(const std::string& topic, const ros::Time& stamp, const Read& read);
 
  private:
+  template <class Message, class Read>
+  void listen(ros::NodeHandle& node, const std::string& name, const Read& read);
   void add(Command command, const ros::Time& stamp);
   void refuse(const std::string& topic, const ros::Time& stamp, const std::string& sentence);
   void note_answer(const ros::Time& stamp);

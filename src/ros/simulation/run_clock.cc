@@ -1,9 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/simulation/run_clock.h"
 
-#include <algorithm>
-#include <cstdint>
-
 namespace codesign {
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "mechanism_codesign/version.h"
 #include "ros/scene/recorded_run.h"
@@ -17,25 +17,9 @@
 namespace codesign {
 namespace {
 
-using ReadNumber = double (*)(const Frame&, std::size_t);
-
-struct NamedNumber {
-  const char* quantity;
-  ReadNumber read;
-};
-
-constexpr NamedNumber kOfJoints[] = {{"position", [](const Frame& frame, std::size_t k) { return frame.joints[k].position; }},
-                                     {"velocity", [](const Frame& frame, std::size_t k) { return frame.joints[k].velocity; }},
-                                     {"effort", [](const Frame& frame, std::size_t k) { return frame.joints[k].effort; }}};
-constexpr NamedNumber kOfFrictions[] = {
-    {"friction", [](const Frame& frame, std::size_t k) { return frame.frictions[k].friction; }},
-    {"normal_force", [](const Frame& frame, std::size_t k) { return frame.frictions[k].normal_force; }},
-    {"sliding_velocity", [](const Frame& frame, std::size_t k) { return frame.frictions[k].sliding_velocity; }}};
-constexpr NamedNumber kOfControllers[] = {{"setpoint", [](const Frame& frame, std::size_t k) { return frame.controllers[k].setpoint; }},
-                                          {"input", [](const Frame& frame, std::size_t k) { return frame.controllers[k].input; }},
-                                          {"error", [](const Frame& frame, std::size_t k) { return frame.controllers[k].error; }},
-                                          {"integral", [](const Frame& frame, std::size_t k) { return frame.controllers[k].integral; }},
-                                          {"output", [](const Frame& frame, std::size_t k) { return frame.controllers[k].output; }}};
+/// Names of numbers and their places in a sample.
+template <class Sample>
+using Quantities = std::vector<std::pair<const char*, double Sample::*>>;
 
 constexpr double kInstants = 100.0;
 /// [s] of wall time.
@@ -49,27 +33,34 @@ void replace_if_given(double given, double* value) {
 
 FrameNumbers::FrameNumbers(const FrameNames& names) {
   std::set<std::string> texts, taken;
-  const auto add = [&](const std::string& text, ReadNumber reader, std::size_t k) {
+  const auto add = [&](const std::string& text, const std::function<double(const Frame&)>& number) {
     texts.insert(text);
     const std::string legal = legal_name(text);
     std::string topic = legal;
-    for (int number = 2; !taken.insert(topic).second; ++number) topic = legal + "_" + std::to_string(number);
+    for (int suffix = 2; !taken.insert(topic).second; ++suffix) topic = legal + "_" + std::to_string(suffix);
     topics.push_back(topic);
-    read.push_back(reader);
-    index.push_back(k);
+    read.push_back(number);
   };
-  const auto add_all = [&add](const std::vector<std::string>& objects, std::size_t count, const auto& numbers) {
+  const auto add_all = [&add](const std::vector<std::string>& objects, std::size_t count, auto samples, const auto& quantities) {
     for (std::size_t k = 0; k < count; ++k)
-      for (const NamedNumber& number : numbers) add(objects[k] + "/" + number.quantity, number.read, k);
+      for (const auto& [quantity, member] : quantities)
+        add(objects[k] + "/" + quantity, [k, samples, member = member](const Frame& frame) { return (frame.*samples)[k].*member; });
   };
-  add_all(names.joints, names.tree_joints, kOfJoints);
-  add_all(names.frictions, names.frictions.size(), kOfFrictions);
-  add_all(names.controllers, names.controllers.size(), kOfControllers);
-  for (std::size_t k = 0; k < names.signals.size(); ++k) {
-    if (texts.count(names.signals[k]) > 0) continue;
-    add(
-        names.signals[k], [](const Frame& frame, std::size_t at) { return frame.signals[at]; }, k);
-  }
+  add_all(names.joints, names.tree_joints, &Frame::joints,
+          Quantities<JointSample>{
+              {"position", &JointSample::position}, {"velocity", &JointSample::velocity}, {"effort", &JointSample::effort}});
+  add_all(names.frictions, names.frictions.size(), &Frame::frictions,
+          Quantities<FrictionSample>{{"friction", &FrictionSample::friction},
+                                     {"normal_force", &FrictionSample::normal_force},
+                                     {"sliding_velocity", &FrictionSample::sliding_velocity}});
+  add_all(names.controllers, names.controllers.size(), &Frame::controllers,
+          Quantities<ControllerSample>{{"setpoint", &ControllerSample::setpoint},
+                                       {"input", &ControllerSample::input},
+                                       {"error", &ControllerSample::error},
+                                       {"integral", &ControllerSample::integral},
+                                       {"output", &ControllerSample::output}});
+  for (std::size_t k = 0; k < names.signals.size(); ++k)
+    if (texts.count(names.signals[k]) == 0) add(names.signals[k], [k](const Frame& frame) { return frame.signals[k]; });
 }
 
 FloatTopics::FloatTopics(ros::NodeHandle node, const FrameNames& names, std::uint32_t queue) : numbers_(names) {
@@ -79,7 +70,7 @@ FloatTopics::FloatTopics(ros::NodeHandle node, const FrameNames& names, std::uin
 void FloatTopics::publish(const Frame& frame) const {
   std_msgs::Float64 message;
   for (std::size_t k = 0; k < publishers_.size(); ++k) {
-    message.data = numbers_.value(frame, k);
+    message.data = numbers_.read[k](frame);
     publishers_[k].publish(message);
   }
 }
@@ -104,8 +95,7 @@ SimulationScene::SimulationScene(const Problem& problem, const std::string& urdf
 
 mechanism_codesign::Scene SimulationScene::message(const MessageContext& context) const {
   mechanism_codesign::Scene scene = stage_.scene;
-  scene.header.stamp = context.stamp;
-  scene.header.frame_id = context.root_frame;
+  scene.header = header_of(context);
   return scene;
 }
 

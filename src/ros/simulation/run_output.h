@@ -23,12 +23,10 @@ namespace codesign {
 
 /// The numbers of a frame that have topics of their own.
 struct FrameNumbers {
-  std::vector<std::string> topics;                          ///< without `signals/`, legal and all different
-  std::vector<double (*)(const Frame&, std::size_t)> read;  ///< per topic
-  std::vector<std::size_t> index;                           ///< its second argument
+  std::vector<std::string> topics;                        ///< without `signals/`, legal and all different
+  std::vector<std::function<double(const Frame&)>> read;  ///< per topic
 
   explicit FrameNumbers(const FrameNames& names);
-  double value(const Frame& frame, std::size_t k) const { return read[k](frame, index[k]); }
 };
 
 /// Publishes each number of a frame on a topic of its own: `signals/hinge/position`, std_msgs/Float64; doc/ros_api.md.

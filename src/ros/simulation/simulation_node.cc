@@ -122,12 +122,9 @@ void SimulationNode::load() {
 
 void SimulationNode::advertise() {
   const std::uint32_t size = clock_.is_free_running() ? kLongQueueSize : kQueueSize;
-  publishers_["joint_states"] = node_.advertise<sensor_msgs::JointState>("joint_states", size);
-  publishers_["joint_friction"] = node_.advertise<mechanism_codesign::JointFriction>("joint_friction", size);
-  publishers_["controller_states"] = node_.advertise<mechanism_codesign::ControllerStates>("controller_states", size);
-  publishers_["loop_errors"] = node_.advertise<mechanism_codesign::LoopErrors>("loop_errors", size);
-  publishers_["signals"] = node_.advertise<mechanism_codesign::Signals>("signals", size);
-  publishers_["friction_markers"] = node_.advertise<visualization_msgs::MarkerArray>("friction_markers", size);
+  FrameMessages({}, {}, {}, {}).visit([&](const std::string& topic, const auto& message) {
+    publishers_[topic] = node_.advertise<std::decay_t<decltype(message)>>(topic, size);
+  });
   if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
   description_publisher_ = node_.advertise<std_msgs::String>("robot_description", 1, true);
   commands_publisher_ = node_.advertise<mechanism_codesign::Commands>("commands", size, true);
@@ -147,7 +144,7 @@ void SimulationNode::tell_description() {
   if (message.data == description_) return;
   description_ = message.data;
   description_publisher_.publish(message);
-  state_.warn("description", check_description(node_, *problem_, urdf));
+  state_.warn("description", check_description(node_, *problem_, urdf, description_));
 }
 
 MessageContext SimulationNode::context(double time) const {
@@ -164,8 +161,7 @@ void SimulationNode::place_root() {
   const std::string root = options_.frame_prefix + problem_->robot().links[static_cast<std::size_t>(problem_->robot().root)].name;
   if (options_.world_frame.empty() || options_.world_frame == root) return;
   geometry_msgs::TransformStamped transform;
-  transform.header.stamp = clock_.stamp(0.0);
-  transform.header.frame_id = options_.world_frame;
+  transform.header = header_of({clock_.stamp(0.0), options_.world_frame});
   transform.child_frame_id = root;
   transform.transform.rotation.w = 1.0;
   static_transforms_.sendTransform(transform);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "ros/common/parameters.h"
+#include "ros/scene/frame_messages.h"
 #include "ros/scene/recorded_run.h"
 #include "text/decimal.h"
 #include "text/unknown_name.h"
@@ -89,10 +90,11 @@ void read_frame_prefix(const Node& node, const std::string& name, SimulationOpti
 }
 
 void read_topics(const Node& node, const std::string& name, SimulationOptions* options) {
+  std::vector<std::string> known;
+  FrameMessages({}, {}, {}, {}).visit([&known](const std::string& topic, const auto&) { known.push_back(topic); });
   options->wait_for_subscribers = read_names(node, name);
   for (const std::string& topic : options->wait_for_subscribers)
-    if (std::count(frame_topics().begin(), frame_topics().end(), topic) == 0)
-      throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, frame_topics());
+    if (std::count(known.begin(), known.end(), topic) == 0) throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, known);
 }
 
 void read_bag(const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }
@@ -123,12 +125,6 @@ const std::vector<Entry>& entries() {
 }
 
 }  // namespace
-
-const std::vector<std::string>& frame_topics() {
-  static const std::vector<std::string> kNames = {"joint_states", "joint_friction", "controller_states",
-                                                  "loop_errors",  "signals",        "friction_markers"};
-  return kNames;
-}
 
 std::vector<std::string> simulation_parameters() {
   std::vector<std::string> names;

@@ -31,9 +31,6 @@ struct SimulationOptions {
   MarkerStyle style{0.0, 0.0, 0.0};               ///< scales that the user has set; 0: the scale follows from the run
 };
 
-/// The topics of a frame, which are the allowed entries of wait_for_subscribers.
-const std::vector<std::string>& frame_topics();
-
 /// The names of the parameters that read_simulation_options() knows.
 std::vector<std::string> simulation_parameters();
 

@@ -112,28 +112,28 @@ std::string effective(const Problem& problem) { return write_tuned_urdf(problem.
 
 TEST(Description, TheModelDescribesItselfAtItsOwnValues) {
   const Problem problem = pendulum();
-  EXPECT_TRUE(describes(kPendulumUrdf, problem, effective(problem)));
-  EXPECT_TRUE(describes("\n" + effective(problem) + "\n", problem, effective(problem)));
-  EXPECT_FALSE(describes("<robot name='pendulum'/>", problem, effective(problem)));
+  EXPECT_TRUE(describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_TRUE(describes("\n" + effective(problem) + "\n", problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_FALSE(describes("<robot name='pendulum'/>", problem, effective(problem), with_sticks(effective(problem))));
 }
 
 TEST(Description, SticksForLinksWithoutVisualDoNotMakeItAnotherMechanism) {
   const Problem problem = pendulum();
   const std::string drawn = with_sticks(effective(problem));
   EXPECT_NE(drawn, effective(problem));
-  EXPECT_TRUE(describes(drawn, problem, effective(problem)));
+  EXPECT_TRUE(describes(drawn, problem, effective(problem), with_sticks(effective(problem))));
 }
 
 TEST(Description, AValueMakesItAnotherMechanism) {
   const Problem problem = with_settings(pendulum(), {{"length", 0.6}});
-  EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem)));
-  EXPECT_TRUE(describes(effective(problem), problem, effective(problem)));
+  EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_TRUE(describes(effective(problem), problem, effective(problem), with_sticks(effective(problem))));
 }
 
 TEST(Description, AnOverlayMakesItAnotherMechanism) {
   const SourceText overlay{"overlay.urdf", R"(<robot name="pendulum"><joint name="hinge"><dynamics damping="0.1"/></joint></robot>)"};
   const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {overlay}, {"pendulum.yaml", kPendulumStudy});
-  EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem)));
+  EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
   EXPECT_NE(effective(problem).find("damping=\"0.1\""), std::string::npos);
 }
 

@@ -39,7 +39,7 @@ TEST(FloatTopics, TheNumbersAreThoseOfTheFrame) {
   const FrameNumbers numbers(run.names());
   const auto value = [&](const std::string& topic) {
     for (std::size_t k = 0; k < numbers.topics.size(); ++k)
-      if (numbers.topics[k] == topic) return numbers.value(frame, k);
+      if (numbers.topics[k] == topic) return numbers.read[k](frame);
     ADD_FAILURE() << topic;
     return 0.0;
   };
