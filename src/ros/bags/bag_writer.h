@@ -70,17 +70,16 @@ class BagFile {
 };
 
 /// Writes runs into a bag. Recorded time is the time of the run plus 1 s, since rosbag refuses stamps near zero; header stamps are the
-/// same.
-class BagWriter {
+/// same. Every member function throws OutputError if writing fails.
+class BagWriter : public BagFile {
  public:
-  /// Every member function throws OutputError if writing fails. @param path must not exist.
-  explicit BagWriter(const std::string& path) : bag_(path) {}
+  using BagFile::BagFile;
 
   static ros::Time stamp(double time) { return ros::Time(1.0 + time); }
 
   template <class Message>
   void write(const std::string& topic, double time, const Message& message) {
-    bag_.write(topic, stamp(time), message);
+    BagFile::write(topic, stamp(time), message);
   }
 
   /// Writes a message with the connection header that `rosbag record` uses for latched topics, so that `rosbag play` latches it.
@@ -91,7 +90,7 @@ class BagWriter {
     (*header)["md5sum"] = ros::message_traits::md5sum(message);
     (*header)["message_definition"] = ros::message_traits::definition(message);
     (*header)["latching"] = "1";
-    bag_.write(topic, stamp(time), message, header);
+    BagFile::write(topic, stamp(time), message, header);
   }
 
   void write_text(const std::string& topic, const std::string& text);
@@ -100,12 +99,6 @@ class BagWriter {
   /// @param root_frame TF frame of the root link.
   void write_frame(const std::string& topic_prefix, const std::string& root_frame, const FrameNames& names, const Frame& frame,
                    const MarkerStyle& style);
-
-  /// Completes the bag and gives it its final name.
-  void finish() { bag_.finish(); }
-
- private:
-  BagFile bag_;
 };
 
 }  // namespace codesign

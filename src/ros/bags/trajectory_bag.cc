@@ -14,6 +14,7 @@
 #include "ros/bags/bag_contents.h"
 #include "ros/bags/bag_files.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/bags/job_bag.h"
 
 namespace codesign {
 namespace {

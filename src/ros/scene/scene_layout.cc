@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "text/number_text.h"
 
@@ -13,30 +14,17 @@ namespace {
 /// Longest arrow, as a share of the size of the mechanism; longer ones are cut.
 constexpr double kLongest = 0.4;
 
-/// Determines the scale of arrows from the loads that they show.
-class ArrowScale {
- public:
-  void include(double load) {
-    if (load != 0.0 && std::isfinite(load)) loads_.push_back(load);
-  }
-
-  bool is_used() const { return !loads_.empty(); }
-
-  /// Arrow length per unit of load: a sixth of `size` for the median of the loads, so that a short peak, such as at the start of a run,
-  /// does not make all others invisible. Loads below a thousandth of the largest one do not count.
-  double metres_per_unit(double size, double fallback) {
-    if (loads_.empty()) return fallback;
-    std::sort(loads_.begin(), loads_.end());
-    const auto first = std::lower_bound(loads_.begin(), loads_.end(), 1e-3 * loads_.back());
-    const double median = *(first + (loads_.end() - first) / 2);
-    const double scale = size / (6.0 * median);
-    const double digits = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
-    return std::floor(scale / digits) * digits;
-  }
-
- private:
-  std::vector<double> loads_;
-};
+/// Arrow length per unit of load: a sixth of `size` for the median of the loads, so that a short peak, such as at the start of a run, does
+/// not make all others invisible. Loads below a thousandth of the largest one do not count. @param loads finite and not zero
+double metres_per_unit(std::vector<double> loads, double size, double fallback) {
+  if (loads.empty()) return fallback;
+  std::sort(loads.begin(), loads.end());
+  const auto first = std::lower_bound(loads.begin(), loads.end(), 1e-3 * loads.back());
+  const double median = *(first + (loads.end() - first) / 2);
+  const double scale = size / (6.0 * median);
+  const double digits = std::pow(10.0, std::floor(std::log10(scale)) - 1.0);
+  return std::floor(scale / digits) * digits;
+}
 
 /// About a hundred frames of a run, chosen evenly, which determine the layout.
 std::vector<const Frame*> some_frames(const ShownRun& run) {
@@ -90,19 +78,22 @@ void add_arrows(const ShownRun& run, MarkerStyle style, std::vector<Eigen::Vecto
 }
 
 void scale_arrows(const std::vector<ShownRun>& runs, SceneLayout* layout) {
-  ArrowScale force, torque;
+  std::vector<double> forces, torques;
+  const auto add = [](double load, std::vector<double>* loads) {
+    if (load != 0.0 && std::isfinite(load)) loads->push_back(load);
+  };
   for (const ShownRun& run : runs)
     for (const Frame& frame : run.frames)
       for (const FrictionSample& sample : frame.frictions) {
-        force.include(sample.force.norm());
-        torque.include(sample.torque.norm());
+        add(sample.force.norm(), &forces);
+        add(sample.torque.norm(), &torques);
       }
-  layout->has_forces = force.is_used();
-  layout->has_torques = torque.is_used();
+  layout->has_forces = !forces.empty();
+  layout->has_torques = !torques.empty();
   layout->style.shaft_diameter = 0.015 * layout->size;
   layout->style.longest = kLongest * layout->size;
-  layout->style.metres_per_newton = force.metres_per_unit(layout->size, layout->style.metres_per_newton);
-  layout->style.metres_per_newton_metre = torque.metres_per_unit(layout->size, layout->style.metres_per_newton_metre);
+  layout->style.metres_per_newton = metres_per_unit(std::move(forces), layout->size, layout->style.metres_per_newton);
+  layout->style.metres_per_newton_metre = metres_per_unit(std::move(torques), layout->size, layout->style.metres_per_newton_metre);
 }
 
 /// Height of letters divided by the distance of the viewer: letters take 1/36 of the picture's height.
@@ -231,7 +222,7 @@ visualization_msgs::MarkerArray caption(const std::vector<CaptionLine>& lines, c
                                         const MessageContext& context) {
   visualization_msgs::MarkerArray message;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    const Eigen::Vector3d place = first - 1.6 * static_cast<double>(k) * layout.letter * layout.view.up();
+    const Eigen::Vector3d place = first - kLine * static_cast<double>(k) * layout.letter * layout.view.up();
     message.markers.push_back(text_marker(lines[k].text, place, layout.letter));
     visualization_msgs::Marker& marker = message.markers.back();
     marker.header = header_of(context);

@@ -5,19 +5,6 @@
 #include <cmath>
 
 namespace codesign {
-namespace {
-
-/// A range of numbers.
-struct PictureSide {
-  double low = 0.0, high = 0.0;
-  void include(double value, bool is_first) {
-    low = is_first ? value : std::min(low, value);
-    high = is_first ? value : std::max(high, value);
-  }
-  double middle() const { return 0.5 * (low + high); }
-};
-
-}  // namespace
 
 Eigen::Vector3d SceneView::towards_viewer() const {
   return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
@@ -56,14 +43,13 @@ CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const Scene
       place.distance = std::max(place.distance, from.dot(toward) + needed);
     }
     if (round == kRounds) break;
-    PictureSide across, high;
+    Eigen::AlignedBox2d picture;
     for (const Eigen::Vector3d& point : points) {
       const Eigen::Vector3d from = point - place.focus;
       const double away = std::max(place.distance - from.dot(toward), 1e-9);
-      across.include(from.dot(right) / away, &point == &points.front());
-      high.include(from.dot(up) / away, &point == &points.front());
+      picture.extend(Eigen::Vector2d(from.dot(right) / away, from.dot(up) / away));
     }
-    place.focus += place.distance * (across.middle() * right + (high.middle() - 0.5 * (above - below)) * up);
+    place.focus += place.distance * (picture.center().x() * right + (picture.center().y() - 0.5 * (above - below)) * up);
   }
   return place;
 }

@@ -121,13 +121,15 @@ void CommandedRun::clear() {
   timed_out_ = false;
 }
 
-void CommandedRun::take(const EffortCommand& command, double time) {
+void CommandedRun::take(const EffortCommand& command, const Frame& frame, const RunClock&) {
   for (const auto& [joint, effort] : command.efforts) run_->set_effort(joint, effort);
-  last_effort_ = time;
+  last_effort_ = frame.time;
   timed_out_ = false;
 }
 
-void CommandedRun::take(const SetpointCommand& command, double time) { run_->set_course(command.controller, held(command.value, time)); }
+void CommandedRun::take(const SetpointCommand& command, const Frame& frame, const RunClock&) {
+  run_->set_course(command.controller, held(command.value, frame.time));
+}
 
 void CommandedRun::take(const TrajectoryCommand& command, const Frame& frame, const RunClock& clock) {
   const double begin = command.begin.isZero() ? frame.time : clock.time_of(command.begin);
@@ -159,15 +161,7 @@ bool CommandedRun::end_efforts(double time) {
 }
 
 CommandedRun::Outcome CommandedRun::apply(const std::vector<Command>& commands, const Frame& frame, const RunClock& clock) {
-  struct Take {
-    CommandedRun* run;
-    const Frame& frame;
-    const RunClock& clock;
-    void operator()(const EffortCommand& command) const { run->take(command, frame.time); }
-    void operator()(const SetpointCommand& command) const { run->take(command, frame.time); }
-    void operator()(const TrajectoryCommand& command) const { run->take(command, frame, clock); }
-  };
-  for (const Command& command : commands) std::visit(Take{this, frame, clock}, command);
+  for (const Command& command : commands) std::visit([&](const auto& one) { take(one, frame, clock); }, command);
   const bool ended = end_efforts(frame.time);
   return {run_->apply(frame.time), ended || !commands.empty()};
 }

@@ -18,7 +18,8 @@
 #include "integration/interactive_simulation.h"
 #include "ros/simulation/run_clock.h"
 
-// Commands from messages. Each function throws InputError, whose text names topic, joint and value, for a message that cannot be used.
+// Commands from messages, and the run that takes them. Each read_...() throws InputError, whose text names topic, joint and value, for a
+// message that cannot be used.
 
 namespace codesign {
 
@@ -78,8 +79,8 @@ class CommandedRun {
   mechanism_codesign::Commands message(double time) const;
 
  private:
-  void take(const EffortCommand& command, double time);
-  void take(const SetpointCommand& command, double time);
+  void take(const EffortCommand& command, const Frame& frame, const RunClock& clock);
+  void take(const SetpointCommand& command, const Frame& frame, const RunClock& clock);
   void take(const TrajectoryCommand& command, const Frame& frame, const RunClock& clock);
   void follow(const JointCourse& course, double begin, const Frame& frame);
   bool end_efforts(double time);

@@ -94,7 +94,10 @@ class Pace {
 /// The real-time factor: seconds of the run per second of wall time [-].
 class RealTimeFactor {
  public:
-  void start(const ros::WallTime& now) { *this = RealTimeFactor(now); }
+  void start(const ros::WallTime& now) {
+    *this = RealTimeFactor();
+    start_ = last_wall_ = now;
+  }
 
   /// Notes that the run has reached `time` [s]. Returns whether value() is new, at most twice a second.
   bool note(double time, const ros::WallTime& now) {
@@ -112,11 +115,7 @@ class RealTimeFactor {
   /// The factor over the run so far. @param time reached by the run [s].
   double mean(double time, const ros::WallTime& now) const { return time / std::max((now - start_).toSec(), 1e-9); }
 
-  RealTimeFactor() = default;
-
  private:
-  explicit RealTimeFactor(const ros::WallTime& now) : start_(now), last_wall_(now) {}
-
   ros::WallTime start_, last_wall_;
   double last_time_ = 0.0, value_ = 0.0;
 };

@@ -158,7 +158,7 @@ void SimulationNode::set_scene() {
 }
 
 void SimulationNode::place_root() {
-  const std::string root = options_.frame_prefix + problem_->robot().links[static_cast<std::size_t>(problem_->robot().root)].name;
+  const std::string root = context(0.0).root_frame;
   if (options_.world_frame.empty() || options_.world_frame == root) return;
   geometry_msgs::TransformStamped transform;
   transform.header = header_of({clock_.stamp(0.0), options_.world_frame});

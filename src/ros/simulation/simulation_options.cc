@@ -79,10 +79,6 @@ void read_step_frames(const Node& node, const std::string& name, SimulationOptio
   options->step_frames = frames;
 }
 
-void read_world_frame(const Node& node, const std::string& name, SimulationOptions* options) {
-  options->world_frame = read_text(node, name, "");
-}
-
 void read_frame_prefix(const Node& node, const std::string& name, SimulationOptions* options) {
   options->frame_prefix = read_text(node, name, "");
   if (!options->frame_prefix.empty() && options->frame_prefix[0] == '/')
@@ -97,30 +93,30 @@ void read_topics(const Node& node, const std::string& name, SimulationOptions* o
     if (std::count(known.begin(), known.end(), topic) == 0) throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, known);
 }
 
-void read_bag(const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }
-
 /// In the order of reading: `mode` comes after `time_scale`, since it overrides `time_scale`.
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> kEntries = {{"rate", read_rate},
-                                              {"time_scale", positive(&SimulationOptions::time_scale)},
-                                              {"mode", read_mode},
-                                              {"publish_limit", positive(&SimulationOptions::publish_limit)},
-                                              {"loop", flag(&SimulationOptions::loop)},
-                                              {"command_joints", texts(&SimulationOptions::command_joints)},
-                                              {"disconnect", texts(&SimulationOptions::disconnect)},
-                                              {"command_timeout", positive_or_none(&SimulationOptions::command_timeout)},
-                                              {"duration", positive_or_none(&SimulationOptions::duration)},
-                                              {"lock_step", flag(&SimulationOptions::lock_step)},
-                                              {"start_paused", flag(&SimulationOptions::start_paused)},
-                                              {"step_frames", read_step_frames},
-                                              {"float_topics", flag(&SimulationOptions::float_topics)},
-                                              {"world_frame", read_world_frame},
-                                              {"frame_prefix", read_frame_prefix},
-                                              {"force_scale", positive(&MarkerStyle::metres_per_newton)},
-                                              {"torque_scale", positive(&MarkerStyle::metres_per_newton_metre)},
-                                              {"arrow_width", positive(&MarkerStyle::shaft_diameter)},
-                                              {"wait_for_subscribers", read_topics},
-                                              {"bag", read_bag}};
+  static const std::vector<Entry> kEntries = {
+      {"rate", read_rate},
+      {"time_scale", positive(&SimulationOptions::time_scale)},
+      {"mode", read_mode},
+      {"publish_limit", positive(&SimulationOptions::publish_limit)},
+      {"loop", flag(&SimulationOptions::loop)},
+      {"command_joints", texts(&SimulationOptions::command_joints)},
+      {"disconnect", texts(&SimulationOptions::disconnect)},
+      {"command_timeout", positive_or_none(&SimulationOptions::command_timeout)},
+      {"duration", positive_or_none(&SimulationOptions::duration)},
+      {"lock_step", flag(&SimulationOptions::lock_step)},
+      {"start_paused", flag(&SimulationOptions::start_paused)},
+      {"step_frames", read_step_frames},
+      {"float_topics", flag(&SimulationOptions::float_topics)},
+      {"world_frame",
+       [](const Node& node, const std::string& name, SimulationOptions* options) { options->world_frame = read_text(node, name, ""); }},
+      {"frame_prefix", read_frame_prefix},
+      {"force_scale", positive(&MarkerStyle::metres_per_newton)},
+      {"torque_scale", positive(&MarkerStyle::metres_per_newton_metre)},
+      {"arrow_width", positive(&MarkerStyle::shaft_diameter)},
+      {"wait_for_subscribers", read_topics},
+      {"bag", [](const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }}};
   return kEntries;
 }
 
