@@ -41,16 +41,9 @@ find_package(BZip2 REQUIRED)
 find_library(CODESIGN_LZ4 lz4 REQUIRED)
 list(APPEND bag_libraries ${BZIP2_LIBRARIES} ${CODESIGN_LZ4})
 
-file(GLOB ros_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/*.cc)
-set(node_mains ${ros_sources})
-list(FILTER node_mains INCLUDE REGEX "_node_main\\.cc$")
-list(FILTER ros_sources EXCLUDE REGEX "_node_main\\.cc$")
-
-# Reads recordings from bags and writes identifications and trajectories into them, for the nodes and for the program codesign, which uses nothing else of ROS.
-set(bag_sources recording_bag bag_contents unpack_chunk identification_bag bag_file bag_writer conversions frame_messages friction_markers effort_markers scene_layout scene_text scene_view
-  way_out joint_trajectory_bag)
-list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cc")
-list(REMOVE_ITEM ros_sources ${bag_sources} ${PROJECT_SOURCE_DIR}/src/ros/bag_module.cc ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)
+# Reads recordings from bags and writes runs, identifications and trajectories into them, for the nodes and for the program codesign, which
+# uses nothing else of ROS.
+file(GLOB bag_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/scene/*.cc ${PROJECT_SOURCE_DIR}/src/ros/bags/*.cc)
 add_library(codesign_bags STATIC ${bag_sources})
 add_dependencies(codesign_bags ${PROJECT_NAME}_generate_messages_cpp)
 set_target_properties(codesign_bags PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -63,15 +56,16 @@ codesign_unite(codesign_bags ros_bags ${bag_sources})
 codesign_sanitize(codesign_bags)
 
 # The program loads it when it first reads or writes a bag.
-add_library(codesign_bag_module MODULE ${PROJECT_SOURCE_DIR}/src/ros/bag_module.cc)
-set_target_properties(codesign_bag_module PROPERTIES OUTPUT_NAME codesign_bags)
+add_library(codesign_bag_module MODULE $<TARGET_OBJECTS:codesign_bags>)
+set_target_properties(codesign_bag_module PROPERTIES OUTPUT_NAME codesign_bags LINKER_LANGUAGE CXX)
 target_link_libraries(codesign_bag_module PRIVATE codesign_bags)
-codesign_warnings(codesign_bag_module)
 codesign_sanitize(codesign_bag_module)
 target_sources(codesign PRIVATE ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)
 target_link_libraries(codesign PRIVATE ${CMAKE_DL_LIBS})
 add_dependencies(codesign codesign_bag_module)
 
+file(GLOB ros_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/common/*.cc ${PROJECT_SOURCE_DIR}/src/ros/apply/*.cc
+  ${PROJECT_SOURCE_DIR}/src/ros/simulation/*.cc ${PROJECT_SOURCE_DIR}/src/ros/jobs/*.cc)
 add_library(codesign_ros ${ros_sources})
 add_dependencies(codesign_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(codesign_ros
@@ -86,11 +80,11 @@ codesign_unite(codesign_ros ros ${ros_sources})
 codesign_sanitize(codesign_ros)
 codesign_precompile_files(codesign_ros <ros/ros.h>)
 
-# Each x_node_main.cc becomes the executable x.
+# Each file becomes the executable of its name.
+file(GLOB node_mains CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/ros/nodes/*.cc)
 set(codesign_nodes)
 foreach(node_main IN LISTS node_mains)
-  get_filename_component(node ${node_main} NAME)
-  string(REPLACE "_node_main.cc" "" node ${node})
+  get_filename_component(node ${node_main} NAME_WE)
   add_executable(${node} ${node_main})
   target_include_directories(${node} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${node} PRIVATE codesign_ros)

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "ros/bag_module.h"
+#include "ros/bags/bag_files.h"
 
 namespace codesign {
 namespace {

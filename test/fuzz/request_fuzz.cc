@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ros/job.h"
+#include "ros/jobs/job.h"
 
 namespace codesign::fuzz {
 namespace {

@@ -42,6 +42,16 @@ ROWS = [
     ["cli", "ros"],
 ]
 ROW_OF = {room: row for row, rooms in enumerate(ROWS) for room in rooms}
+# The same order of the rooms inside ros/; files beside them are front ends and may include all of them.
+ROS_ROWS = [
+    ["scene"],
+    ["bags"],
+    ["common"],
+    ["apply", "simulation"],
+    ["jobs"],
+    ["nodes"],
+]
+ROW_IN_ROS = {room: row for row, rooms in enumerate(ROS_ROWS) for room in rooms}
 # The room that each public header belongs to; the rooms after it may include it.
 PUBLIC = {
     "counts.h": "assembly",
@@ -103,6 +113,21 @@ def check_include(room, header, in_brackets):
     return None
 
 
+def room_in_ros(parts):
+    """The room inside ros/ of a path below src/; empty for a file beside the rooms, None outside ros/."""
+    if parts[0] != "ros":
+        return None
+    return parts[1] if len(parts) > 2 else ""
+
+
+def check_include_in_ros(inner, header):
+    """Why a file of the room `inner` inside ros/ must not include `header`, or None."""
+    other = room_in_ros(header.split("/"))
+    if not inner or not other or inner == other or ROW_IN_ROS.get(other, len(ROS_ROWS)) < ROW_IN_ROS[inner]:
+        return None
+    return f"ros/{inner}/ includes ros/{other}/, which does not stand before it"
+
+
 def defining_rooms(sources):
     """The room that defines each class of ours, from the texts by file."""
     return {name: room_of_file(path) for path, text in sources.items() for name in DEFINITION.findall(text)}
@@ -161,12 +186,17 @@ def check(root):
         room = room_of_file(name)
         lines = text.splitlines()
         lines_of[str(name)] = len(lines)
-        if room is None:
+        inner = room_in_ros(name.parts[1:]) if room == "ros" else None
+        if room is None or (inner and inner not in ROW_IN_ROS):
             violations.append(f"{name}:1: {name.parent.name}/ has no place in the order of the rooms")
             continue
         for number, line in enumerate(lines, start=1):
             match = INCLUDE.match(line)
-            reason = check_include(room, match.group(2), match.group(1) == "<") if match else check_declaration(room, line, room_of_class)
+            if match:
+                in_brackets = match.group(1) == "<"
+                reason = check_include(room, match.group(2), in_brackets) or (None if in_brackets else check_include_in_ros(inner, match.group(2)))
+            else:
+                reason = check_declaration(room, line, room_of_class)
             if reason:
                 violations.append(f"{name}:{number}: {reason}")
         if len(lines) > MAX_FILE:

@@ -69,6 +69,17 @@ class PlantedViolations(unittest.TestCase):
         self.plant("src/cli/b.cc", '#include "ros/conversions.h"\n')
         self.assert_only("src/cli/b.cc:1", "cli/ includes ros/")
 
+    def test_backward_include_inside_ros(self):
+        self.plant("src/ros/bags/b.cc", '#include <ros/time.h>\n#include "ros/scene/markers.h"\n#include "ros/common/worker.h"\n')
+        self.assert_only("src/ros/bags/b.cc:3", "ros/bags/ includes ros/common/")
+        self.plant("src/ros/bags/b.cc", "\n")
+        self.plant("src/ros/simulation/b.cc", '#include "ros/apply/apply.h"\n')
+        self.assert_only("src/ros/simulation/b.cc:1", "ros/simulation/ includes ros/apply/")
+
+    def test_unknown_folder_inside_ros(self):
+        self.plant("src/ros/misc/b.cc", "\n")
+        self.assert_only("src/ros/misc/b.cc:1", "no place")
+
     def test_ros_header_outside_ros(self):
         for header in ["ros/ros.h", "sensor_msgs/JointState.h", "rosbag/bag.h", "mechanism_codesign/JointFriction.h", "tf2_ros/buffer.h"]:
             self.plant("src/optimization/b.cc", f"#include <{header}>\n")

@@ -1,0 +1,216 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/jobs/messages.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "jobs/optimization_records.h"
+#include "jobs/trial_lines.h"
+#include "ros/bags/job_bag.h"
+#include "ros/common/replies.h"
+
+namespace codesign {
+namespace {
+
+std::uint32_t count(int number) { return static_cast<std::uint32_t>(number); }
+
+mechanism_codesign::ScenarioResult to_message(const ScenarioResult& scenario) {
+  mechanism_codesign::ScenarioResult message;
+  message.run = scenario.run;
+  message.sample = count(scenario.sample + 1);
+  message.weight = scenario.weight;
+  for (const auto& [name, value] : scenario.values) {
+    message.parameters.push_back(name);
+    message.values.push_back(value);
+  }
+  message.friction_law = scenario.friction_law;
+  message.initial_objective = scenario.initial_objective;
+  message.objective = scenario.objective;
+  message.initial_failed = scenario.initial_failed;
+  message.failed = scenario.failed;
+  return message;
+}
+
+mechanism_codesign::Validation to_message(const Validation& validation) {
+  mechanism_codesign::Validation message;
+  message.samples = count(validation.samples);
+  message.failed = count(validation.failed);
+  message.promised = validation.promised;
+  message.objective = validation.objective;
+  message.mean = validation.mean;
+  message.worst = validation.worst;
+  message.value_at_risk = validation.value_at_risk;
+  message.within = validation.within;
+  return message;
+}
+
+mechanism_codesign::SearchResult to_message(const StartResult& search) {
+  mechanism_codesign::SearchResult message;
+  message.start = to_array(search.start);
+  message.end = to_array(search.rho);
+  message.start_objective = search.start_objective;
+  message.objective = search.objective;
+  message.code = name_of(search.status.code);
+  if (!search.status.ok()) message.message = reason(search.status);
+  message.termination = search.termination;
+  message.evaluations = count(search.evaluations);
+  message.optimum = count(search.optimum + 1);
+  return message;
+}
+
+mechanism_codesign::Optimum to_message(const Optimum& optimum) {
+  mechanism_codesign::Optimum message;
+  message.values = to_array(optimum.rho);
+  message.objective = optimum.objective;
+  message.found = count(optimum.found);
+  return message;
+}
+
+mechanism_codesign::WatchedSignal to_message(const WatchedResult& result, bool is_ensemble) {
+  mechanism_codesign::WatchedSignal message;
+  message.element = result.element;
+  message.signal = result.signal;
+  message.lower = result.lower;
+  message.upper = result.upper;
+  message.after = result.after;
+  message.before = result.before;
+  message.initial_smallest = result.initial_smallest;
+  message.initial_largest = result.initial_largest;
+  message.smallest = result.smallest;
+  message.largest = result.largest;
+  message.smallest_time = result.smallest_time;
+  message.largest_time = result.largest_time;
+  message.smallest_scenario = is_ensemble ? static_cast<std::uint32_t>(result.smallest_scenario) + 1 : 0;
+  message.largest_scenario = is_ensemble ? static_cast<std::uint32_t>(result.largest_scenario) + 1 : 0;
+  message.violation = result.violation;
+  return message;
+}
+
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+mechanism_codesign::IdentifiedNumber to_message(const IdentifiedNumber& number) {
+  mechanism_codesign::IdentifiedNumber message;
+  message.name = number.name;
+  message.unit = number.unit;
+  message.start = number.start;
+  message.value = number.value;
+  message.lower = number.lower;
+  message.upper = number.upper;
+  message.determined = number.is_determined;
+  message.on_bound = number.is_on_bound;
+  message.deviation = number.is_on_bound ? kNotKnown : number.deviation;
+  message.low = number.is_on_bound ? kNotKnown : number.low;
+  message.high = number.is_on_bound ? kNotKnown : number.high;
+  const auto end = [&](ProfileEnd found, double value) { return found == ProfileEnd::kFailed ? kNotKnown : value; };
+  message.profile_low = number.profile ? end(number.profile->lower_end, number.profile->lower) : kNotKnown;
+  message.profile_high = number.profile ? end(number.profile->upper_end, number.profile->upper) : kNotKnown;
+  return message;
+}
+
+std::vector<mechanism_codesign::OutputFit> to_messages(const std::vector<OutputFit>& fits) {
+  std::vector<mechanism_codesign::OutputFit> messages;
+  for (const OutputFit& fit : fits) {
+    mechanism_codesign::OutputFit& message = messages.emplace_back();
+    message.joint = fit.joint;
+    message.recorded_rms = fit.recorded;
+    message.start_rms = fit.start;
+    message.rms = fit.rms;
+    message.worst = fit.worst;
+    message.first_correlation = fit.whiteness.first_correlation;
+    message.whiteness = fit.whiteness.probability;
+  }
+  return messages;
+}
+
+}  // namespace
+
+std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job) {
+  Warnings warnings = of_files;
+  append(of_job, &warnings);
+  std::vector<mechanism_codesign::Warning> messages;
+  for (const Warning& warning : warnings) {
+    messages.emplace_back();
+    messages.back().code = warning.code;
+    messages.back().message = warning.message;
+  }
+  return messages;
+}
+
+Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages, std::size_t of_files) {
+  Warnings warnings;
+  for (std::size_t k = of_files; k < messages.size(); ++k) warnings.push_back({messages[k].code, messages[k].message, {}});
+  return warnings;
+}
+
+mechanism_codesign::OptimizeResult optimization_message(const Problem& problem, const OptimizationResult& result) {
+  mechanism_codesign::OptimizeResult message;
+  set_status(result.status, &message);
+  message.parameters = problem.tuned_names();
+  for (const ParameterConstraint& constraint : problem.study().constraints) message.constraints.push_back(constraint.text);
+  message.margins = to_array(result.margins);
+  message.initial = to_array(result.initial_rho);
+  message.tuned = to_array(result.rho);
+  message.initial_objective = result.initial_objective;
+  message.objective = result.objective;
+  message.initial_gradient = to_array(result.initial_gradient);
+  message.gradient = to_array(result.gradient);
+  message.termination = result.termination;
+  message.iterations = static_cast<std::uint32_t>(result.iterations);
+  message.evaluations = static_cast<std::uint32_t>(result.evaluations);
+  message.failed_evaluations = static_cast<std::uint32_t>(result.failed_evaluations);
+  message.steps = static_cast<std::uint64_t>(result.statistics.steps);
+  message.rejected_steps = static_cast<std::uint64_t>(result.statistics.rejected_steps);
+  message.cpu_seconds = result.statistics.cpu_seconds;
+  message.constraint_drift = result.statistics.constraint_drift;
+  message.energy_error = result.statistics.energy_error;
+  set_ensemble(result, &message);
+  message.signals = watched_messages(result.watched, !result.scenarios.empty());
+  return message;
+}
+
+void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message) {
+  for (const ScenarioResult& scenario : result.scenarios) message->scenarios.push_back(to_message(scenario));
+  message->worst = count(worst_scenario(result) + 1);
+  message->value_at_risk = result.value_at_risk.value_or(0.0);
+  if (result.validation) message->validation.push_back(to_message(*result.validation));
+  for (const StartResult& search : result.starts) message->searches.push_back(to_message(search));
+  for (const Optimum& optimum : result.optima) message->optima.push_back(to_message(optimum));
+  message->screened = count(result.screened);
+  message->unusable = count(result.unusable);
+}
+
+std::vector<mechanism_codesign::WatchedSignal> watched_messages(const std::vector<WatchedResult>& watched, bool is_ensemble) {
+  std::vector<mechanism_codesign::WatchedSignal> messages;
+  for (const WatchedResult& one : watched) messages.push_back(to_message(one, is_ensemble));
+  return messages;
+}
+
+mechanism_codesign::IdentifyResult identification_message(const Problem& problem, const IdentificationResult& result) {
+  mechanism_codesign::IdentifyResult message;
+  set_status(result.status, &message);
+  message.message = result.status.cause;  // a fit has no time of its own
+  const IntervalOptions& intervals = problem.study().identification->intervals;
+  message.level = intervals.level;
+  message.noise = kNoiseNames[static_cast<std::size_t>(intervals.noise)];
+  for (const IdentifiedNumber& number : result.numbers) message.numbers.push_back(to_message(number));
+  for (Eigen::Index row = 0; row < result.covariance.rows(); ++row)
+    for (Eigen::Index column = 0; column < result.covariance.cols(); ++column) message.covariance.push_back(result.covariance(row, column));
+  message.rank = static_cast<std::uint32_t>(result.rank);
+  message.undetermined = result.undetermined;
+  message.samples = static_cast<std::uint64_t>(result.samples);
+  message.data = to_messages(result.data);
+  message.holdout_samples = static_cast<std::uint64_t>(result.holdout_samples);
+  message.holdout = to_messages(result.holdout);
+  if (!result.parameters.empty())
+    for (const Parameter& parameter : problem.all_parameters()) message.parameters.push_back(parameter.name);
+  message.values = result.parameters;
+  message.termination = result.termination;
+  message.iterations = static_cast<std::uint32_t>(result.iterations);
+  message.evaluations = static_cast<std::uint32_t>(result.evaluations);
+  message.failed_evaluations = static_cast<std::uint32_t>(result.failed_evaluations);
+  message.cpu_seconds = result.cpu_seconds;
+  message.setup_seconds = problem.setup_seconds();
+  return message;
+}
+
+}  // namespace codesign

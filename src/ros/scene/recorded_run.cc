@@ -1,0 +1,66 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "ros/scene/recorded_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "equations/compiled_system.h"
+#include "mechanism/signal_catalog.h"
+#include "observation/observer.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+/// Limit for the frames of all runs of a job [bytes].
+constexpr double kMostMemory = 256e6;
+
+double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
+  const std::size_t pairs = robot.joints.size();
+  return static_cast<double>(sizeof(Frame) + pairs * (sizeof(JointSample) + sizeof(FrictionSample) + sizeof(double)) +
+                             robot.links.size() * sizeof(LinkSample) + study.controllers.size() * sizeof(ControllerSample) +
+                             signals_of(study).size() * sizeof(double));
+}
+
+}  // namespace
+
+void check_recording(const Problem& problem, double rate, const std::string& element) {
+  const double duration = problem.study().duration;
+  if (duration > kLongestRun)
+    throw InputError({{problem.study().file, 0},
+                      "duration",
+                      "the run is longer than ROS time can represent",
+                      to_decimal(duration),
+                      "at most " + to_decimal(kLongestRun) + " s"});
+  const double runs = problem.study().ensemble.is_ensemble() ? 4.0 : 2.0;
+  const double most = kMostMemory / (runs * bytes_of_a_frame(problem.robot(), problem.study()));
+  if (!(duration * rate <= most))
+    throw InputError({{element, 0},
+                      "rate",
+                      "a run of " + to_decimal(duration) + " s has too many samples to keep in memory",
+                      to_decimal(rate),
+                      "at most " + to_decimal(std::floor(1e3 * most / duration) / 1e3) + " samples per second"});
+}
+
+RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
+                       const std::function<bool()>& stop) {
+  RecordedRun run;
+  Simulation simulation(system, parameters, signals_of(system->whole_study()));
+  run.names = simulation.names();
+  run.link_parents = link_parents(system->robot());
+  const double duration = system->whole_study().duration;
+  const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
+  const auto stopped = [&stop] { return stop && stop(); };
+  run.status = simulation.start();
+  for (std::int64_t k = 0; run.status.ok() && k <= count; ++k) {
+    const auto instant = [&](std::int64_t index) { return duration * static_cast<double>(index) / static_cast<double>(count); };
+    if (k > 0) run.status = advance(&simulation, instant(k - 1), instant(k), stopped);
+    if (!run.status.ok()) break;
+    run.frames.emplace_back();
+    simulation.sample(instant(k), &run.frames.back());
+  }
+  return run;
+}
+
+}  // namespace codesign
