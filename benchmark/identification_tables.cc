@@ -11,7 +11,7 @@
 #include "identification/effort_residuals.h"
 #include "identification/motion_residuals.h"
 #include "identification/residual_fit.h"
-#include "identification/segment_fit.h"
+#include "identification/segments.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"

@@ -3,11 +3,13 @@
 
 #include <Eigen/Core>
 #include <atomic>
+#include <utility>
 #include <vector>
 
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
 #include "assembly/tree_coordinates.h"
+#include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
 #include "mechanism_codesign/status.h"
 #include "system/tree_kinematics.h"
@@ -233,6 +235,28 @@ class Assembly {
   LoopMiss worst_miss_;
   Workspace work_;
   const std::atomic<bool>* cancel_ = nullptr;
+};
+
+/// The workspace of one analysis at t = 0: a design, its equations, an Assembly and the state that the Assembly computes. Not thread-safe.
+struct StartWorkspace {
+  /// @param system must outlive the workspace.
+  /// @param design all named parameters (Study::parameters order).
+  StartWorkspace(const CompiledSystem& system, std::vector<double> design)
+      : parameters(std::move(design)), equations(system), assembly(system) {
+    equations.compiled().allow(false);  // recording and compiling takes longer than the few evaluations at t = 0
+    equations.set_design(parameters);
+  }
+
+  /// The functions of Assembly of the same name, for this design; they fill `state`.
+  Status solve_positions() { return assembly.solve_positions(parameters, &equations, &state); }
+  Status solve_velocities() { return assembly.solve_velocities(parameters, &equations, &state); }
+  Status solve_motion() { return assembly.solve_motion(parameters, &equations, &state); }
+  Status solve() { return assembly.solve(parameters, &equations, &state); }
+
+  const std::vector<double> parameters;  ///< the design
+  Equations<double> equations;
+  Assembly assembly;
+  State<double> state;
 };
 
 }  // namespace codesign

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <random>
 
+#include "assembly/assembly.h"
 #include "assembly/redundancy.h"
-#include "assembly/start_workspace.h"
 #include "description/study.h"
 #include "math/dense.h"
 

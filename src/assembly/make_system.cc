@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "assembly/assembly.h"
 #include "assembly/determined_motion.h"
 #include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
-#include "assembly/start_workspace.h"
 #include "description/study.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "assembly/start_workspace.h"
+#include "assembly/assembly.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
 #include "math/arrays.h"

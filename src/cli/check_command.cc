@@ -1,12 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+
 #include "assembly/count_equations.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/json.h"
-#include "jobs/limit_watch.h"
+#include "jobs/run_recorder.h"
 #include "mechanism_codesign/simulation.h"
+#include "reading/urdf/pictures.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
 namespace {
@@ -79,6 +82,19 @@ int check(const Arguments& arguments, const Console& console) {
   if (problem.study().identification) object["recordings"] = to_json(recordings);
   add_warnings(arguments, problem, of_recordings, &object, console);
   return finish(arguments, status, std::move(object), console);
+}
+
+int urdf(const Arguments& arguments, const Console& console) {
+  const Problem problem = load(arguments);
+  std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters(), std::nullopt, problem.robot().laws);
+  if (arguments.sticks) text = with_sticks(text);
+  if (!arguments.json) console.out << text;
+  Json object;
+  object["model"] = problem.robot().name;
+  object["parameters"] = parameters_json(problem, problem.parameters());
+  object["urdf"] = text;
+  add_warnings(arguments, problem, {}, &object, console);
+  return finish(arguments, Status(), std::move(object), console);
 }
 
 }  // namespace codesign::cli

@@ -7,8 +7,8 @@
 #include "control/reference.h"
 #include "control/signal.h"
 #include "description/motion_study.h"
-#include "forces/actuation.h"
-#include "mechanism/driven_tree.h"
+#include "forces/control_law.h"
+#include "mechanism/coupling.h"
 
 namespace codesign {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "forces/actuation.h"
+#include "forces/control_law.h"
 #include "math/scalar.h"
 
 namespace codesign {

@@ -3,6 +3,24 @@
 
 namespace codesign {
 
+const Laws& standard_laws() {
+  static const Laws laws{friction_laws(), joint_laws(), control_laws()};
+  return laws;
+}
+
+PairKind kind_of(const JointDescription& joint) {
+  if (joint.own_kind) return *joint.own_kind;
+  for (const RowReference<JointLaw>& row : standard_laws().joints)
+    if (row->type == joint.type) return pair_of(*row);
+  return PairKind::kFree;
+}
+
+std::optional<FrictionModel> find_friction(const Laws& laws, const std::string& name) {
+  for (const FrictionModel& law : laws.friction)
+    if (name == law->name) return law;
+  return std::nullopt;
+}
+
 RobotDescription::RobotDescription() = default;
 RobotDescription::RobotDescription(const RobotDescription&) = default;
 RobotDescription::RobotDescription(RobotDescription&&) noexcept = default;

@@ -7,14 +7,36 @@
 #include <string>
 #include <vector>
 
-#include "description/laws.h"
 #include "description/quantity.h"
+#include "forces/control_law.h"
 #include "forces/friction_law.h"
+#include "joints/joint_law.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
+
+/// The tables of laws whose names a model and its study may use. A program adds a row of its own to a copy of standard_laws() and reads its
+/// models with it; the row must outlive everything that is read.
+struct Laws {
+  std::vector<FrictionModel> friction;
+  std::vector<RowReference<JointLaw>> joints;
+  std::vector<ControllerKind> controllers;
+};
+
+/// The laws of doc/annotations.md and doc/study.md.
+const Laws& standard_laws();
+
+/// The friction law of a name; std::nullopt if there is none.
+std::optional<FrictionModel> find_friction(const Laws& laws, const std::string& name);
+/// The names of a table's rows, in its order.
+template <class Row>
+std::vector<std::string> names_of(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) names.emplace_back(row->name);
+  return names;
+}
 
 /// `<codesign:friction>`. Numbers that the model does not give keep the `standard` of their rule; lengths and arms are then zero.
 struct FrictionDescription : FrictionNumbers<Quantity> {

@@ -3,7 +3,7 @@
 
 #include "control/sampled_pid.h"
 #include "elements/state_view.h"
-#include "forces/actuation.h"
+#include "forces/control_law.h"
 #include "math/arrays.h"
 
 namespace codesign {

@@ -8,9 +8,9 @@
 #include <mutex>
 #include <vector>
 
+#include "codegen/derivatives.h"
 #include "codegen/interpreter.h"
 #include "codegen/straight_line.h"
-#include "codegen/tangent_program.h"
 #include "codegen/traced.h"
 #include "codegen/value_code.h"
 #include "equations/compiled_system.h"

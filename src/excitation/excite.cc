@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "assembly/start_workspace.h"
+#include "assembly/assembly.h"
 #include "engine/thread_engine.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"

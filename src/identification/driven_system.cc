@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/start_workspace.h"
+#include "assembly/assembly.h"
 #include "description/study.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/many_starts.h"
+#include "identification/residual_fit.h"
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/warning.h"
 #include "statistics/profile.h"

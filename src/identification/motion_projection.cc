@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "assembly/start_workspace.h"
+#include "assembly/assembly.h"
 #include "equations/formulas.h"
 #include "math/arrays.h"
 #include "math/dense.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/thread_engine.h"
-#include "identification/segment_fit.h"
+#include "identification/segments.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 

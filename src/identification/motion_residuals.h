@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "identification/residual_source.h"
-#include "identification/segment_fit.h"
 #include "identification/segments.h"
 
 namespace codesign {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "control/trajectory_course.h"
+#include "control/reference.h"
 #include "description/study.h"
 #include "equations/compiled_system.h"
 

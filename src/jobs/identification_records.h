@@ -8,6 +8,7 @@
 #include "identification/compared_motion.h"
 #include "identification/identification_result.h"
 #include "jobs/json.h"
+#include "mechanism_codesign/problem.h"
 #include "mechanism_codesign/warning.h"
 #include "problem/load_problem.h"
 
@@ -59,5 +60,11 @@ using IdentificationBagWriter = std::function<void(const std::string& path, cons
 
 /// Default rate of the instants in a bag [Hz].
 constexpr double kShownRate = 50.0;
+
+/// identified_overlay.urdf, doc/study.md: sets every parameter of the model to the value of the fit, with intervals as comments. Merged
+/// after the problem's own overlays, it turns the model into identified.urdf. Numbers that do not belong to the model are in a comment at
+/// the end, in the form in which a study takes them.
+/// @param result of a fit with a best point
+std::string identified_overlay(const Problem& problem, const IdentificationResult& result);
 
 }  // namespace codesign

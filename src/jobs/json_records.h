@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "jobs/json.h"
-#include "jobs/limit_watch.h"
+#include "jobs/run_recorder.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"

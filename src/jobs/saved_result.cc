@@ -4,9 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
 #include <utility>
 
+#include "ensemble/ensemble.h"
 #include "jobs/json.h"
+#include "jobs/robot_gains.h"
+#include "jobs/trial_lines.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -49,6 +55,142 @@ Json parse(const SourceText& source) {
   }
 }
 
+constexpr std::size_t kConvergenceColumns = 6;  ///< number of columns before the tuned parameters
+constexpr std::size_t kStatusColumn = 2;
+
+using Cells = std::vector<std::string>;
+
+Cells cells_of(const std::string& line) {
+  Cells cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+[[noreturn]] void fail_changed(const std::string& file, const std::string& what, double value, const std::string& other_file,
+                               double other) {
+  throw NeverSimulated(file + ": " + what + " is " + to_decimal(value) + ", but " + to_decimal(other) + " in " + other_file +
+                       ": the values were changed after the optimization; tune again, or simulate and optimize from the changed values");
+}
+
+/// The check of one folder.
+class Examination {
+ public:
+  explicit Examination(std::string folder) : folder_(std::move(folder)) {}
+
+  FinishedJob examine(const TrajectoryLoader& loader, const std::atomic<bool>* cancel) {
+    const SourceText result = read_source(in_folder("result.json"));
+    const ParameterSettings design = read_result(result);
+    object_ = Json::parse(result.text);
+    require_success();
+    Problem problem = load_problem(read_source(in_folder("tuned.urdf")), {}, read_source(in_folder("job_study.yaml")), design, loader);
+    const std::vector<double> parameters = problem.parameters();
+    FinishedJob job{folder_, std::move(problem), parameters, {}, object_["objective"].get<double>()};
+    check_model(job);
+    check_trial(&job);
+    check_fixed(job);
+    check_gains(job);
+    check_objective(job, cancel);
+    return job;
+  }
+
+ private:
+  std::string in_folder(const std::string& name) const { return (std::filesystem::path(folder_) / name).string(); }
+
+  void require_success() const {
+    const auto error = object_.find("error");
+    if (error != object_.end())
+      throw NeverSimulated(in_folder("result.json") + ": the optimization did not finish (" + error->value("code", "") + ": " +
+                           error->value("message", "") + ")");
+    for (const char* key : {"objective", "initial_objective"})
+      if (!object_.contains(key) || !object_[key].is_number())
+        throw NeverSimulated(in_folder("result.json") + ": it has no " + key + ", so it is not the result of a finished optimization");
+    if (!std::filesystem::exists(in_folder("details.json")))
+      throw NeverSimulated(in_folder("details.json") + ": it is missing, so the optimization was cancelled or its folder is incomplete");
+  }
+
+  /// The values of the model's parameters, written into tuned.urdf.
+  void check_model(const FinishedJob& job) const {
+    const std::vector<Parameter>& all = job.problem.all_parameters();
+    for (const Parameter& in_model : job.problem.robot().parameters)
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k].name == in_model.name && job.parameters[k] != in_model.value)
+          fail_changed(in_folder("result.json"), in_model.name, job.parameters[k], in_folder("tuned.urdf"), in_model.value);
+  }
+
+  /// Checks that a row of convergence.csv has this design. For a job of a node with very many trial points the table is thinned out and has
+  /// fewer rows than the search had evaluations; then only the simulation can prove the design.
+  void check_trial(FinishedJob* job) const {
+    std::istringstream table(read_source(in_folder("convergence.csv")).text);
+    std::string line;
+    std::getline(table, line);
+    const Cells header = cells_of(line);
+    if (header.size() <= kConvergenceColumns)
+      throw InputError({{in_folder("convergence.csv"), 1}, "header", "no tuned parameters", line, "the table of codesign optimize"});
+    job->tuned.assign(header.begin() + kConvergenceColumns, header.end());
+    Cells wanted;
+    for (const std::string& name : job->tuned) wanted.push_back(to_decimal(value_of(*job, name)));
+    int rows = 0;
+    for (; std::getline(table, line); ++rows) {
+      const Cells row = cells_of(line);
+      if (row.size() != header.size() || row[kStatusColumn] != name_of(StatusCode::kSuccess)) continue;
+      if (std::equal(wanted.begin(), wanted.end(), row.begin() + kConvergenceColumns)) return;
+    }
+    if (object_.value("evaluations", rows) > rows) return;
+    std::string design;
+    for (std::size_t k = 0; k < wanted.size(); ++k) design += (k > 0 ? ", " : "") + job->tuned[k] + " = " + wanted[k];
+    throw NeverSimulated(in_folder("result.json") + ": no trial point of convergence.csv has " + design +
+                         ": the values were changed after the optimization");
+  }
+
+  double value_of(const FinishedJob& job, const std::string& name) const {
+    const std::vector<Parameter>& all = job.problem.all_parameters();
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].name == name) return job.parameters[k];
+    throw InputError({{in_folder("convergence.csv"), 1}, name, "the model and the study have no such parameter", "", ""});
+  }
+
+  /// Checks that the parameters that were not tuned have the values at the begin of the search.
+  void check_fixed(const FinishedJob& job) const {
+    for (const auto& [name, initial] : read_result(read_source(in_folder("initial.json")))) {
+      if (std::count(job.tuned.begin(), job.tuned.end(), name) > 0) continue;
+      const double value = value_of(job, name);
+      if (value != initial) fail_changed(in_folder("result.json"), name, value, in_folder("initial.json"), initial);
+    }
+  }
+
+  void check_gains(const FinishedJob& job) const {
+    if (job.problem.study().hardware.empty()) return;
+    const std::string expected = gains_yaml(job.problem, job.parameters), found = read_source(in_folder("gains.yaml")).text;
+    if (expected == found) return;
+    std::istringstream wanted_lines(expected), found_lines(found);
+    std::string wanted, line;
+    int number = 0;
+    do {
+      ++number;
+      if (!std::getline(wanted_lines, wanted)) wanted.clear();
+      if (!std::getline(found_lines, line)) line.clear();
+    } while (wanted == line);
+    throw NeverSimulated(in_folder("gains.yaml") + ":" + std::to_string(number) + ": \"" + line +
+                         "\" is not what the design of result.json gives, \"" + wanted +
+                         "\": the gains were changed after the optimization");
+  }
+
+  void check_objective(const FinishedJob& job, const std::atomic<bool>* cancel) const {
+    const Problem& problem = job.problem;
+    const bool with_gradient = !problem.study().tuned.empty();
+    const Evaluation again = Ensemble(problem, 1).evaluate(problem.start(), with_gradient, cancel).total;
+    if (!again.status.ok())
+      throw NeverSimulated(in_folder("result.json") + ": its design cannot be simulated again: " + describe(again.status));
+    const double tolerance = 1e-6 * std::abs(job.objective) + 1e-9 * std::abs(object_["initial_objective"].get<double>());
+    if (!(std::abs(again.objective - job.objective) <= tolerance))
+      fail_changed(in_folder("result.json"), "the objective", job.objective, "a simulation of its design", again.objective);
+  }
+
+  std::string folder_;
+  Json object_;
+};
+
 }  // namespace
 
 ParameterSettings read_result(const SourceText& json) {
@@ -80,6 +222,24 @@ std::string apply_text(const ApplyRecord& record) {
   else
     object["error"] = {{"code", record.code}, {"message", record.message}};
   return to_text(object);
+}
+
+std::string folder_of_job(const std::string& path) {
+  const std::filesystem::path given(path);
+  if (given.extension() == ".bag") return (given.parent_path() / given.stem()).string();
+  return given.has_filename() ? path : given.parent_path().string();
+}
+
+FinishedJob read_finished_job(const std::string& path, const TrajectoryLoader& loader, const std::atomic<bool>* cancel) {
+  const std::string folder = folder_of_job(path);
+  if (!std::filesystem::is_directory(folder))
+    throw InputError({{folder, 0}, "", "no such folder", path, "the folder of codesign optimize --output, or the bag of an optimization"});
+  try {
+    return Examination(folder).examine(loader, cancel);
+  } catch (const Json::exception& error) {
+    const std::string file = (std::filesystem::path(folder) / "result.json").string();
+    throw InputError({{file, 0}, "", std::string("a value has another type: ") + error.what(), "", "what codesign optimize writes"});
+  }
 }
 
 }  // namespace codesign

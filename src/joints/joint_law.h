@@ -4,10 +4,30 @@
 #include <vector>
 
 #include "forces/law.h"
-#include "joints/joint_type.h"
 #include "joints/pair_constants.h"
 
 namespace codesign {
+
+/// The types of joints and loops to which other parts of a file refer, such as limits, lengths and poses. kOther: only its row of the table
+/// of joints (JointLaw) tells about it.
+enum class JointType {
+  kFixed,
+  kRevolute,
+  kContinuous,
+  kPrismatic,
+  kPlanar,
+  kFloating,
+  kSpherical,
+  kUniversal,
+  kCylindrical,
+  kDistance,
+  kOther
+};
+
+/// Whether the only coordinate of a type is an angle.
+constexpr bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
+/// Whether a type has exactly one coordinate, and with it a scalar position, velocity, acceleration and effort.
+constexpr bool has_one_coordinate(JointType type) { return is_turn(type) || type == JointType::kPrismatic; }
 
 template <class T>
 struct PairRows;

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "engine/dispatcher.h"
-#include "engine/rank_worker.h"
+#include "engine/mpi_engine.h"
 #include "mpi/launcher.h"
 #include "mpi/mpi_transport.h"
 

@@ -8,7 +8,7 @@
 
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/simulation.h"
-#include "optimization/multipliers.h"
+#include "optimization/near_multipliers.h"
 #include "problem/margins.h"
 #include "text/number_text.h"
 

@@ -3,11 +3,38 @@
 
 #include <Eigen/Core>
 #include <atomic>
+#include <utility>
 #include <vector>
 
-#include "optimization/multipliers.h"
-
 namespace codesign {
+
+/// A row or bound with a multiplier c: the residual contains c times its direction a, and c times its distance d from being active.
+struct Holder {
+  Eigen::VectorXd leading;                              ///< a by the first variables, which most rows read; empty: zero
+  std::vector<std::pair<Eigen::Index, double>> others;  ///< the other entries of a that are not zero, by variable, ascending
+  double distance = 0.0;                                ///< d, 0 or more
+  bool any_sign = false;                                ///< an equality, d = 0: the multiplier may be negative
+  bool is_bound = false;                                ///< of the variable others[0], with the entry 1 or -1
+  bool is_on_bound() const { return is_bound && distance == 0.0; }
+};
+
+/// The multipliers c that minimize
+///   s^2 = |g - sum_k c_k a_k|^2 + sum_k (c_k d_k)^2    over c_k >= 0, of any sign for equalities,
+/// the sum of squares of doc/theory.md (24j). Rows are many, variables few. A row that is not near, d_k > 1e-6 |a_k|, has at the minimum
+///   c_k = max(0, a_k^T r) / d_k^2,    r = g - sum_k c_k a_k,
+/// so these rows enter by a matrix of the variables, I + sum_k a_k a_k^T / d_k^2 over those with a_k^T r > 0, whose set Newton's method
+/// finds. Only near rows, where this quotient is lost in rounding, have multipliers of their own, by the active set of Lawson and Hanson.
+struct Multipliers {
+  Eigen::VectorXd values;  ///< c, one per holder
+  Eigen::VectorXd rest;    ///< r
+  double residual = 0.0;   ///< s
+  std::vector<bool> near;  ///< by holder: whether it is near
+  int factorizations = 0;  ///< of matrices of the variables
+};
+
+/// @param holders with directions of numbers. @param cancel ends the iteration, may be null: the multipliers then have their signs, but do
+/// not minimize.
+Multipliers least_multipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const std::atomic<bool>* cancel);
 
 /// Holders that are not near, by their directions over their distances: w = a / d. Rows that read the same variables form a group, so that
 /// time and memory are those of the variables that a row reads.

@@ -70,4 +70,9 @@ struct StudyRecordings {
 StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
                                 const BagReader& reader, Warnings* warnings);
 
+/// Puts the times of a recording on equal steps if its motion says that the samples were taken there and only their stamps jitter;
+/// doc/theory.md (30a). Missing samples stay missing. Warning `recording_even_stamps`. Otherwise nothing changes.
+/// @param recording with ascending times, turns unwrapped
+void even_stamps(JointRecording* recording, Warnings* warnings);
+
 }  // namespace codesign

@@ -1,8 +1,195 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/idas_gradient.h"
+
 #include "equations/equations.h"
+#include "equations/iteration_matrix.h"
 
 namespace codesign {
+
+template <int N>
+IdasTangent::Group<N>::Group(const CompiledSystem& system, LaneRange<N> lanes) : range(lanes), equations(system) {
+  state.resize(system.layout());
+}
+
+template <int N>
+void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
+  cast_state(at, &state);
+  for (int k = 0; directions && k < range.count; ++k) {
+    const State<double>& direction = (*directions)[static_cast<std::size_t>(range.first + k)];
+    const auto put = [k](const VectorX<double>& from, VectorX<Scalar>* lanes) {
+      for (Eigen::Index i = 0; i < from.size(); ++i) (*lanes)[i].v[k] = from[i];
+    };
+    put(direction.q, &state.q);
+    put(direction.v, &state.v);
+    put(direction.s, &state.s);
+    put(direction.z, &state.z);
+  }
+}
+
+template <int N>
+void IdasTangent::Group<N>::take(int k, State<double>* direction) const {
+  const auto copy = [k](const VectorX<Scalar>& from, VectorX<double>* to) {
+    for (Eigen::Index i = 0; i < from.size(); ++i) (*to)[i] = from[i].v[k];
+  };
+  copy(state.q, &direction->q);
+  copy(state.v, &direction->v);
+  copy(state.s, &direction->s);
+  copy(state.z, &direction->z);
+}
+
+IdasTangent::IdasTangent(const CompiledSystem& system)
+    : system_(system),
+      groups_(system),
+      partial_(system.layout().columns() + 1, static_cast<Eigen::Index>(system.study().tuned.size())),
+      matrix_(system) {
+  derivatives_.resize(system.patterns());
+}
+
+void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
+                        std::vector<State<double>>* sensitivities, std::vector<double>* scales) {
+  matrix_.settle_as(integrator->assembly().rates_matrix());
+  matrix_.forget();
+  groups_.for_each([&](auto* group) {
+    group->range.seed(system_, parameters, &group->parameters);
+    group->equations.set_design(group->parameters);
+    integrator->assembly().extend(group->parameters, initial, &group->equations, &group->extension, &group->state);
+    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*sensitivities)[static_cast<std::size_t>(group->range.first + k)]);
+  });
+  for (std::size_t k = 0; k < scales->size(); ++k) {
+    const double value = std::abs(parameters[static_cast<std::size_t>(system_.study().tuned[k])]);
+    (*scales)[k] = value > 0.0 ? value : 1.0;
+  }
+}
+
+const Linearization<double>& IdasTangent::linearize(const State<double>& state, double kappa, Equations<double>* equations) {
+  kappa_ = kappa;
+  equations->linearize(state, &derivatives_);
+  groups_.for_each([&](auto* group) {
+    typename std::remove_pointer_t<decltype(group)>::Scalar g(0.0);
+    group->load(state, nullptr);
+    group->equations.residual(group->state, &group->G, &g);
+    if (kappa > 0.0) {
+      group->equations.constraint_errors(group->state, &group->Phi, &group->Phi_rate);
+      for (int row = 0; row < system_.layout().m; ++row)
+        group->G[system_.layout().n + row] += 2.0 * kappa * group->Phi_rate[row] + kappa * kappa * group->Phi[row];
+    }
+    for (int k = 0; k < group->range.count; ++k) {
+      auto column = partial_.col(group->range.first + k);
+      for (Eigen::Index row = 0; row < group->G.size(); ++row) column[row] = group->G[row].v[k];
+      column[group->G.size()] = g.v[k];
+    }
+  });
+  return derivatives_;
+}
+
+// The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) equals the derivative of Phi'' along (q, v + kappa q, a + 2 kappa v
+// + kappa^2 q), because (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
+void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
+  const Layout& layout = system_.layout();
+  directional_derivative(system_, derivatives_, direction, result);
+  if (kappa_ > 0.0) {
+    stabilized_direction_ = direction;
+    stabilized_direction_.v += kappa_ * direction.q;
+    stabilized_direction_.z.head(layout.n) += 2.0 * kappa_ * direction.v + kappa_ * kappa_ * direction.q;
+    directional_derivative(system_, derivatives_, stabilized_direction_, &stabilized_);
+    result->segment(layout.n, layout.m) = stabilized_.segment(layout.n, layout.m);
+  }
+  *result += partial_.col(k);
+}
+
+bool IdasTangent::factor(const State<double>& state, Equations<double>* equations) {
+  linearize(state, 0.0, equations);
+  return matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
+}
+
+void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
+  for (int k = 0; k < count(); ++k) {
+    State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
+    direction.z.setZero();
+    derivative(k, direction, &dG_);
+    matrix_.lu().solve(Out<double>(dG_).first(direction.z.size()));
+    direction.z = -dG_.head(direction.z.size());
+  }
+}
+
+// One evaluation with lanes gives the derivatives of Phi and Phi_q v along (q, v, s)_rho and the parameter together.
+void IdasTangent::correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions) {
+  const Layout& layout = system_.layout();
+  const bool positions = part == &State<double>::q;
+  groups_.for_each([&](auto* group) {
+    group->load(state, directions);
+    group->equations.constraint_errors(group->state, &group->Phi, &group->Phi_rate);
+    for (int k = 0; k < group->range.count; ++k) {
+      dG_.setZero(layout.columns() + 1);
+      for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
+      matrix_.lu().solve(Out<double>(dG_).first(layout.columns()));
+      (*directions)[static_cast<std::size_t>(group->range.first + k)].*part += dG_.head(layout.n);
+    }
+  });
+}
+
+bool IdasTangent::jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
+                       Equations<double>* equations, std::vector<State<double>>* directions) {
+  groups_.for_each([&](auto* group) {
+    group->load(before, directions);
+    group->equations.jump(events, &group->state);
+    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*directions)[static_cast<std::size_t>(group->range.first + k)]);
+  });
+  if (!factor(behind, equations)) return false;
+  solve_rates(directions);
+  return true;
+}
+
+bool IdasTangent::project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) {
+  if (!factor(state, equations)) return false;
+  correct(state, &State<double>::q, directions);
+  correct(state, &State<double>::v, directions);
+  solve_rates(directions);
+  return true;
+}
+
+template <class Function>
+void IdasTangent::differentiate(const Function& function, const State<double>& state, Equations<double>* equations,
+                                std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
+  gradient->setZero(count());
+  if (!factor(state, equations)) {
+    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  solve_rates(directions);
+  groups_.for_each([&](auto* group) {
+    group->load(state, directions);
+    const auto value = function(&group->equations, group->state);
+    for (int k = 0; k < group->range.count; ++k) (*gradient)[group->range.first + k] += value.v[k];
+  });
+}
+
+void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                           Eigen::VectorXd* gradient) {
+  const auto sum = [](auto* of_group, const auto& lanes) { return of_group->terminal(lanes); };
+  differentiate(sum, state, equations, directions, gradient);
+}
+
+void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
+                          Eigen::VectorXd* gradient) {
+  const auto signal = [k](auto* of_group, const auto& lanes) { return of_group->watched(k, lanes); };
+  differentiate(signal, state, equations, directions, gradient);
+}
+
+void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equations<double>* equations,
+                            std::vector<State<double>>* directions, Eigen::MatrixXd* rows) {
+  const std::vector<ResolvedTerm>& terms = part == ObjectivePart::kTerminal ? system_.terminal() : system_.integral();
+  rows->setConstant(count(), static_cast<Eigen::Index>(terms.size()), std::numeric_limits<double>::quiet_NaN());
+  if (!factor(state, equations)) return;
+  solve_rates(directions);
+  groups_.for_each([&](auto* group) {
+    group->load(state, directions);
+    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes = group->residuals[static_cast<std::size_t>(part)];
+    group->equations.residuals(part, group->state, &in_lanes);
+    for (int k = 0; k < group->range.count; ++k)
+      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = in_lanes[term].v[k];
+  });
+}
 
 IdasGradient::IdasGradient(const CompiledSystem& system) : system_(system), integrator_(system), watch_(system), residuals_(system) {}
 

@@ -5,7 +5,7 @@
 
 #include "joints/joint_sweep.h"
 #include "mechanism/constants.h"
-#include "mechanism/driven_tree.h"
+#include "mechanism/coupling.h"
 
 namespace codesign {
 

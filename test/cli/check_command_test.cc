@@ -4,6 +4,7 @@
 #include "cli/slider_crank.h"
 #include "integration/mechanisms.h"
 #include "jobs/json.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
 namespace {
@@ -48,5 +49,49 @@ TEST(CheckCommand, TakesAMechanismAlone) {
   EXPECT_FALSE(object["parameters"].contains("Kp"));
 }
 
+TEST(UrdfCommand, PrintsTheModelAtTheValuesAskedFor) {
+  const Outcome outcome = run_words({"urdf", kModel, kStudy, "--set", "crank_length=0.1"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const RobotDescription robot = read_urdf({"printed", outcome.out});
+  EXPECT_EQ(robot.parameters[0].value, 0.1);
+  // The printed model contains the parameter values: without --set it gives the same simulation.
+  const ScratchFolder folder;
+  const std::string printed = folder.edited("printed.urdf", outcome.out, "<robot", "<robot");
+  const Json there = json_of(run_words({"gradient", kModel, kStudy, "--set", "crank_length=0.1", "--json"}));
+  const Json here = json_of(run_words({"gradient", printed, kStudy, "--json"}));
+  EXPECT_NEAR(here["objective"].get<double>(), there["objective"].get<double>(), 1e-9);
+}
+
+TEST(UrdfCommand, MergesOverlays) {
+  const ScratchFolder folder;
+  const std::string overlay = folder.edited("overlay.urdf",
+                                            "<robot name=\"slider_crank\" xmlns:codesign=\"urn:mechanism_codesign\"><joint "
+                                            "name=\"J\"><dynamics damping=\"0.25\"/></joint></robot>",
+                                            "J", "crank_joint");
+  const Outcome outcome = run_words({"urdf", kModel, "--overlay", overlay});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_NE(outcome.out.find("damping=\"0.25\""), std::string::npos);
+}
+
+TEST(UrdfCommand, AlsoAsJson) {
+  const Json object = json_of(run_words({"urdf", kModel, "--json"}));
+  EXPECT_EQ(object["urdf"].get<std::string>(), run_words({"urdf", kModel}).out);
+}
+
+TEST(UrdfCommand, DrawsLinksThatHaveNoVisualIfAskedTo) {
+  const ScratchFolder folder;
+  const std::string bare =
+      folder.edited("bare.urdf",
+                    "<robot name=\"bare\"><link name=\"ground\"/><joint name=\"j\" type=\"continuous\"><parent "
+                    "link=\"ground\"/><child link=\"rod\"/><axis xyz=\"0 1 0\"/></joint><link name=\"rod\"><inertial><origin "
+                    "xyz=\"0 0 -0.5\"/><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" "
+                    "iyz=\"0\"/></inertial></link></robot>",
+                    "<robot", "<robot");
+  EXPECT_EQ(run_words({"urdf", bare}).out.find("<visual"), std::string::npos);
+  EXPECT_NE(run_words({"urdf", bare, "--sticks"}).out.find("<cylinder"), std::string::npos);
+  EXPECT_EQ(run_words({"urdf", kModel, "--sticks"}).out, run_words({"urdf", kModel}).out) << "each link has a visual";
+}
+
 }  // namespace
+
 }  // namespace codesign::cli

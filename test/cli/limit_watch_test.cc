@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "jobs/limit_watch.h"
+#include "jobs/run_recorder.h"
 
 #include <gtest/gtest.h>
 

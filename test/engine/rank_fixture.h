@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/dispatcher.h"
-#include "engine/rank_worker.h"
+#include "engine/mpi_engine.h"
 #include "mechanism_codesign/version.h"
 
 namespace codesign {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "identification/motion_rig.h"
-#include "identification/segment_fit.h"
 #include "identification/segments.h"
 #include "math/differences.h"
 #include "paths.h"

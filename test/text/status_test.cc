@@ -1,12 +1,82 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "mechanism_codesign/status.h"
-
 #include <gtest/gtest.h>
-
+#include <fstream>
 #include <set>
+
+#include "mechanism_codesign/error.h"
+#include "mechanism_codesign/source_text.h"
+#include "mechanism_codesign/status.h"
+#include "mechanism_codesign/warning.h"
+#include "temporary_directory.h"
 
 namespace codesign {
 namespace {
+
+std::string text(const InputFault& fault) { return InputError(fault).what(); }
+
+TEST(InputError, NamesFileLineElementValueAndAllowed) {
+  EXPECT_EQ(text({{"a.urdf", 7}, "<mass>", "the mass is negative", "-1", "> 0"}),
+            "a.urdf:7: <mass>: the mass is negative (value: -1, allowed: > 0)");
+}
+
+TEST(InputError, LeavesOutWhatIsNotKnown) {
+  EXPECT_EQ(text({{"a.urdf", 0}, "", "the file cannot be read", "", ""}), "a.urdf: the file cannot be read");
+  EXPECT_EQ(text({{"", 0}, "duration", "missing", "", ""}), "duration: missing");
+  EXPECT_EQ(text({{"a", 1}, "b", "c", "d", ""}), "a:1: b: c (value: d)");
+  EXPECT_EQ(text({{"a", 1}, "b", "c", "", "e"}), "a:1: b: c (allowed: e)");
+}
+
+TEST(InputError, KeepsTheParts) {
+  const InputError error({{"a.urdf", 7}, "<mass>", "m", "-1", "> 0"});
+  EXPECT_EQ(error.fault().where.line, 7);
+  EXPECT_EQ(error.fault().value, "-1");
+}
+
+TEST(Warning, ReadsLikeAnErrorAboutTheSamePlace) {
+  const InputFault fault{{"arm.urdf", 7}, "<limit>", "lower is above upper, so that nothing is bounded", "1 > -1", "lower <= upper"};
+  const Warning warning = warn("limit_order", fault);
+  EXPECT_EQ(warning.code, "limit_order");
+  EXPECT_EQ(warning.message, InputError(fault).what());
+  EXPECT_EQ(warning.where.file, "arm.urdf");
+  EXPECT_EQ(warning.where.line, 7);
+}
+
+TEST(Warning, IsKeptOnce) {
+  Warnings warnings{{"a", "one", {}}};
+  append({{"a", "one", {}}, {"a", "two", {}}, {"b", "one", {}}}, &warnings);
+  ASSERT_EQ(warnings.size(), 3U);
+  EXPECT_EQ(warnings[1].message, "two");
+  EXPECT_EQ(warnings[2].code, "b");
+}
+
+std::string complaint_about(const std::string& path) {
+  try {
+    read_source(path);
+    return "";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().where.file, path);
+    return error.fault().message;
+  }
+}
+
+TEST(SourceText, HasThePathAsItsName) {
+  const TemporaryDirectory folder;
+  const std::string path = (folder.path() / "a.urdf").string();
+  std::ofstream(path) << "<robot/>\n";
+  const SourceText text = read_source(path);
+  EXPECT_EQ(text.name, path);
+  EXPECT_EQ(text.text, "<robot/>\n");
+}
+
+TEST(SourceText, WhatIsNoFileIsNamed) {
+  const TemporaryDirectory folder;
+  EXPECT_NE(complaint_about((folder.path() / "none").string()).find("no such file"), std::string::npos);
+  EXPECT_NE(complaint_about(folder.path().string()).find("folder"), std::string::npos);
+  const std::string empty = (folder.path() / "empty").string();
+  std::ofstream{empty};
+  EXPECT_NE(complaint_about(empty).find("empty"), std::string::npos);
+  EXPECT_NE(complaint_about("/dev/zero").find("too large"), std::string::npos) << "a device without end";
+}
 
 TEST(Status, OnlySuccessIsOk) {
   EXPECT_TRUE(Status().ok());
@@ -24,4 +94,5 @@ TEST(Status, EveryCodeHasANameOfItsOwn) {
 }
 
 }  // namespace
+
 }  // namespace codesign

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "description/laws.h"
+#include "description/robot.h"
 #include "mechanism_codesign/parameter.h"
 #include "reading/xml/xml_document.h"
 

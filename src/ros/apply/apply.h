@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "jobs/finished_job.h"
 #include "jobs/robot_gains.h"
+#include "jobs/saved_result.h"
 #include "ros/apply/gain_ramp.h"
 #include "ros/apply/robot_watch.h"
 

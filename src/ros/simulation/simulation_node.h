@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "integration/interactive_simulation.h"
-#include "jobs/limit_watch.h"
+#include "jobs/run_recorder.h"
 #include "problem/load_problem.h"
 #include "ros/common/node_state.h"
 #include "ros/simulation/command_inbox.h"

@@ -1,11 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "sensitivity/idas_tangent.h"
-
 #include <gtest/gtest.h>
 
 #include "equations/equations.h"
 #include "equations/formulas.h"
 #include "integration/servo.h"
+#include "sensitivity/idas_gradient.h"
 
 namespace codesign {
 namespace {
@@ -127,4 +126,5 @@ TEST_F(IdasTangentTest, ProjectedDirectionsAreTangentToTheConstraints) {
 }
 
 }  // namespace
+
 }  // namespace codesign

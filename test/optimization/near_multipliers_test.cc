@@ -1,10 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "optimization/multipliers.h"
-
 #include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include "optimization/near_multipliers.h"
 
 namespace codesign {
 namespace {
@@ -126,4 +125,5 @@ TEST(Multipliers, ACancelEndsThemWithTheirSigns) {
 }
 
 }  // namespace
+
 }  // namespace codesign

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <complex>
 
-#include "forces/actuation.h"
+#include "forces/control_law.h"
 #include "math/differences.h"
 
 namespace codesign {
