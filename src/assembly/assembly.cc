@@ -9,6 +9,7 @@
 #include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
 #include "equations/mass_solution.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 
 namespace codesign {
@@ -37,11 +38,11 @@ Assembly::Assembly(const CompiledSystem& system)
   const Topology& topology = system.topology();
   const std::vector<int>& dropped = system.dropped_rows();
   for (int row : loops_.constraint_rows()) drops_.push_back(std::binary_search(dropped.begin(), dropped.end(), row));
-  const auto size = static_cast<std::size_t>(tree_.size);
+  const auto size = to_index(tree_.size);
   follows_.assign(size, false);
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
-    followers_.push_back(tree_.offset[static_cast<std::size_t>(topology.couplings[k].terms.front().joint)]);
-    follows_[static_cast<std::size_t>(followers_.back())] = true;
+    followers_.push_back(tree_.offset[to_index(topology.couplings[k].terms.front().joint)]);
+    follows_[to_index(followers_.back())] = true;
   }
   const GivenStart given(system, tree_);
   position_given_ = given.position;
@@ -61,7 +62,7 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   theta_rate_.setZero(tree_.size);
   for (const InitialJointState& initial : system_.study().initial_state) {
     const int joint = tree_joint(system_.robot(), initial);
-    if (joint >= 0 && initial.guess) theta_[tree_.offset[static_cast<std::size_t>(joint)]] = *initial.guess;
+    if (joint >= 0 && initial.guess) theta_[tree_.offset[to_index(joint)]] = *initial.guess;
   }
   if (guess_.size() > 0) theta_ = guess_;
   if (guess_.size() == 0 && origin_.nudge.size() > 0) theta_ += origin_.nudge;
@@ -75,11 +76,11 @@ void Assembly::follow_couplings(const Constants<double>& constants) {
     for (std::size_t k = 0; k < couplings.size(); ++k) {
       double position = constants.couplings[k].offset, rate = 0.0;
       for (std::size_t t = 1; t < couplings[k].terms.size(); ++t) {
-        const int c = tree_.offset[static_cast<std::size_t>(couplings[k].terms[t].joint)];
+        const int c = tree_.offset[to_index(couplings[k].terms[t].joint)];
         position -= constants.couplings[k].coefficients[t] * theta_[c];
         rate -= constants.couplings[k].coefficients[t] * theta_rate_[c];
       }
-      const auto follower = static_cast<std::size_t>(followers_[k]);
+      const auto follower = to_index(followers_[k]);
       if (!position_given_[follower] && !guess_given_[follower]) theta_[followers_[k]] = position;
       if (!velocity_given_[follower]) theta_rate_[followers_[k]] = rate;
     }
@@ -90,7 +91,7 @@ void Assembly::by_preference(const std::vector<bool>& given, ColumnPreferences* 
   if (lists->size() < 2) lists->resize(2);
   for (std::vector<int>& list : *lists) list.clear();
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = static_cast<std::size_t>(c); !given[k]) (*lists)[follows_[k] ? 0 : 1].push_back(c);
+    if (const auto k = to_index(c); !given[k]) (*lists)[follows_[k] ? 0 : 1].push_back(c);
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
@@ -103,7 +104,7 @@ void Assembly::place(const std::vector<double>& parameters, Equations<double>* e
 void Assembly::take_loop_rows() {
   loops_.take_part(work_.errors, &work_.rows);
   for (std::size_t k = 0; k < drops_.size(); ++k)
-    if (drops_[k] && !all_rows_count_) work_.rows(static_cast<Eigen::Index>(k), 0) = 0.0;
+    if (drops_[k] && !all_rows_count_) work_.rows(to_signed(k), 0) = 0.0;
 }
 
 void Assembly::scale_loops(const std::vector<double>& parameters, const Equations<double>& equations) {
@@ -111,7 +112,7 @@ void Assembly::scale_loops(const std::vector<double>& parameters, const Equation
   loops_.evaluate(parameters, theta_, equations, &work_.motion, &loops.unscaled);
   loops_.scales(loops.unscaled, equations, &work_.motion, &loops.scales);
   for (std::size_t k = 0; k < drops_.size(); ++k)
-    if (drops_[k] && !all_rows_count_) loops.scales.rows[static_cast<Eigen::Index>(k)] = 0.0;
+    if (drops_[k] && !all_rows_count_) loops.scales.rows[to_signed(k)] = 0.0;
   loops.matrix = loops.unscaled;
   for (int c = 0; c < tree_.size; ++c)
     for (SparseMatrix::InnerIterator entry(loops.matrix, c); entry; ++entry)
@@ -136,7 +137,7 @@ const Eigen::MatrixXd& Assembly::Dependents::solve(const Eigen::MatrixXd& rows, 
                                                    LeastSquaresWorkspace* workspace) const {
   *scaled = scales.rows.asDiagonal() * rows;
   Eigen::MatrixXd& x = inverse.solve(*scaled, workspace);
-  for (std::size_t k = 0; k < columns.size(); ++k) x.row(static_cast<Eigen::Index>(k)) *= scales.columns[columns[k]];
+  for (std::size_t k = 0; k < columns.size(); ++k) x.row(to_signed(k)) *= scales.columns[columns[k]];
   return x;
 }
 
@@ -163,7 +164,7 @@ const Eigen::MatrixXd& Assembly::newton_step(const std::vector<double>& paramete
 double Assembly::largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const {
   double largest = 0.0;
   for (std::size_t k = 0; k < free.size(); ++k)
-    if (!follows_[static_cast<std::size_t>(free[k])]) largest = std::max(largest, std::abs(step(static_cast<Eigen::Index>(k), 0)));
+    if (!follows_[to_index(free[k])]) largest = std::max(largest, std::abs(step(to_signed(k), 0)));
   return largest;
 }
 
@@ -183,7 +184,7 @@ Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations
     previous = error;
     const Eigen::MatrixXd& step = newton_step(parameters, *equations, free, rank_tolerance);
     const double largest = largest_turn(free, step), shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
-    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step(static_cast<Eigen::Index>(k), 0);
+    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step(to_signed(k), 0);
     if (step.size() == 0 || (error >= closed && step.cwiseAbs().maxCoeff() < kAtRest * size)) break;
   }
   if (previous < closed) return Rest::kClosed;
@@ -298,7 +299,7 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
     if (position_given_[k]) work_.not_open[k] = true;
   by_preference(work_.not_open, &preferences);
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = static_cast<std::size_t>(c); position_given_[k] && !velocity_given_[k]) preferences[2].push_back(c);
+    if (const auto k = to_index(c); position_given_[k] && !velocity_given_[k]) preferences[2].push_back(c);
   scale_loops(parameters, *equations);
   by_preference(position_given_, &work_.positions);
   choose(work_.positions, &positions_);
@@ -306,10 +307,10 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
   work_.enforced = work_.loops.unscaled;
   for (int c = 0; c < tree_.size; ++c)
     for (SparseMatrix::InnerIterator entry(work_.enforced, c); entry; ++entry)
-      if (drops_[static_cast<std::size_t>(entry.row())]) entry.valueRef() *= 0.0;
+      if (drops_[to_index(entry.row())]) entry.valueRef() *= 0.0;
   work_.rows.noalias() = work_.enforced * theta_rate_;
   const Eigen::MatrixXd& step = velocities_.solve(work_.rows, &work_.scaled, &work_.solution);
-  for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step(static_cast<Eigen::Index>(k), 0);
+  for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step(to_signed(k), 0);
   work_.left.noalias() = work_.enforced * theta_rate_;
   if (work_.left.size() > 0 && !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
     return contradiction();

@@ -7,6 +7,7 @@
 #include "assembly/assembly.h"
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "text/number_text.h"
 
@@ -26,7 +27,7 @@ std::string design_text(const MotionStudy& study, const std::vector<double>& par
   constexpr std::size_t kMost = 12;
   std::string text;
   for (std::size_t k = 0; k < std::min(kMost, study.tuned.size()); ++k) {
-    const auto index = static_cast<std::size_t>(study.tuned[k]);
+    const auto index = to_index(study.tuned[k]);
     text += (k > 0 ? ", " : "") + study.parameters[index].name + " = " + readable(parameters[index], 6);
   }
   return text + (study.tuned.size() > kMost ? ", ..." : "");
@@ -74,7 +75,7 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
   for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
     if (!system_.topology().pairs[p].is_loop) continue;
     for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
-      const auto slot = static_cast<std::size_t>(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)));
+      const auto slot = to_index(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)));
       state->turns[slot] = turns[slot];
     }
   }
@@ -165,7 +166,7 @@ bool Assembly::converges_at_once(const std::vector<double>& parameters, Equation
     const double turn = largest_turn(origin_.free, step), change = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
     if (!(turn <= kFirstTurn)) return false;
     if (change <= kAtRest * size || change > kContraction * previous) return error < kClosed * size;
-    for (std::size_t k = 0; k < origin_.free.size(); ++k) theta_[origin_.free[k]] -= step(static_cast<Eigen::Index>(k), 0);
+    for (std::size_t k = 0; k < origin_.free.size(); ++k) theta_[origin_.free[k]] -= step(to_signed(k), 0);
     previous = change;
   }
   return false;
@@ -183,7 +184,7 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters, E
   const Eigen::VectorXd columns = work_.loops.scales.columns;
   std::vector<int> open;
   for (int c : loops_.coordinates())
-    if (const auto k = static_cast<std::size_t>(c); !position_given_[k] && !guess_given_[k] && !follows_[k]) open.push_back(c);
+    if (const auto k = to_index(c); !position_given_[k] && !guess_given_[k] && !follows_[k]) open.push_back(c);
   // All joints in one direction, every other one in the opposite direction, every other pair.
   for (unsigned period = 0; period < 3 && !open.empty() && !cancelled(); ++period) {
     VectorX<double> nudge = VectorX<double>::Zero(tree_.size);
@@ -210,8 +211,8 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters, E
 std::string Assembly::guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const {
   std::string text;
   for (int j : tree_.joint_order) {
-    const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(j)];
-    const int c = tree_.offset[static_cast<std::size_t>(j)];
+    const JointDescription& joint = system_.robot().joints[to_index(j)];
+    const int c = tree_.offset[to_index(j)];
     if (coordinates_of(joint.type) == 1 && std::find(coordinates.begin(), coordinates.end(), c) != coordinates.end())
       text += (text.empty() ? "" : ", ") + joint.name + ": {guess: " + to_decimal(to_four_digits(theta[c])) + "}";
   }
@@ -226,7 +227,7 @@ void Assembly::warn_of_branch(const char* code, const std::string& message, cons
   std::vector<int> moved;
   std::string loop;
   for (int c : origin_.free) {
-    if (follows_[static_cast<std::size_t>(c)] || !(std::abs(theta[c] - other[c]) >= 0.01 * most)) continue;
+    if (follows_[to_index(c)] || !(std::abs(theta[c] - other[c]) >= 0.01 * most)) continue;
     moved.push_back(c);
     const SparseMatrix::InnerIterator entry(work_.loops.unscaled, c);
     if (loop.empty() && entry) loop = loops_.owner(static_cast<int>(entry.row()));
@@ -251,7 +252,7 @@ Status Assembly::contradiction() {
     for (Eigen::Index row = 0; row < left.size(); ++row) {
       if (std::abs(left[row]) < 1e-3 * most) continue;
       loop = loops_.owner(static_cast<int>(row));
-      if (std::abs(work_.enforced.coeff(row, tree_.offset[static_cast<std::size_t>(joint)])) < kTakesPart) continue;
+      if (std::abs(work_.enforced.coeff(row, tree_.offset[to_index(joint)])) < kTakesPart) continue;
       joints += (joints.empty() ? "'" : ", '") + given[k].joint + "'";
       contradicting_.push_back(k);
       break;

@@ -2,6 +2,7 @@
 // The part of Assembly that carries derivatives through a solution, doc/theory.md (20).
 #include "assembly/assembly.h"
 #include "assembly/tree_coordinates.h"
+#include "math/arrays.h"
 #include "math/scalar.h"
 
 namespace codesign {
@@ -14,8 +15,7 @@ void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, Ext
   loops_.take_part(w.errors, &w.rows);
   const Eigen::MatrixXd& step = dependents.solve(w.rows, &w.scaled, &w.solution);
   w.changes.setZero(coordinates->size(), step.cols());
-  for (std::size_t k = 0; k < dependents.columns.size(); ++k)
-    w.changes.row(dependents.columns[k]) = -step.row(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < dependents.columns.size(); ++k) w.changes.row(dependents.columns[k]) = -step.row(to_signed(k));
   add_directions(w.changes, coordinates);
 }
 

@@ -7,6 +7,7 @@
 #include "assembly/assembly.h"
 #include "assembly/redundancy.h"
 #include "description/study.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 
 namespace codesign {
@@ -27,8 +28,8 @@ double size_of(const Forms& forms) {
 
 /// The rows 2 y^T H_k.
 Eigen::MatrixXd gradients(const Forms& forms, const Eigen::VectorXd& y) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(forms.size()), y.size());
-  for (std::size_t k = 0; k < forms.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = 2.0 * (forms[k] * y).transpose();
+  Eigen::MatrixXd rows(to_signed(forms.size()), y.size());
+  for (std::size_t k = 0; k < forms.size(); ++k) rows.row(to_signed(k)) = 2.0 * (forms[k] * y).transpose();
   return rows;
 }
 
@@ -68,7 +69,7 @@ int dimension_at(const Forms& forms, const Eigen::VectorXd& y, int starts) {
   Forms left;
   for (Eigen::Index c = rank; c < rows.rows(); ++c) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(y.size(), y.size());
-    for (std::size_t k = 0; k < forms.size(); ++k) sum += svd.U(static_cast<Eigen::Index>(k), c) * forms[k];
+    for (std::size_t k = 0; k < forms.size(); ++k) sum += svd.U(to_signed(k), c) * forms[k];
     left.push_back(product(transposed_product(tangents, sum), tangents));
   }
   return 1 + dimension(left, tangents.cols(), std::max(4, starts / 4));
@@ -134,11 +135,11 @@ int motions_lost_to_curvature(const std::vector<double>& parameters, const Assem
   const Eigen::Index rank = (values.array() > kRankOfLoops * std::max(values[0], 1e-300)).count();
   const Eigen::MatrixXd N = svd.V.rightCols(J.cols() - rank), U = svd.U.rightCols(J.rows() - rank);
   if (N.cols() == 0 || U.cols() == 0) return 0;
-  Forms forms(static_cast<std::size_t>(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
+  Forms forms(to_index(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
   for (Eigen::Index a = 0; a < N.cols(); ++a) {
     const VectorX<double> ahead = theta + kStep * N.col(a), behind = theta - kStep * N.col(a);
     const Eigen::MatrixXd products = product(transposed_product(U, jacobian(ahead) - jacobian(behind)), N) / (2.0 * kStep);
-    for (Eigen::Index u = 0; u < U.cols(); ++u) forms[static_cast<std::size_t>(u)].row(a) = products.row(u);
+    for (Eigen::Index u = 0; u < U.cols(); ++u) forms[to_index(u)].row(a) = products.row(u);
   }
   for (Eigen::MatrixXd& form : forms) form = Eigen::MatrixXd(0.5 * (form + form.transpose()));
   return static_cast<int>(N.cols()) - dimension_of_cone(forms);

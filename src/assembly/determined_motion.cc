@@ -53,9 +53,9 @@ class Motions {
     std::string rates;
     for (Eigen::Index k = 0; k < motion.size(); ++k)
       if (std::abs(motion[k]) > 1e-6 * size)
-        rates += (rates.empty() ? "" : ", ") + joint_of(coordinates_[static_cast<std::size_t>(k)]).name + ": " +
+        rates += (rates.empty() ? "" : ", ") + joint_of(coordinates_[to_index(k)]).name + ": " +
                  to_decimal(std::round(motion[k] / motion[largest] * 1e6) / 1e6);
-    const int c = coordinates_[static_cast<std::size_t>(largest)];
+    const int c = coordinates_[to_index(largest)];
     const LinkDescription& link = system_.robot().links[to_index(joint_of(c).child)];
     throw InputError({link.inertial ? link.inertial->where : link.where, "<link name=\"" + link.name + "\">",
                       "nothing with inertia resists the link " + direction(c) + ", so that this motion is not determined at the start",
@@ -98,7 +98,7 @@ class Motions {
     V_.resize(all.rows(), pivots.rank);
     for (std::size_t k = 0; k < coordinates_.size(); ++k) {
       place_unit_motion(coordinates_[k], &v);
-      V_.col(static_cast<Eigen::Index>(k)) = v;
+      V_.col(to_signed(k)) = v;
     }
   }
 
@@ -131,7 +131,7 @@ class Motions {
 
   double moved_inertia(Eigen::Index k) const {
     double mass = 0.0;
-    const std::vector<LinkMotion<double>> motions = unit_motion(coordinates_[static_cast<std::size_t>(k)]);
+    const std::vector<LinkMotion<double>> motions = unit_motion(coordinates_[to_index(k)]);
     for (std::size_t b = 0; b < system_.topology().bodies.size(); ++b)
       if (motions[to_index(system_.topology().bodies[b].base_link)].omega.norm() > 0.0)
         mass += std::abs(equations_->constants().bodies[b].mass);
@@ -188,7 +188,7 @@ std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& sys
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < count; ++row)
     for (int e = G_z.first(first + row); e < G_z.first(first + row + 1); ++e)
-      if (G_z.column(e) < system.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[static_cast<std::size_t>(e)]);
+      if (G_z.column(e) < system.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[to_index(e)]);
   return entries;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "math/arrays.h"
 #include "sparse/least_squares.h"
 #include "system/tree_kinematics.h"
 
@@ -57,10 +58,10 @@ class LoopJacobian {
   template <class All, class Part>
   void take_part(const All& all, Part* part) const {
     part->resize(rows(), all.cols());
-    for (int k = 0; k < rows(); ++k) part->row(k) = all.row(constraint_rows_[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < rows(); ++k) part->row(k) = all.row(constraint_rows_[to_index(k)]);
   }
   /// Name of the loop or coupling that row `row` of this matrix belongs to.
-  const std::string& owner(int row) const { return owners_[static_cast<std::size_t>(row)]; }
+  const std::string& owner(int row) const { return owners_[to_index(row)]; }
   /// Coordinates that a loop or coupling depends on, ascending; the others have empty columns.
   const std::vector<int>& coordinates() const { return coordinates_; }
 
@@ -75,7 +76,7 @@ class LoopJacobian {
   LoopScales scales(const SparseMatrix& jacobian, const Equations<double>& equations) const;
 
   /// The number of loops and couplings, in this order.
-  std::size_t owners() const { return loops_.size() + static_cast<std::size_t>(rows() - first_coupling_row_); }
+  std::size_t owners() const { return loops_.size() + to_index(rows() - first_coupling_row_); }
   /// The closure error of a loop or coupling, from constraint errors Phi (all m rows).
   LoopMiss miss(std::size_t owner, const VectorX<double>& errors, const Equations<double>& equations) const;
 
@@ -104,7 +105,7 @@ class LoopJacobian {
   /// Power of length in the unit of a loop's row: 0 for an angle, 1 for a position [m], 2 for half a squared distance [m^2].
   static int power(const Loop& loop, int within, const Equations<double>& equations);
   void add_row(int row, const std::string& owner);
-  bool slides(int coordinate) const { return slides_[static_cast<std::size_t>(coordinate)]; }
+  bool slides(int coordinate) const { return slides_[to_index(coordinate)]; }
 
   const CompiledSystem& system_;
   const TreeLayout& tree_;

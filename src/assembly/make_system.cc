@@ -9,6 +9,7 @@
 #include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
 #include "description/study.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
@@ -26,10 +27,10 @@ InputFault fault_of(const CompiledSystem& system, std::string_view name) {
     if (coupling.name == name) return {coupling.where, coupling.element(), "", "", ""};
   for (const Pair& pair : system.topology().pairs)
     for (const ChainElement& element : pair.chain)
-      if (const JointDescription& loop = system.robot().joints[static_cast<std::size_t>(element.joint)]; pair.name == name && loop.is_loop)
+      if (const JointDescription& loop = system.robot().joints[to_index(element.joint)]; pair.name == name && loop.is_loop)
         return {loop.where, loop.element(), "", "", ""};
   const int root = system.robot().root;
-  return {system.robot().links[static_cast<std::size_t>(root)].where, "initial_state", "", "", ""};
+  return {system.robot().links[to_index(root)].where, "initial_state", "", "", ""};
 }
 
 /// Throws for a start whose positions or velocities contradict a loop or coupling.
@@ -89,7 +90,7 @@ bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
 
 std::string name_list(const RobotDescription& robot, const std::vector<int>& joints) {
   std::string text;
-  for (int joint : joints) text += (text.empty() ? "'" : ", '") + robot.joints[static_cast<std::size_t>(joint)].name + "'";
+  for (int joint : joints) text += (text.empty() ? "'" : ", '") + robot.joints[to_index(joint)].name + "'";
   return text;
 }
 
@@ -101,7 +102,7 @@ std::string advice_text(const RobotDescription& robot, const std::vector<Release
   std::string text;
   bool in_tree = false;
   for (const Release& release : releases) {
-    const JointDescription& joint = robot.joints[static_cast<std::size_t>(release.joint)];
+    const JointDescription& joint = robot.joints[to_index(release.joint)];
     in_tree = in_tree || !joint.is_loop;
     text += (text.empty() ? "'" : " and '") + joint.name +
             "' as codesign:" + (release.type == JointType::kSpherical ? "spherical" : "cylindrical");
@@ -119,7 +120,7 @@ Warning undetermined_friction(const CompiledSystem& system, const Redundancy& re
   const double effect = starts ? effect_of_sharing(system, redundancy, start.state, &start.equations) : -1.0;
   const std::vector<Release> releases = releases_for_friction(system, redundancy, start.state, &start.equations);
   const RobotDescription& robot = system.robot();
-  const JointDescription& first = robot.joints[static_cast<std::size_t>(redundancy.chosen_joints.front())];
+  const JointDescription& first = robot.joints[to_index(redundancy.chosen_joints.front())];
   std::string message = "friction of " + name_list(robot, redundancy.chosen_joints) +
                         " depends on reactions that are not unique, because their loops have redundant constraints; ";
   message += effect >= 0.0 && effect < kNoEffect

@@ -72,8 +72,8 @@ class Search {
       const bool plane = pairs[p].kind->is_plane();
       for (int row = first; row < (plane ? first + 1 : end); ++row) rows.push_back(row);
     }
-    friction_.resize(static_cast<Eigen::Index>(rows.size()), basis_.cols());
-    for (std::size_t k = 0; k < rows.size(); ++k) friction_.row(static_cast<Eigen::Index>(k)) = basis_.row(rows[k]);
+    friction_.resize(to_signed(rows.size()), basis_.cols());
+    for (std::size_t k = 0; k < rows.size(); ++k) friction_.row(to_signed(k)) = basis_.row(rows[k]);
   }
 
   Eigen::MatrixXd removed_by(const std::vector<std::size_t>& set) const {
@@ -128,7 +128,7 @@ class Search {
     if (!determines(set)) return {};
     for (std::size_t k = set.size(); k-- > 0;) {
       std::vector<std::size_t> without = set;
-      without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+      without.erase(without.begin() + to_signed(k));
       if (determines(without)) set.swap(without);
     }
     return set;

@@ -53,7 +53,7 @@ SparseMatrix rows_as_columns(const Eigen::SparseMatrix<double, Eigen::RowMajor>&
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(A, rows[k]); entry; ++entry)
       entries.emplace_back(place.emplace(entry.col(), static_cast<int>(place.size())).first->second, static_cast<int>(k), entry.value());
-  SparseMatrix result(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(rows.size()));
+  SparseMatrix result(to_signed(place.size()), to_signed(rows.size()));
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
@@ -95,7 +95,7 @@ class TestMotion {
   void add(const Eigen::VectorXd& step, const LoopScales& scales, VectorX<double>* theta) const {
     for (std::size_t k = 0; k < loops_.coordinates().size(); ++k) {
       const int c = loops_.coordinates()[k];
-      (*theta)[c] += scales.columns[c] * step[static_cast<Eigen::Index>(k)];
+      (*theta)[c] += scales.columns[c] * step[to_signed(k)];
     }
   }
 
@@ -113,7 +113,7 @@ class TestMotion {
     Linear l;
     linearize(start, &l);
     const Eigen::VectorXd before = errors(start, l.scales).cwiseAbs();
-    Eigen::VectorXd direction = mixed_numbers(static_cast<Eigen::Index>(loops_.coordinates().size()), kTrials).col(trial);
+    Eigen::VectorXd direction = mixed_numbers(to_signed(loops_.coordinates().size()), kTrials).col(trial);
     direction -= l.inverse.solve(l.matrix * direction);
     const double largest = direction.cwiseAbs().maxCoeff();
     if (largest < 1e-9) return true;
@@ -232,7 +232,7 @@ SparseMatrix loads_of_rows(const CompiledSystem& system, const SparseMatrix& Phi
       const Eigen::Vector3d turn = 0.5 * ground_rate_matrix<double>(q.segment<4>(first + 3)).col(local - 3);
       for (int c = 0; c < 3; ++c) entries.emplace_back(6 * body + 3 + c, static_cast<int>(k), entry.value() * turn[c]);
     }
-  SparseMatrix result(6 * system.layout().bodies, static_cast<Eigen::Index>(rows.size()));
+  SparseMatrix result(6 * system.layout().bodies, to_signed(rows.size()));
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
@@ -269,8 +269,8 @@ void find_undetermined(const CompiledSystem& system, Equations<double>* equation
   const Eigen::MatrixXd answer = balance.solve(Eigen::MatrixXd(-(open * chosen)));
   const double left = (kept * answer + open * chosen).leftCols(kTrials).cwiseAbs().maxCoeff();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(layout.constraints(), chosen.cols());
-  for (std::size_t k = 0; k < redundant.size(); ++k) all.row(redundant[k]) = chosen.row(static_cast<Eigen::Index>(k));
-  for (std::size_t k = 0; k < others.size(); ++k) all.row(others[k]) = answer.row(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < redundant.size(); ++k) all.row(redundant[k]) = chosen.row(to_signed(k));
+  for (std::size_t k = 0; k < others.size(); ++k) all.row(others[k]) = answer.row(to_signed(k));
   Eigen::MatrixXd stress = all.leftCols(kTrials);
   if (units > 0) result->basis = orthonormal(all.rightCols(units));
   result->stress_threshold = kLoaded * stress.cwiseAbs().maxCoeff() + 100.0 * left;

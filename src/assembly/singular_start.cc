@@ -6,6 +6,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "mechanism/constants.h"
 
@@ -81,7 +82,7 @@ bool SingularStart::is_motion(const VectorX<double>& x) {
 // Newton's method on J x = 0 (without the nearly dependent part L L^T J) and L^T (J x)_theta x = 0, with steps of least norm.
 bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
   const Eigen::MatrixXd J = J_ - product(L_, transposed_product(L_, J_));
-  const auto count = static_cast<Eigen::Index>(free.size());
+  const auto count = to_signed(free.size());
   Eigen::MatrixXd A(J.rows() + L_.cols(), count);
   VectorX<double> error(A.rows());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -89,12 +90,12 @@ bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
     error << J * *x, violation(*x);
     if (error.norm() <= 1e-6 * tolerance_) return true;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const VectorX<double> unit = x->norm() * VectorX<double>::Unit(tree_.size, free[static_cast<std::size_t>(k)]);
+      const VectorX<double> unit = x->norm() * VectorX<double>::Unit(tree_.size, free[to_index(k)]);
       const VectorX<double> forward = violation(*x + unit), backward = violation(*x - unit);
-      A.col(k) << J.col(free[static_cast<std::size_t>(k)]), (forward - backward) / (2.0 * x->norm());
+      A.col(k) << J.col(free[to_index(k)]), (forward - backward) / (2.0 * x->norm());
     }
     const VectorX<double> step = LeastNorm(A, 1e-6).solve(error);
-    for (Eigen::Index k = 0; k < count; ++k) (*x)[free[static_cast<std::size_t>(k)]] -= step[k];
+    for (Eigen::Index k = 0; k < count; ++k) (*x)[free[to_index(k)]] -= step[k];
     if (!x->allFinite()) return false;
   }
   return false;
@@ -103,12 +104,12 @@ bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
 bool SingularStart::choose_motion(const std::vector<bool>& held, VectorX<double>* x) {
   std::vector<int> free;
   for (int c = 0; c < tree_.size; ++c)
-    if (!held[static_cast<std::size_t>(c)]) free.push_back(c);
+    if (!held[to_index(c)]) free.push_back(c);
   const VectorX<double> first = *x;
   // The first-order solution may lie between the tangents of two motions, where Newton's method fails: it is then started from both sides.
   for (int attempt = 0; attempt <= 2 * static_cast<int>(free.size()) && attempt <= 8; ++attempt) {
     *x = first;
-    if (attempt > 0) (*x)[free[static_cast<std::size_t>((attempt - 1) / 2)]] += (attempt % 2 == 1 ? 1.0 : -1.0) * first.norm();
+    if (attempt > 0) (*x)[free[to_index((attempt - 1) / 2)]] += (attempt % 2 == 1 ? 1.0 : -1.0) * first.norm();
     if (!free.empty() && solve(free, x)) return true;
   }
   *x = first;

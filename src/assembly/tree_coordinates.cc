@@ -18,9 +18,9 @@ namespace {
 constexpr double kLeastCosine = 1e-6;  // of the second turn of a floating joint, where the first and the third turn about one axis
 
 LinkMotion<double> motion_of(const System& system, const Equations<double>& equations, int link) {
-  const int body = system.topology().link_body[static_cast<std::size_t>(link)];
+  const int body = system.topology().link_body[to_index(link)];
   const BodyKinematics<double>& b = equations.formulas().body(body);
-  const LinkConstants<double>& at = equations.constants().links[static_cast<std::size_t>(link)];
+  const LinkConstants<double>& at = equations.constants().links[to_index(link)];
   LinkMotion<double> motion;
   const Vector3<double> arm = b.A * at.s;
   motion.X = {b.A * at.R, b.r + arm};
@@ -67,10 +67,10 @@ bool floating_coordinates(const JointDescription& joint, const std::vector<doubl
 }
 
 bool scalar_coordinate(const System& system, int joint, int pair, int c, Equations<double>* equations, TreeCoordinates* result) {
-  const std::vector<ChainElement>& chain = system.topology().pairs[static_cast<std::size_t>(pair)].chain;
+  const std::vector<ChainElement>& chain = system.topology().pairs[to_index(pair)].chain;
   for (std::size_t e = 0; e < chain.size(); ++e) {
     if (chain[e].joint != joint) continue;
-    const auto& coordinates = equations->constants().pairs[static_cast<std::size_t>(pair)].coordinates;
+    const auto& coordinates = equations->constants().pairs[to_index(pair)].coordinates;
     if (e >= coordinates.size() || coordinates[e].kind == CoordinateConstants<double>::Kind::kNone) return false;
     const CoordinateMotion<double>& motion = equations->formulas().coordinate(pair, static_cast<int>(e));
     result->theta[c] = motion.position;
@@ -82,13 +82,12 @@ bool scalar_coordinate(const System& system, int joint, int pair, int c, Equatio
 
 bool has_mass_at_both_ends(const System& system, const JointDescription& joint) {
   const std::vector<int>& body = system.topology().link_body;
-  return body[static_cast<std::size_t>(joint.parent)] != Topology::kMassless &&
-         body[static_cast<std::size_t>(joint.child)] != Topology::kMassless;
+  return body[to_index(joint.parent)] != Topology::kMassless && body[to_index(joint.child)] != Topology::kMassless;
 }
 
 /// Sets the flags first .. first + count - 1 if `given`.
 void mark(std::vector<bool>* flags, int first, int count, bool given) {
-  for (int k = 0; given && k < count; ++k) (*flags)[static_cast<std::size_t>(first + k)] = true;
+  for (int k = 0; given && k < count; ++k) (*flags)[to_index(first + k)] = true;
 }
 
 /// Writes a vector in the joint frame to the sliding coordinates of a planar (2) or floating (3) joint.
@@ -112,8 +111,8 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree, const
   result->theta = rest;
   result->rate = VectorX<double>::Zero(rest.size());
   for (int k : tree.joint_order) {
-    const JointDescription& joint = system.robot().joints[static_cast<std::size_t>(k)];
-    const int pair = system.topology().joint_pair[static_cast<std::size_t>(k)], c = tree.offset[static_cast<std::size_t>(k)];
+    const JointDescription& joint = system.robot().joints[to_index(k)];
+    const int pair = system.topology().joint_pair[to_index(k)], c = tree.offset[to_index(k)];
     const int count = coordinates_of(joint.type);
     if (count == 0 || pair < 0) continue;
     if (count == 1) {
@@ -133,16 +132,16 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree, const
 }
 
 GivenStart::GivenStart(const System& system, const TreeLayout& tree) {
-  const auto size = static_cast<std::size_t>(tree.size);
+  const auto size = to_index(tree.size);
   for (std::vector<bool>* flags : {&position, &guess, &velocity}) flags->assign(size, false);
   for (const InitialJointState& initial : system.study().initial_state) {
     const int joint = tree_joint(system.robot(), initial);
     if (joint < 0) continue;
-    const int c = tree.offset[static_cast<std::size_t>(joint)];
+    const int c = tree.offset[to_index(joint)];
     mark(&position, c, 1, initial.position.has_value());
     mark(&guess, c, 1, initial.guess.has_value());
     mark(&velocity, c, 1, initial.velocity.has_value());
-    const bool planar = system.robot().joints[static_cast<std::size_t>(joint)].type == JointType::kPlanar;
+    const bool planar = system.robot().joints[to_index(joint)].type == JointType::kPlanar;
     const int slides = planar ? 2 : 3, turns = planar ? 1 : 3;
     mark(&position, c, slides, initial.translation.has_value());
     mark(&position, c + slides, turns, initial.rotation.has_value());
@@ -156,8 +155,8 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
   for (const InitialJointState& initial : system.study().initial_state) {
     const int index = tree_joint(system.robot(), initial);
     if (index < 0) continue;
-    const JointDescription& joint = system.robot().joints[static_cast<std::size_t>(index)];
-    const int c = tree.offset[static_cast<std::size_t>(index)];
+    const JointDescription& joint = system.robot().joints[to_index(index)];
+    const int c = tree.offset[to_index(index)];
     const bool planar = joint.type == JointType::kPlanar;
     const int slides = planar ? 2 : 3;
     if (initial.position) (*theta)[c] = initial.position->at(parameters);
@@ -174,7 +173,7 @@ template <class T>
 void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s) {
   s->setZero(system.layout().states);
   const std::vector<Quantity>& given = system.study().initial_extra_states;
-  for (std::size_t k = 0; k < given.size(); ++k) (*s)[static_cast<Eigen::Index>(k)] = given[k].at(parameters);
+  for (std::size_t k = 0; k < given.size(); ++k) (*s)[to_signed(k)] = given[k].at(parameters);
 }
 
 #define CODESIGN_INSTANTIATE(T)                                                                                     \

@@ -5,6 +5,7 @@
 #include "cli/table.h"
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
@@ -38,7 +39,7 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
   table.add(std::move(header));
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const double gradient = result.evaluation.gradient[k];
-    std::vector<std::string> row = {names[static_cast<std::size_t>(k)], readable(rho[k]), readable(gradient)};
+    std::vector<std::string> row = {names[to_index(k)], readable(rho[k]), readable(gradient)};
     if (verified) row.insert(row.end(), {readable(result.reference[k]), readable(gradient - result.reference[k])});
     table.add(std::move(row));
   }

@@ -13,6 +13,7 @@
 #include "jobs/optimization_records.h"
 #include "jobs/shown_signals.h"
 #include "jobs/trial_lines.h"
+#include "math/arrays.h"
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
 #include "text/number_text.h"
@@ -25,14 +26,14 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
   Table table;
   table.add({"parameter", "initial", "tuned", "lower", "upper", "gradient"});
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const Parameter& parameter = problem.study().parameters[static_cast<std::size_t>(problem.study().tuned[k])];
-    const auto i = static_cast<Eigen::Index>(k);
+    const Parameter& parameter = problem.study().parameters[to_index(problem.study().tuned[k])];
+    const auto i = to_signed(k);
     table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]), readable(parameter.lower), readable(parameter.upper),
                is_evaluated(problem, result) ? readable(result.gradient[i]) : "not evaluated"});
   }
   table.print(out);
   for (std::size_t k = 0; k < problem.study().constraints.size(); ++k)
-    out << problem.study().constraints[k].text << ": margin " << readable(result.margins[static_cast<Eigen::Index>(k)]) << '\n';
+    out << problem.study().constraints[k].text << ": margin " << readable(result.margins[to_signed(k)]) << '\n';
 }
 
 void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -59,7 +61,7 @@ bool Recording::decide(int a, int b, bool expected, unsigned place) {
     if (turned_ && turned_(place)) outcome = !outcome;
     guards_.push_back({a, b, outcome, known->second});
   }
-  return guards_[static_cast<std::size_t>(known->second)].outcome;
+  return guards_[to_index(known->second)].outcome;
 }
 
 }  // namespace codesign

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 /// Identifies the object that an input of a recording is computed from: an expression, or a function of time. The object keeps its type, so
@@ -53,7 +55,7 @@ class NodeTable {
   /// Fibonacci hashing, then the next place that is empty or has the key.
   Entry& place_of(std::uint64_t key) {
     const std::size_t mask = entries_.size() - 1;
-    std::size_t k = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> 32U) & mask;
+    std::size_t k = to_index((key * 0x9E3779B97F4A7C15U) >> 32U) & mask;
     while (entries_[k].key != 0 && entries_[k].key != key) k = (k + 1) & mask;
     return entries_[k];
   }
@@ -137,7 +139,7 @@ class Recording {
   void refuse() { refused_ = true; }
 
   int size() const { return static_cast<int>(nodes_.size()); }
-  const Node& node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }
+  const Node& node(int k) const { return nodes_[to_index(k)]; }
   const std::vector<Guard>& guards() const { return guards_; }
   /// The index among guards() of each decision, also of those that were made before, in turn.
   const std::vector<int>& decisions() const { return decisions_; }

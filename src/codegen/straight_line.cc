@@ -38,7 +38,7 @@ constexpr int kNone = -1;
 /// rule). Reads are numbered from 0 in the order of the sums.
 class RowRegisters {
  public:
-  RowRegisters(const std::vector<Sum>& sums, int count) : held_(static_cast<std::size_t>(count)) {
+  RowRegisters(const std::vector<Sum>& sums, int count) : held_(to_index(count)) {
     for (const Sum& sum : sums) {
       if (sum.start.array >= 0) add_read(sum.start);
       for (const Sum::Product& product : sum.products) add_read(product.row);
@@ -143,7 +143,7 @@ class SumsCode final : public StraightLine, private MachineCode {
 
  private:
   Xbyak::Address row(const Place& place, int block) {
-    const RowLayout& layout = layouts_[static_cast<std::size_t>(place.array)];
+    const RowLayout& layout = layouts_[to_index(place.array)];
     return yword[base(place.array) + 8 * (layout.stride * place.index + layout.offset) + 32 * block];
   }
 
@@ -262,7 +262,7 @@ class SumsCode final : public StraightLine, private MachineCode {
 std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts,
                                                     std::size_t most_bytes) {
   std::size_t operations = 64;
-  for (const Sum& sum : sums) operations += 8 + (1 + static_cast<std::size_t>(width + 3) / 4) * sum.products.size();
+  for (const Sum& sum : sums) operations += 8 + (1 + to_index(width + 3) / 4) * sum.products.size();
   const std::size_t bytes = kBytesPerOperation * operations;
   if (bytes > most_bytes || !MachineCode::can_run()) return nullptr;
   try {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codegen/value_program.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -67,7 +68,7 @@ class LazyStraightLine {
   /// @param sums () -> std::vector<Sum>, the same at every call.
   template <class Sums>
   const StraightLine* get(const Sums& sums, int width) {
-    Compiled& compiled = compiled_[static_cast<std::size_t>(width / 4)];
+    Compiled& compiled = compiled_[to_index(width / 4)];
     if (allowed_ && !compiled.tried) compiled = {true, StraightLine::compile(sums(), width)};
     return compiled.code.get();
   }

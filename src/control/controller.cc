@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "description/motion_study.h"
+#include "math/arrays.h"
 #include "mechanism/topology.h"
 #include "text/number_text.h"
 
@@ -57,7 +58,7 @@ class Resolver {
         if (robot_.joints[j].name == controller.output && topology_.joint_pair[j] == term.pair) return true;
       return false;
     };
-    return std::any_of(study_.controllers.begin() + static_cast<std::ptrdiff_t>(k), study_.controllers.end(), drives);
+    return std::any_of(study_.controllers.begin() + to_signed(k), study_.controllers.end(), drives);
   }
 
   void resolve_signals(std::size_t k) {
@@ -93,7 +94,7 @@ class Resolver {
   /// The rate of an integral is the error only if nothing clamps or samples it.
   bool is_plain_integral(const SignalReference& term) const {
     if (term.kind != SignalKind::kControllerIntegral) return true;
-    const ControlRealization& realization = study_.controllers[static_cast<std::size_t>(term.controller)].realization;
+    const ControlRealization& realization = study_.controllers[to_index(term.controller)].realization;
     return !realization.antiwindup && !realization.is_sampled();
   }
 
@@ -181,7 +182,7 @@ class Resolver {
   }
 
   bool needs_integral(int k, const std::vector<Signal>& observed) const {
-    if (!study_.controllers[static_cast<std::size_t>(k)].i.is_zero()) return true;
+    if (!study_.controllers[to_index(k)].i.is_zero()) return true;
     const auto integral = [k](const Signal& signal) { return reads(signal, SignalKind::kControllerIntegral, k); };
     return std::any_of(observed.begin(), observed.end(), integral) ||
            std::any_of(controllers_.begin(), controllers_.end(), [&integral](const Controller& other) {
@@ -207,8 +208,8 @@ class Resolver {
   }
 
   bool has_rotor(int pair) const {
-    const int joint = topology_.pairs[static_cast<std::size_t>(pair)].chain.front().joint;
-    const auto& actuator = robot_.joints[static_cast<std::size_t>(joint)].actuator;
+    const int joint = topology_.pairs[to_index(pair)].chain.front().joint;
+    const auto& actuator = robot_.joints[to_index(joint)].actuator;
     return actuator && !actuator->rotor_inertia.is_zero();
   }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "codegen/number_types.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -234,9 +235,9 @@ ReferenceMotion<T> ShapedInput<T>::at(double t) const {
   const BasisWeights weights = basis_weights(*basis_, t);
   ReferenceMotion<T> motion;
   for (int k = 0; k < weights.count; ++k) {
-    const T& coefficient = coefficients_[static_cast<std::size_t>(weights.first + k)];
-    motion.value += T(weights.value[static_cast<std::size_t>(k)]) * coefficient;
-    motion.rate += T(weights.rate[static_cast<std::size_t>(k)]) * coefficient;
+    const T& coefficient = coefficients_[to_index(weights.first + k)];
+    motion.value += T(weights.value[to_index(k)]) * coefficient;
+    motion.rate += T(weights.rate[to_index(k)]) * coefficient;
   }
   return motion;
 }

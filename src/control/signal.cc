@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism/topology.h"
 
@@ -45,8 +46,8 @@ const std::map<std::string, SignalKind>& mechanism_kinds() {
                                   const Topology& topology) {
   std::string allowed;
   for (const ChainElement& element : pair.chain) {
-    const JointDescription& other = robot.joints[static_cast<std::size_t>(element.joint)];
-    if (topology.link_body[static_cast<std::size_t>(other.child)] == Topology::kMassless) continue;
+    const JointDescription& other = robot.joints[to_index(element.joint)];
+    if (topology.link_body[to_index(other.child)] == Topology::kMassless) continue;
     allowed = other.name + "/" + term.quantity + "/" + term.component + ", in the frame of that joint";
   }
   throw InputError({signal.where, "signal",
@@ -58,17 +59,17 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
                               const Topology& topology) {
   SignalReference reference;
   reference.kind = joint_kinds().at(term.quantity);
-  reference.pair = topology.joint_pair[static_cast<std::size_t>(joint)];
+  reference.pair = topology.joint_pair[to_index(joint)];
   if (reference.pair < 0)
     throw InputError(
         {signal.where, "signal", "the joint moves only a link without <inertial>, so it has no dynamics to read", signal.text, ""});
-  const Pair& pair = topology.pairs[static_cast<std::size_t>(reference.pair)];
+  const Pair& pair = topology.pairs[to_index(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
   if (is_reaction(term)) {
     reference.axis = axis_of(term.component);
-    const int child = robot.joints[static_cast<std::size_t>(joint)].child;
-    if (topology.link_body[static_cast<std::size_t>(child)] == Topology::kMassless) refuse_reaction(term, pair, signal, robot, topology);
+    const int child = robot.joints[to_index(joint)].child;
+    if (topology.link_body[to_index(child)] == Topology::kMassless) refuse_reaction(term, pair, signal, robot, topology);
   }
   if (pair.friction_joint != joint || !slips_isotropically(pair.kind)) return reference;
   if (reference.kind == SignalKind::kJointFriction) reference.kind = SignalKind::kContactFriction;
@@ -85,7 +86,7 @@ SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescr
                    : term.quantity == "orientation" ? SignalKind::kLinkOrientation
                                                     : SignalKind::kLinkAngularVelocity;
   if (reference.kind == SignalKind::kLinkOrientation) reference.axis = term.component == "w" ? 0 : 1 + axis_of(term.component);
-  if (topology.link_body[static_cast<std::size_t>(link)] == Topology::kMassless)
+  if (topology.link_body[to_index(link)] == Topology::kMassless)
     throw InputError(
         {signal.where, "signal", "the link has no <inertial>, so it is folded into a joint and cannot be read", signal.text, ""});
   return reference;

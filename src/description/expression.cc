@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "description/expression_syntax.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -97,8 +98,8 @@ using Complex = std::complex<double>;
 constexpr double kStep = 1e-30;
 
 UsedNumbers<Complex> complex_numbers(In<double> values) {
-  UsedNumbers<Complex> numbers(static_cast<std::size_t>(values.size()));
-  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = values[static_cast<std::ptrdiff_t>(k)];
+  UsedNumbers<Complex> numbers(to_index(values.size()));
+  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = values[to_signed(k)];
   return numbers;
 }
 
@@ -203,15 +204,15 @@ std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> 
         break;
       case Code::kCall: {
         top -= step.count;
-        const Complex value = expression_function_table()[static_cast<std::size_t>(step.index)].law({top, step.count});
+        const Complex value = expression_function_table()[to_index(step.index)].law({top, step.count});
         *top++ = value;
         break;
       }
       case Code::kJumpUnless:
-        if (*--top == 0.0) at = static_cast<std::size_t>(step.index) - 1;
+        if (*--top == 0.0) at = to_index(step.index) - 1;
         break;
       case Code::kJump:
-        at = static_cast<std::size_t>(step.index) - 1;
+        at = to_index(step.index) - 1;
         break;
       default:
         --top;
@@ -241,7 +242,7 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
 Expression::Expression(const std::string& text, const ExpressionScope& scope) : text_(text) {
   ParsedExpression parsed = parse_expression(text, scope);
   dependencies_ = std::move(parsed.dependencies);
-  const auto stack = static_cast<std::size_t>(stack_size(parsed.steps));
+  const auto stack = to_index(stack_size(parsed.steps));
   program_ = std::make_unique<const Program>(Program{std::move(parsed.steps), stack});
 }
 
@@ -258,8 +259,7 @@ std::complex<double> Expression::value(const std::vector<std::complex<double>>& 
 double Expression::derivative(int index, const std::vector<double>& parameters) const {
   const auto found = std::lower_bound(dependencies_.begin(), dependencies_.end(), index);
   if (found == dependencies_.end() || *found != index) return 0.0;
-  return derivative_of(static_cast<std::size_t>(found - dependencies_.begin()),
-                       used<double>(parameters, [](double parameter) { return parameter; }));
+  return derivative_of(to_index(found - dependencies_.begin()), used<double>(parameters, [](double parameter) { return parameter; }));
 }
 
 double Expression::value_of(In<double> values) const { return real_part(program_->evaluate(complex_numbers(values))); }
@@ -267,7 +267,7 @@ double Expression::value_of(In<double> values) const { return real_part(program_
 ValueRange Expression::range(const std::vector<ValueRange>& parameters) const {
   std::vector<ValueRange> values;
   values.reserve(dependencies_.size());
-  for (int index : dependencies_) values.push_back(parameters.at(static_cast<std::size_t>(index)));
+  for (int index : dependencies_) values.push_back(parameters.at(to_index(index)));
   return range_of(program_->steps, values);
 }
 

@@ -128,7 +128,7 @@ class Expression {
   template <class T, class Entry, class Number>
   UsedNumbers<T> used(const std::vector<Entry>& parameters, const Number& number) const {
     UsedNumbers<T> values(dependencies_.size());
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = number(parameters.at(static_cast<std::size_t>(dependencies_[k])));
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = number(parameters.at(to_index(dependencies_[k])));
     return values;
   }
 

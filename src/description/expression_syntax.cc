@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "description/expression.h"
+#include "math/arrays.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -167,7 +168,7 @@ class Parser {
   }
 
   void call(int function, const ExpressionToken& token) {
-    const int wanted = expression_function_table()[static_cast<std::size_t>(function)].count;
+    const int wanted = expression_function_table()[to_index(function)].count;
     scanner_.next();
     int count = 0;
     if (!scanner_.is(")")) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "description/expression.h"
+#include "math/arrays.h"
 #include "math/scalar.h"
 
 namespace codesign {
@@ -25,7 +26,7 @@ Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& par
   const UsedNumbers<double> values = expression.used<double>(parameters, [](const Lanes<N>& parameter) { return parameter.a; });
   Lanes<N> result(expression.value_of(values));
   for (std::size_t k = 0; k < values.size(); ++k)
-    result.v += expression.derivative_of(k, values) * parameters[static_cast<std::size_t>(expression.dependencies()[k])].v;
+    result.v += expression.derivative_of(k, values) * parameters[to_index(expression.dependencies()[k])].v;
   return result;
 }
 /// For recorded equations an expression is an input that is supplied with each design. `parameters` are nodes of the recording; at least

@@ -89,8 +89,8 @@ BasisWeights basis_weights(const BasisDescription& basis, double t) {
   spline_values(basis, span, degree - 1, inside, lower);
   for (int r = 0; r < degree; ++r) {
     const double share = degree * lower[r] / (knot(basis, span + r + 1) - knot(basis, span + r + 1 - degree));
-    weights.rate[static_cast<std::size_t>(r)] -= share;
-    weights.rate[static_cast<std::size_t>(r) + 1] += share;
+    weights.rate[to_index(r)] -= share;
+    weights.rate[to_index(r) + 1] += share;
   }
   return weights;
 }

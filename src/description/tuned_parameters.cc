@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -71,14 +72,12 @@ std::vector<double> parameters_at(const MotionStudy& study, const Eigen::VectorX
 void parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho, std::vector<double>* values) {
   values->clear();
   for (const Parameter& parameter : study.parameters) values->push_back(parameter.value);
-  for (std::size_t k = 0; k < study.tuned.size(); ++k)
-    (*values)[static_cast<std::size_t>(study.tuned[k])] = rho[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < study.tuned.size(); ++k) (*values)[to_index(study.tuned[k])] = rho[to_signed(k)];
 }
 
 Eigen::VectorXd start_of(const MotionStudy& study) {
-  Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
-  for (std::size_t k = 0; k < study.tuned.size(); ++k)
-    rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
+  Eigen::VectorXd rho(to_signed(study.tuned.size()));
+  for (std::size_t k = 0; k < study.tuned.size(); ++k) rho[to_signed(k)] = study.parameters[to_index(study.tuned[k])].value;
   return rho;
 }
 
@@ -119,7 +118,7 @@ std::optional<InputFault> find_missing_bounds(const Parameter& parameter) {
 std::vector<std::string> tuned_names(const MotionStudy& study) {
   std::vector<std::string> names;
   names.reserve(study.tuned.size());
-  for (int index : study.tuned) names.push_back(study.parameters[static_cast<std::size_t>(index)].name);
+  for (int index : study.tuned) names.push_back(study.parameters[to_index(index)].name);
   return names;
 }
 

@@ -3,6 +3,7 @@
 
 #include "elements/loads.h"
 #include "elements/state_view.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

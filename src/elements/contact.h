@@ -9,6 +9,7 @@
 #include "forces/bristles.h"
 #include "forces/friction_curves.h"
 #include "joints/coordinate.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -33,7 +34,7 @@ struct ContactFriction {
   /// Speed of the joint's point [m/s], or |omega| of a ball [rad/s].
   T speed() const {
     Vector3<T> rate = Vector3<T>::Zero();
-    for (std::size_t k = 0; k < reported; ++k) rate[static_cast<Eigen::Index>(k)] = motion[k].rate;
+    for (std::size_t k = 0; k < reported; ++k) rate[to_signed(k)] = motion[k].rate;
     return length_of<T, 3>(rate);
   }
   /// Magnitude of the friction force [N], or of the friction torque of a ball [N m].
@@ -45,7 +46,7 @@ struct ContactFriction {
   /// Power that friction takes from the motion, L . rates [W].
   T power() const {
     T sum(0.0);
-    for (std::size_t k = 0; k < size; ++k) sum += load[static_cast<Eigen::Index>(k)] * motion[k].rate;
+    for (std::size_t k = 0; k < size; ++k) sum += load[to_signed(k)] * motion[k].rate;
     return sum;
   }
 };
@@ -63,7 +64,7 @@ template <class T>
 ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   ContactSlip<T> slip;
   for (std::size_t k = 0; k < pair.slip.coordinates.size(); ++k) {
-    const auto e = static_cast<Eigen::Index>(k);
+    const auto e = to_signed(k);
     slip.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, CoordinateDetail::kRate);
     slip.arm[e] = pair.slip.arm[k];
     slip.u[e] = slip.arm[e] * slip.motion[k].rate;
@@ -139,7 +140,7 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
   const Vector3<T> load = bristle ? Vector3<T>(contact.normal * bristle_law<T>(*bristle, slip.u, view.state->s, f).mu)
                                   : isotropic_friction<T, 3>(slip.u, contact.normal, sigma);
   for (std::size_t k = 0; k < contact.size; ++k) {
-    const auto e = static_cast<Eigen::Index>(k);
+    const auto e = to_signed(k);
     contact.load[e] = slip.arm[e] * load[e] + constants.slip.viscous[k] * contact.motion[k].rate;
   }
   return contact;
@@ -149,7 +150,7 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
 template <class T>
 void contact_residual(const StateView<T>& view, Workspace<T>* workspace, int pair, VectorX<T>* G) {
   const ContactFriction<T> c = contact_at(view, pair);
-  for (std::size_t k = 0; k < c.size; ++k) add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[static_cast<Eigen::Index>(k)]), G);
+  for (std::size_t k = 0; k < c.size; ++k) add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[to_signed(k)]), G);
 }
 
 }  // namespace codesign

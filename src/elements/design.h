@@ -6,6 +6,7 @@
 #include "control/controller.h"
 #include "control/reference.h"
 #include "joints/pair_rows.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "system/system.h"
 

@@ -3,6 +3,7 @@
 
 #include "elements/controllers.h"
 #include "elements/joint_load.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -7,6 +7,7 @@
 #include "elements/loads.h"
 #include "elements/state_view.h"
 #include "forces/compliance.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -9,6 +9,7 @@
 #include "elements/loads.h"
 #include "elements/pair.h"
 #include "elements/state_view.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -9,6 +9,7 @@
 #include "forces/compliance.h"
 #include "forces/control_law.h"
 #include "forces/friction_curves.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -3,6 +3,7 @@
 
 #include "elements/state_view.h"
 #include "forces/compliance.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "elements/state_view.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

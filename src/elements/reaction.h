@@ -6,6 +6,7 @@
 #include "elements/joint_load.h"
 #include "elements/state_view.h"
 #include "joints/pair_rows.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -152,7 +153,7 @@ template <class T>
 T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
   const ContactFriction<T> c = contact_at(view, axis.pair);
   T value(0.0);
-  for (std::size_t k = 0; k < c.size; ++k) value += load_reaction(view, axis, c.motion[k].J, T(c.load[static_cast<Eigen::Index>(k)]));
+  for (std::size_t k = 0; k < c.size; ++k) value += load_reaction(view, axis, c.motion[k].J, T(c.load[to_signed(k)]));
   return value;
 }
 

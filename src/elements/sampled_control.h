@@ -4,6 +4,7 @@
 #include "control/control_clock.h"
 #include "control/sampled_pid.h"
 #include "elements/controllers.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -3,6 +3,7 @@
 
 #include "elements/pair.h"
 #include "elements/state_view.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -28,7 +29,7 @@ template <class T>
 void load_sharing(const StateView<T>& view, Workspace<T>* workspace) {
   for (int b = 0; b < view.layout.bodies; ++b) {
     if (view.layout.is_free(b)) continue;
-    BodyKinematics<T>& carrier = workspace->displaced[static_cast<std::size_t>(b)];
+    BodyKinematics<T>& carrier = workspace->displaced[to_index(b)];
     carrier.r = view.body(b).r;
     carrier.A = view.body(b).A;
   }

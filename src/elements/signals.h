@@ -7,6 +7,7 @@
 #include "elements/forest.h"
 #include "elements/reaction.h"
 #include "elements/state_view.h"
+#include "math/arrays.h"
 #include "math/euler_parameters.h"
 
 namespace codesign {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 /// Writes numbers and texts one after another, with the bits that they have in memory. The reader must be a process of the same program on
@@ -27,7 +29,7 @@ class ByteWriter {
   template <class Values>
   void add_numbers(const Values& values) {
     add(static_cast<std::uint64_t>(values.size()));
-    bytes_.append(reinterpret_cast<const char*>(values.data()), static_cast<std::size_t>(values.size()) * sizeof(double));
+    bytes_.append(reinterpret_cast<const char*>(values.data()), to_index(values.size()) * sizeof(double));
   }
   std::string take() { return std::move(bytes_); }
 
@@ -63,7 +65,7 @@ class ByteReader {
   std::size_t count(std::size_t size_of_one) {
     const auto size = get<std::uint64_t>();
     if (size > rest_.size() / size_of_one) fail();
-    return static_cast<std::size_t>(size);
+    return to_index(size);
   }
   std::string_view take(std::size_t size) {
     if (size > rest_.size()) fail();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "math/arrays.h"
 #include "mechanism_codesign/version.h"
 #include "text/cancel.h"
 
@@ -20,7 +21,7 @@ std::string in_seconds(RankTimes::Duration duration) {
 Dispatcher::Dispatcher(Transport* transport, const RankTimes& times) : transport_(transport), times_(times) {
   RankState unheard;
   unheard.heard = unheard.told = Clock::now();
-  ranks_.assign(transport ? static_cast<std::size_t>(transport->ranks()) : 1, unheard);
+  ranks_.assign(transport ? to_index(transport->ranks()) : 1, unheard);
   if (ranks() > 1) thread_ = std::thread([this] { work(); });
 }
 
@@ -135,7 +136,7 @@ void Dispatcher::work() {
     }
     lock.lock();
     const Clock::time_point now = Clock::now();
-    for (const auto& [rank, bytes] : outgoing) ranks_[static_cast<std::size_t>(rank)].told = now;
+    for (const auto& [rank, bytes] : outgoing) ranks_[to_index(rank)].told = now;
     const bool is_quiet = inbox.empty() && outgoing.empty();
     if (!is_quiet) pause.restart(now);
     outgoing.clear();
@@ -162,14 +163,14 @@ void Dispatcher::say_goodbye() {
     if (!envelope) {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     } else if (ByteReader(envelope->bytes).get<MessageKind>() == MessageKind::kGoodbye) {
-      ranks_[static_cast<std::size_t>(envelope->from)].has_left = true;
+      ranks_[to_index(envelope->from)].has_left = true;
       --left;
     }
   }
 }
 
 void Dispatcher::handle(Envelope envelope, Clock::time_point now) {
-  RankState& rank = ranks_[static_cast<std::size_t>(envelope.from)];
+  RankState& rank = ranks_[to_index(envelope.from)];
   rank.heard = now;
   ByteReader reader(envelope.bytes);
   const auto kind = reader.get<MessageKind>();
@@ -187,7 +188,7 @@ void Dispatcher::handle(Envelope envelope, Clock::time_point now) {
 }
 
 void Dispatcher::welcome(int rank, ByteReader* reader) {
-  RankState& state = ranks_[static_cast<std::size_t>(rank)];
+  RankState& state = ranks_[to_index(rank)];
   const Hello theirs = read_hello(reader), ours{kMessageFormat, version(), ""};
   state.host = theirs.host;
   if (theirs.version != ours.version || theirs.format != ours.format) {
@@ -200,7 +201,7 @@ void Dispatcher::welcome(int rank, ByteReader* reader) {
 }
 
 void Dispatcher::take_answer(int rank, std::uint64_t number, std::string bytes) {
-  std::vector<SentTask>& sent = ranks_[static_cast<std::size_t>(rank)].sent;
+  std::vector<SentTask>& sent = ranks_[to_index(rank)].sent;
   const auto place = std::find_if(sent.begin(), sent.end(), [number](const SentTask& one) { return one.number == number; });
   // The answer of a task whose batch has ended already.
   if (place == sent.end()) return;
@@ -212,7 +213,7 @@ void Dispatcher::take_answer(int rank, std::uint64_t number, std::string bytes) 
 }
 
 void Dispatcher::sort_in(int rank) {
-  const std::size_t tasks = ranks_[static_cast<std::size_t>(rank)].sent.size();
+  const std::size_t tasks = ranks_[to_index(rank)].sent.size();
   free_.erase(rank);
   half_free_.erase(rank);
   if (tasks == 0) free_.insert(rank);
@@ -228,7 +229,7 @@ void Dispatcher::hand_out(Outgoing* outgoing) {
 
 void Dispatcher::send_next(int rank, Outgoing* outgoing) {
   const auto [batch, index] = take_next(waiting_.begin());
-  RankState& state = ranks_[static_cast<std::size_t>(rank)];
+  RankState& state = ranks_[to_index(rank)];
   if (state.problems.insert(batch->problem).second) outgoing->emplace_back(rank, problems_.at(batch->problem));
   const std::uint64_t number = next_number_++;
   const EvaluationTask& task = batch->tasks[index];
@@ -240,8 +241,7 @@ void Dispatcher::send_next(int rank, Outgoing* outgoing) {
 void Dispatcher::forget_removed(Outgoing* outgoing) {
   for (const std::uint32_t problem : std::exchange(forgotten_, {}))
     for (int rank = 1; rank < ranks(); ++rank)
-      if (ranks_[static_cast<std::size_t>(rank)].problems.erase(problem) > 0)
-        outgoing->emplace_back(rank, write_numbered(MessageKind::kForget, problem));
+      if (ranks_[to_index(rank)].problems.erase(problem) > 0) outgoing->emplace_back(rank, write_numbered(MessageKind::kForget, problem));
 }
 
 void Dispatcher::watch_cancels(Clock::time_point now, Outgoing* outgoing) {
@@ -264,7 +264,7 @@ void Dispatcher::watch_cancels(Clock::time_point now, Outgoing* outgoing) {
 void Dispatcher::end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* outgoing) {
   drop_waiting(batch);
   for (int rank = 1; rank < ranks(); ++rank)
-    for (const SentTask& task : ranks_[static_cast<std::size_t>(rank)].sent)
+    for (const SentTask& task : ranks_[to_index(rank)].sent)
       if (task.batch == batch) outgoing->emplace_back(rank, write_numbered(MessageKind::kCancel, task.number));
   batch->ping = next_ping_++;
   batch->pinged = now;
@@ -273,13 +273,13 @@ void Dispatcher::end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* ou
 
 void Dispatcher::ping_all(std::uint64_t ping, Outgoing* outgoing) const {
   for (int rank = 1; rank < ranks(); ++rank)
-    if (ranks_[static_cast<std::size_t>(rank)].is_ready) outgoing->emplace_back(rank, write_numbered(MessageKind::kPing, ping));
+    if (ranks_[to_index(rank)].is_ready) outgoing->emplace_back(rank, write_numbered(MessageKind::kPing, ping));
 }
 
 /// The first rank that has not answered a ping, as a status; ok if all have.
 Status Dispatcher::missed_since(std::uint64_t ping) const {
   for (int rank = 1; rank < ranks(); ++rank) {
-    const RankState& state = ranks_[static_cast<std::size_t>(rank)];
+    const RankState& state = ranks_[to_index(rank)];
     if (state.is_ready && state.pong < ping)
       return {StatusCode::kWorkerLost, 0.0, name_of_rank(rank) + " does not answer: it was killed, or its machine cannot be reached"};
   }
@@ -306,7 +306,7 @@ void Dispatcher::watch_ranks(Clock::time_point now, Outgoing* outgoing) {
   watched_ = now;
   if (!transport_->failure().empty()) lose(transport_->failure());
   for (int rank = 1; rank < ranks(); ++rank) {
-    const RankState& state = ranks_[static_cast<std::size_t>(rank)];
+    const RankState& state = ranks_[to_index(rank)];
     const RankTimes::Duration patience = state.is_ready ? times_.silence : times_.first_sign;
     if (now - state.heard > patience)
       lose(name_of_rank(rank) + " has said nothing for " + in_seconds(patience) +
@@ -334,18 +334,18 @@ void Dispatcher::end(RankBatch* batch, const Status& status) {
   if (!batch->ended.ok()) return;
   drop_waiting(batch);
   for (int rank = 1; rank < ranks(); ++rank) {
-    std::vector<SentTask>& sent = ranks_[static_cast<std::size_t>(rank)].sent;
+    std::vector<SentTask>& sent = ranks_[to_index(rank)].sent;
     const auto rest = std::remove_if(sent.begin(), sent.end(), [batch](const SentTask& one) { return one.batch == batch; });
-    batch->done += static_cast<std::size_t>(sent.end() - rest);
+    batch->done += to_index(sent.end() - rest);
     sent.erase(rest, sent.end());
-    if (ranks_[static_cast<std::size_t>(rank)].is_ready) sort_in(rank);
+    if (ranks_[to_index(rank)].is_ready) sort_in(rank);
   }
   batch->ended = status;
   batch->changed.notify_all();
 }
 
 std::string Dispatcher::name_of_rank(int rank) const {
-  const std::string& host = ranks_[static_cast<std::size_t>(rank)].host;
+  const std::string& host = ranks_[to_index(rank)].host;
   return "rank " + std::to_string(rank) + " of " + std::to_string(ranks()) + (host.empty() ? "" : " on host " + host);
 }
 

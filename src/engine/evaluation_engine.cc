@@ -7,6 +7,7 @@
 
 #include "engine/mpi_engine.h"
 #include "engine/thread_engine.h"
+#include "math/arrays.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -19,7 +20,7 @@ void require_engine(const EngineOptions& options, const Dispatcher* ranks) {
   if (ranks == nullptr || ranks->ranks() == 1 || options.kind == EngineKind::kMpi || options.where.file.empty()) return;
   throw InputError({options.where, kElement,
                     "mpirun has started " + std::to_string(ranks->ranks()) + " processes, and the study asks for an engine of one",
-                    kEngineNames[static_cast<std::size_t>(options.kind)], "mpi, no engine at all, or the same command without mpirun"});
+                    kEngineNames[to_index(options.kind)], "mpi, no engine at all, or the same command without mpirun"});
 }
 
 std::unique_ptr<EvaluationEngine> make_engine(const Problem& problem, std::int64_t most_useful, Dispatcher* ranks) {

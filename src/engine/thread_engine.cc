@@ -7,10 +7,12 @@
 #include <thread>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  const std::size_t most = std::min(count, static_cast<std::size_t>(std::max(1, threads)));
+  const std::size_t most = std::min(count, to_index(std::max(1, threads)));
   if (most <= 1) {
     for (std::size_t k = 0; k < count; ++k) work(k);
     return;
@@ -45,7 +47,7 @@ int worker_threads(const EngineOptions& engine) {
 }
 
 ThreadEngine::ThreadEngine(int workers) {
-  threads_.reserve(static_cast<std::size_t>(workers));
+  threads_.reserve(to_index(workers));
   for (int k = 0; k < workers; ++k) threads_.emplace_back([this] { work(); });
 }
 

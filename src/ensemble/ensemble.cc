@@ -6,6 +6,7 @@
 #include <string>
 
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
@@ -41,11 +42,8 @@ Status named(const Status& status, const Scenario& scenario) { return {status.co
 }  // namespace
 
 Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine)
-    : scenarios_(std::move(scenarios)),
-      options_(options),
-      weights_(static_cast<Eigen::Index>(scenarios_.size())),
-      engine_(std::move(engine)) {
-  for (std::size_t k = 0; k < scenarios_.size(); ++k) weights_[static_cast<Eigen::Index>(k)] = scenarios_[k].weight;
+    : scenarios_(std::move(scenarios)), options_(options), weights_(to_signed(scenarios_.size())), engine_(std::move(engine)) {
+  for (std::size_t k = 0; k < scenarios_.size(); ++k) weights_[to_signed(k)] = scenarios_[k].weight;
 }
 
 Ensemble::Ensemble(const Problem& problem, int designs, EngineRecords records)
@@ -98,7 +96,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
 /// The objective of each scenario is finite; sums and squares of them may overflow.
 void Ensemble::check_finite(double time, EnsembleEvaluation* result) const {
   Evaluation& total = result->total;
-  const std::string measure_name = std::string("the measure ") + kRobustMeasureNames[static_cast<std::size_t>(options_.measure)];
+  const std::string measure_name = std::string("the measure ") + kRobustMeasureNames[to_index(options_.measure)];
   if (!std::isfinite(total.objective))
     total.status = {StatusCode::kNonFinite, time, measure_name + " of the scenarios' objectives is not finite, though each of them is"};
   else if (!total.gradient.allFinite() || !total.jacobian_root.allFinite())
@@ -123,11 +121,11 @@ void Ensemble::combine_roots(const std::vector<Evaluation>& members, EnsembleEva
 /// Collects values and gradients. Returns false, with the status of the failure, if a scenario failed that must not fail.
 bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const {
   std::vector<std::size_t> failed;
-  const auto count = static_cast<Eigen::Index>(scenarios_.size());
+  const auto count = to_signed(scenarios_.size());
   result->values.resize(count);
   for (std::size_t k = 0; k < members.size(); ++k) {
     const Evaluation& member = members[k];
-    const auto column = static_cast<Eigen::Index>(k);
+    const auto column = to_signed(k);
     if (!member.status.ok()) {
       const bool interrupted = member.status.is_interrupted();
       // Constraints need the extreme values of every sample, and a failed sample has none.
@@ -160,9 +158,9 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
     result->values.resize(0);
     return false;
   }
-  const auto worst = static_cast<Eigen::Index>(worst_of(members));
+  const auto worst = to_signed(worst_of(members));
   for (std::size_t k : failed) {
-    const auto column = static_cast<Eigen::Index>(k);
+    const auto column = to_signed(k);
     result->values[column] = result->values[worst];
     if (result->gradients.size() > 0) result->gradients.col(column) = result->gradients.col(worst);
   }
@@ -173,7 +171,7 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
        std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
            " scenarios could not be integrated at this design and count as the worst of the others, the first is " +
            named(members[failed.front()].status, scenarios_[failed.front()]).cause + "; narrow what is uncertain, or write failed: refuse",
-       kFailedSamplesNames[static_cast<std::size_t>(options_.failed)], ""}));
+       kFailedSamplesNames[to_index(options_.failed)], ""}));
   return true;
 }
 
@@ -192,7 +190,7 @@ GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, Chec
   check.reference_error.setZero(check.reference.size());
   double worst_of_one = 0.0;
   for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
-    const double factor = all.by_value[static_cast<Eigen::Index>(k)];
+    const double factor = all.by_value[to_signed(k)];
     const Scenario& scenario = ensemble.scenarios()[k];
     if (factor == 0.0) continue;
     const GradientCheck one = check_design(scenario.system, scenario.parameters(rho), method, cancel, check.directions);

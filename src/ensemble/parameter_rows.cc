@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -33,17 +35,15 @@ double ParameterRows::margin(const Row& row, const Eigen::VectorXd& rho, Eigen::
   const std::vector<double> parameters = scenarios_[row.scenario].parameters(rho);
   if (by_rho) {
     by_rho->resize(rho.size());
-    for (std::size_t k = 0; k < study_.tuned.size(); ++k)
-      (*by_rho)[static_cast<Eigen::Index>(k)] = margin.derivative(study_.tuned[k], parameters);
+    for (std::size_t k = 0; k < study_.tuned.size(); ++k) (*by_rho)[to_signed(k)] = margin.derivative(study_.tuned[k], parameters);
   }
   return margin.value(parameters);
 }
 
 Eigen::VectorXd ParameterRows::margins(const Eigen::VectorXd& rho) const {
-  Eigen::VectorXd margins =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(study_.constraints.size()), std::numeric_limits<double>::infinity());
+  Eigen::VectorXd margins = Eigen::VectorXd::Constant(to_signed(study_.constraints.size()), std::numeric_limits<double>::infinity());
   for (const Row& row : rows_) {
-    double& smallest = margins[static_cast<Eigen::Index>(row.constraint)];
+    double& smallest = margins[to_signed(row.constraint)];
     const double one = margin(row, rho, nullptr);
     if (std::isnan(one) || one < smallest) smallest = one;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "sampling/samples.h"
 
 namespace codesign {
@@ -26,7 +27,7 @@ void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vec
   for (std::size_t k = 0; k < uncertain.size(); ++k) {
     if (uncertain[k].parameter < 0) {
       *law = static_cast<int>(row[k]);
-      scenario->friction_law = uncertain[k].laws[static_cast<std::size_t>(*law)];
+      scenario->friction_law = uncertain[k].laws[to_index(*law)];
     } else {
       scenario->values.emplace_back(uncertain[k].parameter, row[k]);
     }
@@ -66,7 +67,7 @@ constexpr std::uint32_t kFresh = 0x9e3779b9u;
 
 std::vector<double> Scenario::parameters(const Eigen::VectorXd& rho) const {
   std::vector<double> parameters = system->parameters(rho);
-  for (const auto& [index, value] : values) parameters[static_cast<std::size_t>(index)] = value;
+  for (const auto& [index, value] : values) parameters[to_index(index)] = value;
   return parameters;
 }
 

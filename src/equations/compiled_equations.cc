@@ -105,7 +105,7 @@ template <class T>
 CompiledEquations<T>& CompiledEquations<T>::holder(EquationFunction function) {
   const EquationPart part = part_of(function);
   if (part == part_) return *this;
-  std::unique_ptr<CompiledEquations>& other = others_[static_cast<std::size_t>(part)];
+  std::unique_ptr<CompiledEquations>& other = others_[to_index(part)];
   if (!other) other = prepared(std::make_unique<CompiledEquations>(system_, part));
   return *other;
 }
@@ -255,7 +255,7 @@ void CompiledEquations<T>::add_transposed(EquationFunction function, const State
     CodeInputs<T>& variant = variants_[current_];
     variant.take_products(system_, parameters_);
     if (std::find(multiplied_.begin(), multiplied_.end(), current_) == multiplied_.end()) multiplied_.push_back(current_);
-    variant.products().add(function, state.t, {rows_.data(), static_cast<std::ptrdiff_t>(rows_.size())}, adjoint);
+    variant.products().add(function, state.t, {rows_.data(), to_signed(rows_.size())}, adjoint);
   }
 }
 
@@ -330,7 +330,7 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state)
 
 template <class T>
 void CompiledEquations<T>::residuals(EquationFunction function, const State<T>& state, std::size_t size, VectorX<T>* residuals) {
-  residuals->resize(static_cast<Eigen::Index>(size));
+  residuals->resize(to_signed(size));
   run(function, state, {*residuals, {}, {}, {}});
 }
 

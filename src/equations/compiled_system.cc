@@ -6,6 +6,7 @@
 
 #include "equations/equation_variants.h"
 #include "equations/recorded_equations.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -41,7 +42,7 @@ bool CompiledSystem::begins_explicitly() const {
 }
 
 const EquationCode* CompiledSystem::equation_code(std::size_t k, EquationPart part) const {
-  return variants_[static_cast<std::size_t>(part)]->at(k, *this, part);
+  return variants_[to_index(part)]->at(k, *this, part);
 }
 
 std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes, EquationPart part) const {
@@ -49,7 +50,7 @@ std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> o
 }
 
 std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant, EquationPart part) const {
-  return variants_[static_cast<std::size_t>(part)]->keep(std::move(variant));
+  return variants_[to_index(part)]->keep(std::move(variant));
 }
 
 }  // namespace codesign

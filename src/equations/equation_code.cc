@@ -29,14 +29,12 @@ Place spread(const Place& place, int lanes) {
   return {place.array, place.index * (lanes + 1)};
 }
 
-VectorX<Traced> vector(const std::vector<Traced>& x) {
-  return Eigen::Map<const VectorX<Traced>>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
+VectorX<Traced> vector(const std::vector<Traced>& x) { return Eigen::Map<const VectorX<Traced>>(x.data(), to_signed(x.size())); }
 
 std::size_t count_functions(const System& system, EquationPart part) {
-  if (part == EquationPart::kSignals) return static_cast<std::size_t>(watched_function(system.watched().size()));
-  if (part != EquationPart::kStart) return static_cast<std::size_t>(EquationFunction::kMotionEnd);
-  return static_cast<std::size_t>(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
+  if (part == EquationPart::kSignals) return to_index(watched_function(system.watched().size()));
+  if (part != EquationPart::kStart) return to_index(EquationFunction::kMotionEnd);
+  return to_index(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
 }
 
 /// Whether a node is an entry of kNumbers: it depends on design, time or a turn reference, not on the state.
@@ -207,7 +205,7 @@ void EquationCode::take_outputs(EquationFunction function, const std::vector<Vec
 
 void EquationCode::take_guards(std::size_t first, std::vector<Recording::Guard>* guards) {
   const Recording& recording = values_.recording;
-  std::vector<int> decisions(recording.decisions().begin() + static_cast<std::ptrdiff_t>(first), recording.decisions().end());
+  std::vector<int> decisions(recording.decisions().begin() + to_signed(first), recording.decisions().end());
   std::sort(decisions.begin(), decisions.end());
   decisions.erase(std::unique(decisions.begin(), decisions.end()), decisions.end());
   for (int decision : decisions) {
@@ -284,7 +282,7 @@ std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, con
 }
 
 const CompiledFunction& EquationCode::function(EquationFunction function, const Scalar& scalar) const {
-  const auto f = static_cast<std::size_t>(function);
+  const auto f = to_index(function);
   Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
   if (!known.made.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -16,6 +16,7 @@
 #include "equations/compiled_system.h"
 #include "equations/equation_function.h"
 #include "equations/mass_solution.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -107,8 +108,8 @@ class EquationCode {
   const std::vector<bool>& outcomes() const { return outcomes_; }
 
  private:
-  RecordedFunction& at(EquationFunction function) { return functions_[static_cast<std::size_t>(function)]; }
-  const RecordedFunction& at(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)]; }
+  RecordedFunction& at(EquationFunction function) { return functions_[to_index(function)]; }
+  const RecordedFunction& at(EquationFunction function) const { return functions_[to_index(function)]; }
   void record_motion(EquationPart part, RecordedEquations* equations);
   void record_signals(RecordedEquations* equations);
   void record_start(RecordedEquations* equations);

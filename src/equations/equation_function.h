@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 /// The two sums of the objective, theory (21): the integrand g and the terminal terms w.
@@ -17,7 +19,7 @@ enum class EquationPart {
   kRates,       ///< kRates and kAccelerations, where simulations differentiate without a program, CompiledSystem::compresses_jacobian()
   kEnd          ///< number of parts
 };
-constexpr auto kEquationParts = static_cast<std::size_t>(EquationPart::kEnd);
+constexpr auto kEquationParts = to_index(EquationPart::kEnd);
 
 /// The recorded functions of Equations, numbered in each part; each enumerator lists the arrays of results, in order.
 enum class EquationFunction : std::size_t {
@@ -42,18 +44,15 @@ enum class EquationFunction : std::size_t {
 
 /// The function of the k-th watched signal, and of kTerminal or a watched signal with its gradient.
 constexpr EquationFunction watched_function(std::size_t k) {
-  return static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kFirstWatched) + 2 * k);
+  return static_cast<EquationFunction>(to_index(EquationFunction::kFirstWatched) + 2 * k);
 }
-constexpr EquationFunction with_gradient(EquationFunction function) {
-  return static_cast<EquationFunction>(static_cast<std::size_t>(function) + 1);
-}
+constexpr EquationFunction with_gradient(EquationFunction function) { return static_cast<EquationFunction>(to_index(function) + 1); }
 
 /// A function of a controller.
 enum class ControllerFunction : std::size_t { kError, kFirstSample, kSample, kEnd };
 constexpr EquationFunction controller_function(int controller, ControllerFunction which) {
-  return static_cast<EquationFunction>(static_cast<std::size_t>(EquationFunction::kFirstController) +
-                                       static_cast<std::size_t>(ControllerFunction::kEnd) * static_cast<std::size_t>(controller) +
-                                       static_cast<std::size_t>(which));
+  return static_cast<EquationFunction>(to_index(EquationFunction::kFirstController) +
+                                       to_index(ControllerFunction::kEnd) * to_index(controller) + to_index(which));
 }
 
 }  // namespace codesign

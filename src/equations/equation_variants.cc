@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& system, EquationPart part) {
@@ -16,7 +18,7 @@ std::size_t EquationVariants::keep(std::unique_ptr<EquationCode> variant) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto known = std::find_if(variants_.begin(), variants_.end(),
                                   [&](const std::unique_ptr<EquationCode>& other) { return other->outcomes() == variant->outcomes(); });
-  const auto index = static_cast<std::size_t>(known - variants_.begin());
+  const auto index = to_index(known - variants_.begin());
   if (known == variants_.end()) variants_.push_back(std::move(variant));
   return index;
 }

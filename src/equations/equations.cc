@@ -5,6 +5,7 @@
 #include "elements/sampled_control.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -32,7 +33,7 @@ const Constants<double>& Equations<double>::constants() const {
 
 template <>
 const PairRows<double>& Equations<double>::rows(int pair) const {
-  return formulas_->view().design.rows[static_cast<std::size_t>(pair)];
+  return formulas_->view().design.rows[to_index(pair)];
 }
 
 // With double, these few values per step come from the formulas: to record them, and to make their code, would take longer than most runs.

@@ -7,6 +7,7 @@
 #include "elements/sharing.h"
 #include "elements/signals.h"
 #include "equations/formulas.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -82,7 +83,7 @@ void Formulas<T>::track_turns(State<T>* state) {
     if (!layout.is_cut(static_cast<int>(p))) continue;
     for (std::size_t e = 0; e < view_.design.constants.pairs[p].coordinates.size(); ++e) {
       const int pair = static_cast<int>(p), element = static_cast<int>(e);
-      state->turns[static_cast<std::size_t>(layout.turn(pair, element))] = view_.coordinate_value(pair, element);
+      state->turns[to_index(layout.turn(pair, element))] = view_.coordinate_value(pair, element);
     }
   }
 }
@@ -102,12 +103,11 @@ void Formulas<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<T
   const bool terminal = part == ObjectivePart::kTerminal;
   const std::vector<ResolvedTerm>& terms = terminal ? view_.system.terminal() : view_.system.integral();
   const ObjectiveNumbers<T>& numbers = terminal ? view_.design.terminal : view_.design.integral;
-  residuals->resize(static_cast<Eigen::Index>(terms.size()));
+  residuals->resize(to_signed(terms.size()));
   for (std::size_t k = 0; k < terms.size(); ++k)
-    (*residuals)[static_cast<Eigen::Index>(k)] =
-        is_less(T(0.0), numbers.weights[k], true)
-            ? T(sqrt(numbers.weights[k]) * signal_error(view_, terms[k].signal, numbers.references[k]))
-            : T(0.0);
+    (*residuals)[to_signed(k)] = is_less(T(0.0), numbers.weights[k], true)
+                                     ? T(sqrt(numbers.weights[k]) * signal_error(view_, terms[k].signal, numbers.references[k]))
+                                     : T(0.0);
 }
 
 template <class T>
@@ -164,7 +164,7 @@ T Formulas<T>::power(PowerKind kind) const {
 
 template <class T>
 T Formulas<T>::setpoint(int controller) const {
-  return view_.design.controllers[static_cast<std::size_t>(controller)].setpoint.at(view_.state->t).value;
+  return view_.design.controllers[to_index(controller)].setpoint.at(view_.state->t).value;
 }
 
 template <class T>

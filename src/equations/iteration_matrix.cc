@@ -7,6 +7,7 @@
 
 #include "codegen/straight_line.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -36,12 +37,12 @@ IterationMatrix::Pattern::Pattern(const CompiledSystem& system) {
   collect(system.patterns().velocity, 1, same, &entries);
   collect(system.patterns().rate, 2, same, &entries);
   std::stable_sort(entries.begin(), entries.end());
-  column_start.assign(static_cast<std::size_t>(layout.columns()) + 1, 0);
+  column_start.assign(to_index(layout.columns()) + 1, 0);
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const Entry& e = entries[k];
     if (k == 0 || entries[k - 1] < e) {
       row_index.push_back(e.row);
-      ++column_start[static_cast<std::size_t>(e.column) + 1];
+      ++column_start[to_index(e.column) + 1];
     }
     std::vector<Source>& list = e.matrix == 2 ? z : e.matrix == 1 ? v : e.column < layout.n ? q : s;
     list.push_back({e.entry, static_cast<int>(row_index.size()) - 1});
@@ -59,10 +60,10 @@ constexpr int kMinusCv = 0, kMinusCq = 1, kMinusCs = 2;
 std::vector<Sum> sums(const IterationMatrix::Pattern& pattern) {
   std::vector<Sum> sums(pattern.row_index.size());
   for (std::size_t slot = 0; slot < sums.size(); ++slot) sums[slot].target = {kValues, static_cast<int>(slot)};
-  for (const auto& source : pattern.z) sums[static_cast<std::size_t>(source.slot)].start = {kRate, source.entry};
+  for (const auto& source : pattern.z) sums[to_index(source.slot)].start = {kRate, source.entry};
   const auto add = [&sums](const std::vector<IterationMatrix::Pattern::Source>& sources, int coefficient, int matrix) {
     for (const auto& source : sources)
-      sums[static_cast<std::size_t>(source.slot)].products.push_back({{kCoefficients, coefficient}, {matrix, source.entry}});
+      sums[to_index(source.slot)].products.push_back({{kCoefficients, coefficient}, {matrix, source.entry}});
   };
   add(pattern.v, kMinusCv, kVelocity);
   add(pattern.q, kMinusCq, kPosition);
@@ -98,8 +99,7 @@ bool IterationMatrix::factor(const Linearization<double>& d, double c_v, double 
 void IterationMatrix::add_up(const Linearization<double>& d, double c_v, double c_q, double c_s) {
   std::fill(values_.begin(), values_.end(), 0.0);
   const auto add = [this](const std::vector<Pattern::Source>& sources, double c, const std::vector<double>& from) {
-    for (const Pattern::Source& source : sources)
-      values_[static_cast<std::size_t>(source.slot)] += c * from[static_cast<std::size_t>(source.entry)];
+    for (const Pattern::Source& source : sources) values_[to_index(source.slot)] += c * from[to_index(source.entry)];
   };
   add(pattern_.z, 1.0, d.rate);
   if (c_v != 0.0) add(pattern_.v, c_v, d.velocity);
@@ -117,7 +117,7 @@ void directional_derivative(const CompiledSystem& system, const Linearization<do
     double sum = row_product(patterns.velocity, d.velocity, row, direction.v) + row_product(patterns.rate, d.rate, row, direction.z);
     for (int e = patterns.position.first(row); e < patterns.position.first(row + 1); ++e) {
       const int column = patterns.position.column(e);
-      sum += d.position[static_cast<std::size_t>(e)] * (column < layout.n ? direction.q[column] : direction.s[column - layout.n]);
+      sum += d.position[to_index(e)] * (column < layout.n ? direction.q[column] : direction.s[column - layout.n]);
     }
     (*result)[row] = sum;
   }
@@ -131,8 +131,7 @@ void subtract_position_product(const CompiledSystem& system, const Linearization
   const Sparsity& pattern = system.patterns().position;
   for (int row = 0; row < system.layout().columns(); ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-      if (pattern.column(e) < system.layout().n)
-        sum[row] -= d.position[static_cast<std::size_t>(e)] * factor * direction[pattern.column(e)];
+      if (pattern.column(e) < system.layout().n) sum[row] -= d.position[to_index(e)] * factor * direction[pattern.column(e)];
 }
 
 }  // namespace codesign

@@ -55,7 +55,7 @@ void put(const Sparsity& pattern, int row, int column, const Traced& value, std:
   const auto entry = std::lower_bound(first, last, column);
   if (entry == last || *entry != column)
     throw std::logic_error("derivative (" + std::to_string(row) + ", " + std::to_string(column) + ") is outside the pattern");
-  (*values)[static_cast<std::size_t>(entry - pattern.column_index.begin())] = value;
+  (*values)[to_index(entry - pattern.column_index.begin())] = value;
 }
 
 using Arrays = EquationArrays;
@@ -126,7 +126,7 @@ std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<
   const auto add = [&](std::size_t row, const Traced& value) {
     if (!value.is_literal()) (*rows)[row] = merged((*rows)[row], dependencies.of(value.node()));
   };
-  for (Eigen::Index row = 0; row < equations.G.size(); ++row) add(static_cast<std::size_t>(row), equations.G[row]);
+  for (Eigen::Index row = 0; row < equations.G.size(); ++row) add(to_index(row), equations.G[row]);
   add(rows->size() - 1, equations.g);
   return recording.places();
 }

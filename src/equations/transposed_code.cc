@@ -150,8 +150,7 @@ DesignProducts::DesignProducts(const System& system, const TransposedCode& code)
     for (std::size_t first = 0; first < found.size(); first += 8) {
       Lane& lane = lanes_.emplace_back();
       lane.function = static_cast<int>(f);
-      lane.tuned.assign(found.begin() + static_cast<std::ptrdiff_t>(first),
-                        found.begin() + static_cast<std::ptrdiff_t>(std::min(first + 8, found.size())));
+      lane.tuned.assign(found.begin() + to_signed(first), found.begin() + to_signed(std::min(first + 8, found.size())));
       if (basis) lane.motion.emplace<ShapedInput<Lanes<8>>>();
     }
   }
@@ -177,8 +176,8 @@ void DesignProducts::add(EquationFunction function, double t, In<double> results
   const TransposedCode::Results& of = code_.results(function);
   std::ptrdiff_t k = 0;
   for (int column : of.columns) adjoint[column] += results[k++];
-  if (!of.timed.empty()) add_timed(of, t, results.subspan(k, static_cast<std::ptrdiff_t>(of.timed.size())));
-  k += static_cast<std::ptrdiff_t>(of.timed.size());
+  if (!of.timed.empty()) add_timed(of, t, results.subspan(k, to_signed(of.timed.size())));
+  k += to_signed(of.timed.size());
   for (int number : of.numbers) sums_[to_index(number)] += results[k++];
 }
 
@@ -186,8 +185,7 @@ void DesignProducts::add_timed(const TransposedCode::Results& of, double t, In<d
   for (auto& orders : orders_) orders.fill(0.0);
   for (std::size_t k = 0; k < of.timed.size(); ++k) {
     const int entry = of.timed[k];
-    orders_[to_index(entry / Recording::kFunctionOrders)][to_index(entry % Recording::kFunctionOrders)] =
-        results[static_cast<std::ptrdiff_t>(k)];
+    orders_[to_index(entry / Recording::kFunctionOrders)][to_index(entry % Recording::kFunctionOrders)] = results[to_signed(k)];
   }
   for (const Lane& lane : lanes_) {
     const auto& [value, rate, acceleration, jerk] = orders_[to_index(lane.function)];
@@ -213,7 +211,7 @@ void DesignProducts::add_to(const std::vector<double>& numbers, Out<double> grad
       if (const int tuned = tuned_of_[to_index(expression.dependencies()[k])]; tuned >= 0)
         gradient[tuned] += by_expression_[e] * expression.derivative_of(k, values);
   }
-  for (std::size_t k = 0; k < timed_.size(); ++k) gradient[static_cast<std::ptrdiff_t>(k)] += timed_[k];
+  for (std::size_t k = 0; k < timed_.size(); ++k) gradient[to_signed(k)] += timed_[k];
 }
 
 }  // namespace codesign

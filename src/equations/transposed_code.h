@@ -37,10 +37,8 @@ class TransposedCode {
   /// entries of theirs.
   const NumberedRecording& numbered() const { return numbered_; }
   /// The code of one function, made by the first call. The weights of the k-th array of results are array kResults + k.
-  const CompiledFunction& function(EquationFunction function, bool interpreted) const {
-    return code(static_cast<std::size_t>(function), interpreted);
-  }
-  const Results& results(EquationFunction function) const { return functions_[static_cast<std::size_t>(function)].results; }
+  const CompiledFunction& function(EquationFunction function, bool interpreted) const { return code(to_index(function), interpreted); }
+  const Results& results(EquationFunction function) const { return functions_[to_index(function)].results; }
 
   /// The number of different numbers of the design by which functions are differentiated.
   std::size_t sums() const { return sums_; }

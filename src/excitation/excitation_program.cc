@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 #include "equations/equations.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -13,9 +14,7 @@ using Kind = LimitedSignal::Kind;
 constexpr double kPerWave = 16.0;       // number of effort samples in the shortest wave
 constexpr Eigen::Index kDenseness = 4;  // factor for the number of samples of positions, velocities and accelerations, which are cheap
 
-Eigen::Index samples_of(const TrajectoryBasis& basis) {
-  return static_cast<Eigen::Index>(std::ceil(kPerWave * basis.period() / basis.shortest_wave()));
-}
+Eigen::Index samples_of(const TrajectoryBasis& basis) { return static_cast<Eigen::Index>(std::ceil(kPerWave * basis.period() / basis.shortest_wave())); }
 
 bool is_response(const LimitedSignal& signal) { return signal.is_follower || signal.kind == Kind::kEffort; }
 
@@ -58,7 +57,7 @@ Eigen::MatrixXd ExcitationProgram::by_motion(const LimitedSignal& signal, const 
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3 * n, by_z.size());
   const Eigen::VectorXd by_value = by_z / signal.half();
   if (!is_response(signal)) {
-    by.row(static_cast<Eigen::Index>(signal.kind) * n + signal.joint) = by_value;
+    by.row(to_signed(signal.kind) * n + signal.joint) = by_value;
     return by;
   }
   const Eigen::MatrixXd& slopes = !signal.is_follower              ? slopes_.effort
@@ -85,7 +84,7 @@ void ExcitationProgram::evaluate_limits(const DrivePath& dense, bool with_gradie
   value->limits.resize(rows());
   if (with_gradient) value->limits_x.resize(rows(), size());
   for (Eigen::Index row = 0; row < rows(); ++row) {
-    const LimitedSignal& signal = limits_.signals[static_cast<std::size_t>(row)];
+    const LimitedSignal& signal = limits_.signals[to_index(row)];
     const Eigen::VectorXd z = relative_of(signal, dense);
     Eigen::VectorXd by_z;
     value->limits[row] = limit_envelope(z, sharpness_, with_gradient ? &by_z : nullptr);

@@ -7,6 +7,7 @@
 #include "equations/equations.h"
 #include "excitation/information.h"
 #include "excitation/trajectory_space.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -24,7 +25,7 @@ class ExcitationProgram {
                     ExcitedMotion* motion);
 
   Eigen::Index size() const { return space_.size(); }
-  Eigen::Index rows() const { return static_cast<Eigen::Index>(limits_.signals.size()); }
+  Eigen::Index rows() const { return to_signed(limits_.signals.size()); }
   const TrajectorySpace& space() const { return space_; }
   /// Sets the sharpness of the envelopes; a larger value is nearer to the limits.
   void set_sharpness(double sharpness) { sharpness_ = sharpness; }

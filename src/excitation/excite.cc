@@ -30,11 +30,11 @@ Eigen::VectorXd start_positions(const Problem& problem, const std::vector<Measur
   StartWorkspace start(*problem.system(), problem.parameters());
   if (Status status = start.solve_positions(); !status.ok())
     throw InputError({{problem.study().file, 0}, "initial_state", status.cause, "", "a start that can be assembled"});
-  Eigen::VectorXd positions(static_cast<Eigen::Index>(joints.size()));
+  Eigen::VectorXd positions(to_signed(joints.size()));
   for (std::size_t k = 0; k < joints.size(); ++k)
     for (std::size_t joint = 0; joint < problem.robot().joints.size(); ++joint)
       if (problem.robot().joints[joint].name == joints[k].name)
-        positions[static_cast<Eigen::Index>(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
+        positions[to_signed(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
   return positions;
 }
 
@@ -135,7 +135,7 @@ bool Excitation::move_within(Eigen::VectorXd* x) {
 Status Excitation::find_told() {
   const double rate = description_.sample_rate;
   const std::vector<double> times =
-      times_in_period(description_.period, std::min<Eigen::Index>(400, static_cast<Eigen::Index>(description_.period * rate)));
+      times_in_period(description_.period, std::min<Eigen::Index>(400, to_signed(description_.period * rate)));
   const SampledShapes shapes(space_.basis(), times);
   Eigen::MatrixXd stacked(0, variables_.size());
   for (int k = -1; k < kTold; ++k) {
@@ -178,7 +178,7 @@ Status Excitation::record(const Eigen::VectorXd& x, TrajectoryPoints* points, Ei
 
 void Excitation::set_numbers(const ParameterCovariance& known, double PredictedNumber::*deviation, double PredictedNumber::*half) {
   for (std::size_t k = 0; k < result_.numbers.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
+    const auto i = to_signed(k);
     result_.numbers[k].*deviation = std::sqrt(known.covariance(i, i));
     result_.numbers[k].*half = known.above[i];
   }
@@ -189,7 +189,7 @@ void Excitation::predict_before() {
   result_.status = record(plain_, &result_.before, &J);
   if (!result_.status.ok()) return;
   for (Eigen::Index k = 0; k < variables_.size(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const auto i = to_index(k);
     PredictedNumber number;
     number.name = variables_.names()[i];
     number.unit = variables_.units()[i];

@@ -84,7 +84,7 @@ ExcitedMotion::ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJ
 
 ExcitedMotion::~ExcitedMotion() = default;
 
-Eigen::Index ExcitedMotion::parameters() const { return static_cast<Eigen::Index>(driven_.system->whole_study().tuned.size()); }
+Eigen::Index ExcitedMotion::parameters() const { return to_signed(driven_.system->whole_study().tuned.size()); }
 
 Status ExcitedMotion::begin(const Eigen::VectorXd& positions) {
   if (Status status = assemble_driven(system_, joints_, driven_, parameters_, positions, &rest_); !status.ok()) return status;
@@ -104,19 +104,19 @@ Status ExcitedMotion::begin(const Eigen::VectorXd& positions) {
 template <class Work>
 Status ExcitedMotion::in_blocks(Eigen::Index samples, const Work& work) {
   const Eigen::Index blocks = (samples + kSamplesInARow - 1) / kSamplesInARow;
-  std::vector<Status> statuses(static_cast<std::size_t>(samples));
+  std::vector<Status> statuses(to_index(samples));
   std::atomic<Eigen::Index> next{0};
   side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t k) {
     for (Eigen::Index block = next++; block < blocks && !is_set(cancel_); block = next++) {
       workers_[k]->forget();
       const Eigen::Index end = std::min(samples, (block + 1) * kSamplesInARow);
       for (Eigen::Index sample = block * kSamplesInARow; sample < end; ++sample)
-        statuses[static_cast<std::size_t>(sample)] = work(sample, workers_[k].get());
+        statuses[to_index(sample)] = work(sample, workers_[k].get());
     }
   });
   if (is_set(cancel_)) return cancelled();
   for (std::size_t sample = 0; sample < statuses.size(); ++sample)
-    if (!statuses[sample].ok()) return at_time_sample(static_cast<Eigen::Index>(sample), statuses[sample]);
+    if (!statuses[sample].ok()) return at_time_sample(to_signed(sample), statuses[sample]);
   return {};
 }
 
@@ -128,8 +128,8 @@ void ExcitedMotion::read(PathWorker* worker, const State<double>& state, Eigen::
   formulas.load(state);
   for (std::size_t k = 0; k < followers_.size(); ++k) {
     const CoordinateMotion<double>& at = formulas.coordinate(followers_[k].pair, followers_[k].element);
-    (*position)(static_cast<Eigen::Index>(k), column) = at.position;
-    (*velocity)(static_cast<Eigen::Index>(k), column) = at.rate;
+    (*position)(to_signed(k), column) = at.position;
+    (*velocity)(to_signed(k), column) = at.rate;
   }
 }
 
@@ -139,7 +139,7 @@ Status ExcitedMotion::respond(const DrivePath& path, bool with_jacobian, PathRes
   response->follower_position.resize(followers(), samples);
   response->follower_velocity.resize(followers(), samples);
   response->jacobian.resize(with_jacobian ? samples * joints() : 0, parameters());
-  states_.resize(static_cast<std::size_t>(samples));
+  states_.resize(to_index(samples));
   PathWorker& first = *workers_.front();
   first.forget();
   State<double> state = rest_;
@@ -148,11 +148,11 @@ Status ExcitedMotion::respond(const DrivePath& path, bool with_jacobian, PathRes
     const Eigen::VectorXd q = path.position.col(sample), v = path.velocity.col(sample), a = path.acceleration.col(sample);
     if (Status status = first.motion.follow({q, v, a}, &state); !status.ok()) return at_time_sample(sample, status);
     read(&first, state, sample, &response->effort, &response->follower_position, &response->follower_velocity);
-    states_[static_cast<std::size_t>(sample)] = state;
+    states_[to_index(sample)] = state;
   }
   if (!with_jacobian) return {};
   return in_blocks(samples, [&](Eigen::Index sample, PathWorker* worker) {
-    return worker->differentiate(states_[static_cast<std::size_t>(sample)], sample * joints(), &response->jacobian);
+    return worker->differentiate(states_[to_index(sample)], sample * joints(), &response->jacobian);
   });
 }
 
@@ -165,11 +165,11 @@ Status ExcitedMotion::differentiate_sample(const DrivePath& path, Eigen::Index s
   worker->jacobian.resize(2 * n, parameters());
   std::array<Eigen::VectorXd, 3> given = {path.position.col(sample), path.velocity.col(sample), path.acceleration.col(sample)};
   for (Eigen::Index direction = 0; direction < 3 * n; ++direction) {
-    double& moved = given[static_cast<std::size_t>(direction / n)][direction % n];
+    double& moved = given[to_index(direction / n)][direction % n];
     const double here = moved, step = kDifference * std::max(1.0, std::abs(here));
     for (Eigen::Index side = 0; side < 2; ++side) {
       moved = side == 0 ? here - step : here + step;
-      worker->state = states_[static_cast<std::size_t>(sample)];
+      worker->state = states_[to_index(sample)];
       if (Status status = worker->motion.solve({given[0], given[1], given[2]}, &worker->state); !status.ok()) return status;
       read(worker, worker->state, side, &worker->effort, &worker->position, &worker->velocity);
       if (!with_jacobian) continue;

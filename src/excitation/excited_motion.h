@@ -9,6 +9,7 @@
 
 #include "identification/driven_system.h"
 #include "identification/effort_tangent.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {
@@ -39,8 +40,8 @@ class ExcitedMotion {
                 std::vector<double> parameters, int threads);
   ~ExcitedMotion();
 
-  Eigen::Index joints() const { return static_cast<Eigen::Index>(joints_.size()); }
-  Eigen::Index followers() const { return static_cast<Eigen::Index>(followers_.size()); }
+  Eigen::Index joints() const { return to_signed(joints_.size()); }
+  Eigen::Index followers() const { return to_signed(followers_.size()); }
   Eigen::Index parameters() const;
 
   /// Assembles the mechanism at positions of the excited joints; motions must begin near these positions.

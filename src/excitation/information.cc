@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "identification/effort_tangent.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "statistics/identifiability.h"
 
@@ -50,7 +51,7 @@ Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step)
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n * samples, variables_.size());
   Eigen::VectorXd efforts(n * samples);
   for (Eigen::Index joint = 0; joint < n; ++joint) {
-    const std::string& name = joints_[static_cast<std::size_t>(joint)];
+    const std::string& name = joints_[to_index(joint)];
     const EffortSensor sensor = variables_.sensor(name, variables_.start());
     const FitVariables::SensorColumns at = variables_.columns(name);
     const RecordedEffort shown = shown_by(sensor, response.effort.row(joint), step);
@@ -70,10 +71,10 @@ Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step)
 }
 
 Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacobian, Eigen::Index samples, double step) const {
-  const auto n = static_cast<Eigen::Index>(joints_.size());
+  const auto n = to_signed(joints_.size());
   ByResponse result{RowJacobian(samples * n, variables_.tuned()), Eigen::MatrixXd::Zero(n, samples)};
   for (Eigen::Index joint = 0; joint < n; ++joint) {
-    const std::string& name = joints_[static_cast<std::size_t>(joint)];
+    const std::string& name = joints_[to_index(joint)];
     const EffortSensor sensor = variables_.sensor(name, variables_.start());
     const FitVariables::SensorColumns at = variables_.columns(name);
     const double by_effort = sensor.start_scale / sensor.scale, weight = 1.0 / noise_[joint];
@@ -91,15 +92,15 @@ Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacob
 }
 
 double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& columns, Eigen::MatrixXd* by_jacobian) {
-  const auto count = static_cast<Eigen::Index>(columns.size());
+  const auto count = to_signed(columns.size());
   if (by_jacobian != nullptr) by_jacobian->setZero(J.rows(), J.cols());
   if (count == 0) return 0.0;
   Eigen::MatrixXd A(J.rows(), count);
   Eigen::VectorXd lengths(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    lengths[k] = J.col(columns[static_cast<std::size_t>(k)]).norm();
+    lengths[k] = J.col(columns[to_index(k)]).norm();
     if (!(lengths[k] > 0.0) || !std::isfinite(lengths[k])) return std::numeric_limits<double>::infinity();
-    A.col(k) = J.col(columns[static_cast<std::size_t>(k)]) / lengths[k];
+    A.col(k) = J.col(columns[to_index(k)]) / lengths[k];
   }
   const Eigen::MatrixXd R = upper_factor(A);
   if (R.diagonal().minCoeff() < kRankThreshold) return std::numeric_limits<double>::infinity();
@@ -107,7 +108,7 @@ double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& c
     Eigen::MatrixXd by_A = A;  // A (A^T A)^-1
     R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(by_A);
     R.transpose().triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(by_A);
-    for (Eigen::Index k = 0; k < count; ++k) by_jacobian->col(columns[static_cast<std::size_t>(k)]) = -2.0 * by_A.col(k) / lengths[k];
+    for (Eigen::Index k = 0; k < count; ++k) by_jacobian->col(columns[to_index(k)]) = -2.0 * by_A.col(k) / lengths[k];
   }
   return -2.0 * (R.diagonal().array().log().sum() + lengths.array().log().sum());
 }

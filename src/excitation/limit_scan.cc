@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include "excitation/trajectory_space.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -33,7 +34,7 @@ double turning_time(const TrajectorySpace& space, const Eigen::VectorXd& coeffic
 }  // namespace
 
 double LimitScan::relative(const ScanPoint& point, std::size_t signal) const {
-  return limits_.signals[signal].relative(point.values[static_cast<Eigen::Index>(signal)]);
+  return limits_.signals[signal].relative(point.values[to_signed(signal)]);
 }
 
 std::vector<double> LimitScan::first_times(const Eigen::VectorXd& x) const {
@@ -61,8 +62,8 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
   PathResponse response;
   if (Status status = motion_.respond(path, false, &response); !status.ok()) return status;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    ScanPoint point{times[k], Eigen::VectorXd(static_cast<Eigen::Index>(limits_.signals.size()))};
+    const auto column = to_signed(k);
+    ScanPoint point{times[k], Eigen::VectorXd(to_signed(limits_.signals.size()))};
     for (std::size_t s = 0; s < limits_.signals.size(); ++s) {
       const LimitedSignal& signal = limits_.signals[s];
       const Eigen::MatrixXd& from = signal.is_follower
@@ -71,7 +72,7 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
                                     : signal.kind == Kind::kPosition ? path.position
                                     : signal.kind == Kind::kVelocity ? path.velocity
                                                                      : path.acceleration;
-      point.values[static_cast<Eigen::Index>(s)] = from(signal.joint, column);
+      point.values[to_signed(s)] = from(signal.joint, column);
     }
     points->push_back(std::move(point));
   }
@@ -115,7 +116,7 @@ LimitScan::Extremes LimitScan::scan(const Eigen::VectorXd& x) {
   }
   extremes.signals.resize(limits_.signals.size());
   for (std::size_t s = 0; s < limits_.signals.size(); ++s) {
-    const auto column = static_cast<Eigen::Index>(s);
+    const auto column = to_signed(s);
     extremes.signals[s] = {points.front().values[column], points.front().values[column]};
     for (const ScanPoint& point : points) {
       extremes.signals[s].lowest = std::min(extremes.signals[s].lowest, point.values[column]);

@@ -24,7 +24,7 @@ struct Ranges {
   std::array<double, 4> upper{kUnlimited, kUnlimited, kUnlimited, kUnlimited};
 
   void narrow(Kind kind, double low, double high) {
-    const auto k = static_cast<std::size_t>(kind);
+    const auto k = to_index(kind);
     lower[k] = std::max(lower[k], low);
     upper[k] = std::min(upper[k], high);
   }
@@ -54,8 +54,8 @@ void require_room(const JointDescription& joint, const Ranges& ranges, const Sou
 void add_signals(const JointDescription& joint, const Ranges& ranges, bool is_follower, std::size_t index, MotionLimits* limits) {
   for (std::size_t k = 0; k < (is_follower ? 2U : 4U); ++k) {
     if (!std::isfinite(ranges.lower[k]) && !std::isfinite(ranges.upper[k])) continue;
-    limits->signals.push_back({static_cast<Kind>(k), is_follower, static_cast<Eigen::Index>(index), ranges.lower[k], ranges.upper[k],
-                               joint.name + "/" + kKindNames[k]});
+    limits->signals.push_back(
+        {static_cast<Kind>(k), is_follower, to_signed(index), ranges.lower[k], ranges.upper[k], joint.name + "/" + kKindNames[k]});
   }
 }
 
@@ -67,7 +67,7 @@ void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimi
   const JointDescription& joint = joint_named(problem.robot(), excited.limits.joint);
   const Ranges ranges = ranges_of(joint, problem.parameters(), &excited.limits);
   require_room(joint, ranges, excited.limits.where, excited.limits.element);
-  if (!std::isfinite(ranges.upper[static_cast<std::size_t>(Kind::kVelocity)]))
+  if (!std::isfinite(ranges.upper[to_index(Kind::kVelocity)]))
     throw InputError({excited.limits.where, excited.limits.element, "the joint has no largest velocity, so that no motion is the best", "",
                       "velocity here, or in <limit> of " + joint.element()});
   add_signals(joint, ranges, false, limits->joints.size(), limits);
@@ -105,10 +105,10 @@ const LimitedSignal* MotionLimits::find(Eigen::Index joint, LimitedSignal::Kind 
 MotionLimits motion_limits(const Problem& problem) {
   MotionLimits limits;
   const std::vector<ExcitedJoint>& excited = problem.study().excitation->joints;
-  limits.noise.resize(static_cast<Eigen::Index>(excited.size()));
+  limits.noise.resize(to_signed(excited.size()));
   for (std::size_t k = 0; k < excited.size(); ++k) {
     add_excited(problem, excited[k], &limits);
-    limits.noise[static_cast<Eigen::Index>(k)] = excited[k].noise;
+    limits.noise[to_signed(k)] = excited[k].noise;
   }
   for (std::size_t index = 0; index < problem.robot().joints.size(); ++index) add_follower(problem, index, &limits);
   return limits;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "equations/equations.h"
+#include "math/arrays.h"
 #include "optimization/algorithm.h"
 
 namespace codesign {
@@ -60,7 +61,7 @@ class TrajectorySearch {
     optimizer.set_upper_bounds({upper.begin(), upper.end()});
     optimizer.set_min_objective(&TrajectorySearch::objective_callback, this);
     optimizer.add_inequality_mconstraint(&TrajectorySearch::limits_callback, this,
-                                         std::vector<double>(static_cast<std::size_t>(program_.rows()), kRowTolerance));
+                                         std::vector<double>(to_index(program_.rows()), kRowTolerance));
     optimizer.set_ftol_abs(kTolerance);
     optimizer.set_maxeval(kMostCalls * evaluations);
     std::vector<double> x(result_.x.begin(), result_.x.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include "excitation/excited_motion.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -30,10 +31,10 @@ std::vector<double> times_in_period(double period, Eigen::Index count) {
 }
 
 SampledShapes::SampledShapes(const TrajectoryBasis& basis, const std::vector<double>& times) {
-  for (Eigen::MatrixXd* part : {&value, &rate, &acceleration}) part->resize(static_cast<Eigen::Index>(times.size()), basis.size());
+  for (Eigen::MatrixXd* part : {&value, &rate, &acceleration}) part->resize(to_signed(times.size()), basis.size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     const TrajectoryBasis::Shapes shapes = basis.at(times[k]);
-    const auto row = static_cast<Eigen::Index>(k);
+    const auto row = to_signed(k);
     value.row(row) = shapes.value;
     rate.row(row) = shapes.rate;
     acceleration.row(row) = shapes.acceleration;

@@ -9,6 +9,7 @@
 
 #include "identification/effort_residuals.h"
 #include "identification/motion_projection.h"
+#include "math/arrays.h"
 #include "observation/observer.h"
 #include "problem/load_problem.h"
 #include "recordings/measured_motion.h"
@@ -31,9 +32,9 @@ struct SimulatedColumns {
 
 SimulatedColumns simulated_columns(const std::vector<OutputFit>& outputs, const std::string& joint) {
   const auto column = [&](MeasuredQuantity quantity) -> Eigen::Index {
-    const std::string name = joint + "/" + kMeasuredQuantityNames[static_cast<std::size_t>(quantity)];
+    const std::string name = joint + "/" + kMeasuredQuantityNames[to_index(quantity)];
     for (std::size_t k = 0; k < outputs.size(); ++k)
-      if (outputs[k].joint == name) return static_cast<Eigen::Index>(k);
+      if (outputs[k].joint == name) return to_signed(k);
     return -1;
   };
   return {column(MeasuredQuantity::kPosition), column(MeasuredQuantity::kVelocity), column(MeasuredQuantity::kEffort)};
@@ -63,25 +64,25 @@ struct Instant {
 std::vector<ShownJoint> shown_joints(const MeasuredMotion& motion, const std::vector<MeasuredJoint>& joints, const FitVariables& variables,
                                      const IdentificationResult& result, const FrameNames& names) {
   std::vector<double> times;
-  times.reserve(static_cast<std::size_t>(motion.times.count));
+  times.reserve(to_index(motion.times.count));
   for (Eigen::Index k = 0; k < motion.times.count; ++k) times.push_back(motion.times.at(k));
   std::vector<ShownJoint> shown;
   for (const MeasuredJoint& joint : joints) {
     const auto of =
         std::find_if(motion.joints.begin(), motion.joints.end(), [&](const JointMotion& each) { return each.joint == joint.name; });
     const auto place = std::find(names.joints.begin(), names.joints.end(), joint.name) - names.joints.begin();
-    shown.push_back({&*of, static_cast<std::size_t>(place), std::nullopt, variables.sensor(joint.name, result.x),
-                     simulated_columns(result.data, joint.name)});
+    shown.push_back(
+        {&*of, to_index(place), std::nullopt, variables.sensor(joint.name, result.x), simulated_columns(result.data, joint.name)});
     if (joint.with_effort) shown.back().effort.emplace(times, std::vector<double>(of->effort.begin(), of->effort.end()));
   }
   return shown;
 }
 
 Eigen::VectorXd positions_at(const MeasuredMotion& motion, const std::vector<MeasuredJoint>& joints, Eigen::Index sample) {
-  Eigen::VectorXd positions(static_cast<Eigen::Index>(joints.size()));
+  Eigen::VectorXd positions(to_signed(joints.size()));
   for (std::size_t k = 0; k < joints.size(); ++k)
     for (const JointMotion& each : motion.joints)
-      if (each.joint == joints[k].name) positions[static_cast<Eigen::Index>(k)] = each.position[sample];
+      if (each.joint == joints[k].name) positions[to_signed(k)] = each.position[sample];
   return positions;
 }
 
@@ -95,7 +96,7 @@ void shift_to_fitted_starts(const FitVariables& variables, const Eigen::VectorXd
 /// Positions at a few instants, from which the drives are chosen.
 Eigen::MatrixXd some_positions(const MeasuredMotion& motion, const std::vector<MeasuredJoint>& joints) {
   constexpr int kInstants = 4;
-  Eigen::MatrixXd some(static_cast<Eigen::Index>(joints.size()), kInstants);
+  Eigen::MatrixXd some(to_signed(joints.size()), kInstants);
   for (int k = 0; k < kInstants; ++k)
     some.col(k) = positions_at(motion, joints, motion.first + k * (motion.end - motion.first - 1) / kInstants);
   return some;
@@ -121,8 +122,7 @@ std::vector<ComparedJoint> compared_joints(const RobotDescription& robot, const 
     if (joint.is_loop || std::none_of(measured.begin(), measured.end(), is_compared)) continue;
     const auto place = std::find(names.joints.begin(), names.joints.end(), joint.name) - names.joints.begin();
     const Eigen::Vector3d axis(joint.axis[0].at(parameters), joint.axis[1].at(parameters), joint.axis[2].at(parameters));
-    joints.push_back(
-        {static_cast<std::size_t>(place), static_cast<std::size_t>(joint.child), axis.normalized(), joint.type != JointType::kPrismatic});
+    joints.push_back({to_index(place), to_index(joint.child), axis.normalized(), joint.type != JointType::kPrismatic});
   }
   return joints;
 }
@@ -140,9 +140,9 @@ std::vector<Instant> instants_of(const MeasuredMotion& motion, const FittedSerie
                                  double rate) {
   std::vector<Instant> instants;
   for (Eigen::Index row = begin; row < end; ++row) {
-    const double time = series.times[static_cast<std::size_t>(row)];
+    const double time = series.times[to_index(row)];
     if (!instants.empty() && time - instants.back().time < 0.999 / rate) continue;
-    const auto sample = static_cast<Eigen::Index>(std::llround((time - motion.times.start) / motion.times.step));
+    const auto sample = to_signed(std::llround((time - motion.times.start) / motion.times.step));
     instants.push_back({time, std::clamp<Eigen::Index>(sample, 0, motion.times.count - 1), row});
   }
   return instants;
@@ -176,16 +176,16 @@ class MotionComparison {
  private:
   void show(const std::vector<ShownJoint>& joints, const Instant& instant, const FittedSeries& series, ComparedRecording* compared) {
     Eigen::VectorXd given[3], simulated[3];
-    for (Eigen::VectorXd& column : given) column.resize(static_cast<Eigen::Index>(joints.size()));
+    for (Eigen::VectorXd& column : given) column.resize(to_signed(joints.size()));
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const auto row = static_cast<Eigen::Index>(j);
+      const auto row = to_signed(j);
       given[0][row] = joints[j].motion->position[instant.sample];
       given[1][row] = joints[j].motion->velocity[instant.sample];
       given[2][row] = joints[j].motion->acceleration[instant.sample];
     }
     for (int order = 0; order < 3; ++order) simulated[order] = given[order];
     for (std::size_t j = 0; j < joints.size() && instant.row >= 0; ++j) {
-      const auto row = static_cast<Eigen::Index>(j);
+      const auto row = to_signed(j);
       const SimulatedColumns& at = joints[j].simulated;
       if (at.position >= 0) simulated[0][row] = series.computed(instant.row, at.position);
       if (at.velocity >= 0) simulated[1][row] = series.computed(instant.row, at.velocity);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identification/effort_residuals.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"
@@ -61,14 +62,13 @@ std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVaria
 }
 
 DriveLineFit fit_of(const EffortEvidence& evidence, std::size_t joint, const Eigen::VectorXd& recorded) {
-  const auto k = static_cast<Eigen::Index>(joint);
+  const auto k = to_signed(joint);
   return fit_drive_line(evidence.computed.col(k), evidence.velocity.col(k), evidence.acceleration.col(k), recorded);
 }
 
 double mean_share(const EffortEvidence& evidence) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < evidence.joints.size(); ++k)
-    sum += fit_of(evidence, k, evidence.recorded.col(static_cast<Eigen::Index>(k))).share;
+  for (std::size_t k = 0; k < evidence.joints.size(); ++k) sum += fit_of(evidence, k, evidence.recorded.col(to_signed(k))).share;
   return sum / static_cast<double>(evidence.joints.size());
 }
 
@@ -80,7 +80,7 @@ void take_if_better(double share, const std::string& mistake, EffortDoubt* doubt
 
 /// Another sign, unit or column of the efforts.
 EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool is_scale_known) {
-  const auto own = static_cast<Eigen::Index>(joint);
+  const auto own = to_signed(joint);
   const DriveLineFit as_recorded = fit_of(evidence, joint, evidence.recorded.col(own));
   EffortDoubt doubt{evidence.joints[joint], as_recorded.share, "", 0.0};
   const double scale = as_recorded.scale;
@@ -96,7 +96,7 @@ EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool
   for (Eigen::Index k = 0; k < evidence.recorded.cols(); ++k)
     for (const double sign : {1.0, -1.0}) {
       if (k == own && sign > 0.0) continue;
-      const std::string other = k == own ? "" : "with the column of " + evidence.joints[static_cast<std::size_t>(k)];
+      const std::string other = k == own ? "" : "with the column of " + evidence.joints[to_index(k)];
       const std::string minus = sign > 0.0 ? "" : k == own ? "with the other sign" : " and the other sign";
       take_if_better(fit_of(evidence, joint, sign * evidence.recorded.col(k)).share, other + minus, &doubt);
     }
@@ -110,7 +110,7 @@ std::vector<JointRecording> renamed(std::vector<JointRecording> recordings, cons
   for (JointRecording& recording : recordings)
     for (JointSamples& samples : recording.joints) {
       const auto found = std::find(joints.begin(), joints.end(), samples.joint);
-      if (found != joints.end()) samples.joint = joints[order[static_cast<std::size_t>(found - joints.begin())]];
+      if (found != joints.end()) samples.joint = joints[order[to_index(found - joints.begin())]];
     }
   return recordings;
 }

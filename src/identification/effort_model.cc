@@ -22,14 +22,14 @@ Status at_sample(int sample, Status status) {
 }
 
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& rows) {
-  Eigen::MatrixXd part(static_cast<Eigen::Index>(rows.size()), all.cols());
-  for (std::size_t k = 0; k < rows.size(); ++k) part.row(static_cast<Eigen::Index>(k)) = all.row(rows[k]);
+  Eigen::MatrixXd part(to_signed(rows.size()), all.cols());
+  for (std::size_t k = 0; k < rows.size(); ++k) part.row(to_signed(k)) = all.row(rows[k]);
   return part;
 }
 
 void require_shape(const MotionSamples& motion, std::size_t joints) {
   for (const Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration})
-    if (part->rows() != static_cast<Eigen::Index>(joints) || part->cols() != motion.position.cols())
+    if (part->rows() != to_signed(joints) || part->cols() != motion.position.cols())
       throw std::invalid_argument("a measured motion needs one row per joint and one column per sample");
   if (motion.begins.empty() || motion.begins.front() != 0 || !std::is_sorted(motion.begins.begin(), motion.begins.end()))
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");
@@ -123,11 +123,11 @@ Status EffortModel::follow(const MotionProjection& projection, int sample, Effor
 void EffortModel::shift(const Eigen::MatrixXd& shifts) {
   for (std::size_t s = 0; s < motion_.shifted.size(); ++s)
     for (std::size_t k = 0; k < motion_.begins.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(s);
+      const auto row = to_signed(s);
       const Eigen::Index first = motion_.begins[k];
       const Eigen::Index count = (k + 1 < motion_.begins.size() ? motion_.begins[k + 1] : Eigen::Index{samples()}) - first;
       auto position = motion_.position.row(motion_.shifted[s]).segment(first, count);
-      position = unshifted_.row(row).segment(first, count).array() + shifts(row, static_cast<Eigen::Index>(k));
+      position = unshifted_.row(row).segment(first, count).array() + shifts(row, to_signed(k));
       position_.row(shifted_drives_[s]).segment(first, count) = position;
     }
 }
@@ -175,7 +175,7 @@ EffortModel::Failure EffortModel::evaluate_block(int block, EffortWorker* worker
 Status EffortModel::evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts, RowJacobian* jacobian) {
   if (!workers_.back()) throw std::logic_error("EffortModel::begin() must succeed before evaluate()");
   efforts->resize(position_.rows(), samples());
-  if (jacobian != nullptr) jacobian->resize(position_.size(), this->parameters() + static_cast<Eigen::Index>(shifted_drives_.size()));
+  if (jacobian != nullptr) jacobian->resize(position_.size(), this->parameters() + to_signed(shifted_drives_.size()));
   const int blocks = (samples() + kBlock - 1) / kBlock;
   std::vector<Failure> failures(to_index(blocks));
   if (Status status = prepare(parameters, workers_.front().get()); !status.ok()) return status;

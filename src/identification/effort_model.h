@@ -10,6 +10,7 @@
 #include "description/study.h"
 #include "identification/driven_system.h"
 #include "identification/effort_tangent.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {
@@ -64,7 +65,7 @@ class EffortModel {
   const Eigen::MatrixXd& velocity() const { return velocity_; }
   const Eigen::MatrixXd& acceleration() const { return acceleration_; }
   /// The whole state of a sample at the design of begin().
-  const State<double>& state(int sample) const { return states_[static_cast<std::size_t>(sample)]; }
+  const State<double>& state(int sample) const { return states_[to_index(sample)]; }
 
   /// Once `cancel` is set (by any thread), begin() and evaluate() end soon with kCancelled. nullptr: no cancellation.
   void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }

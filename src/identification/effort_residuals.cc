@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/arrays.h"
 #include "recordings/measured_motion.h"
 
 namespace codesign {
@@ -76,7 +77,7 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
   model_ = std::make_unique<EffortModel>(system, std::move(joints), samples_of_all(names), threads);
   const std::vector<int>& drives = model_->driven().drives;
   for (std::size_t k = 0; k < drives.size(); ++k) {
-    const auto joint = static_cast<std::size_t>(drives[k]);
+    const auto joint = to_index(drives[k]);
     if (!with_effort[joint]) continue;
     outputs_.push_back(names[joint]);
     drives_.push_back(static_cast<int>(k));
@@ -108,16 +109,15 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
   }
   for (const MeasuredMotion& recording : recordings_) {
     start_columns_.emplace_back();
-    for (int j : samples.shifted)
-      start_columns_.back().push_back(variables_.start_column(recording.element, joints[static_cast<std::size_t>(j)]));
+    for (int j : samples.shifted) start_columns_.back().push_back(variables_.start_column(recording.element, joints[to_index(j)]));
   }
   for (Eigen::MatrixXd* rows : {&samples.position, &samples.velocity, &samples.acceleration})
-    rows->resize(static_cast<Eigen::Index>(joints.size()), begins_.back());
+    rows->resize(to_signed(joints.size()), begins_.back());
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     const MeasuredMotion& recording = recordings_[r];
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const JointMotion& motion = motion_of(recording, joints[j]);
-      const auto row = static_cast<Eigen::Index>(j);
+      const auto row = to_signed(j);
       for (Eigen::Index k = begins_[r]; k < begins_[r + 1]; ++k) {
         const Eigen::Index at = filter_.residual_cutoff > 0.0 ? k - begins_[r] : recording.first + (k - begins_[r]) * recording.every;
         samples.position(row, k) = motion.position[at];
@@ -159,8 +159,7 @@ void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eige
     if (at.offset >= 0) (*columns)(k, 1 + at.offset) = residual.by_effort;
     for (std::size_t s = 0; s < start_columns_[recording].size(); ++s)
       if (const int start = start_columns_[recording][s]; start >= 0)
-        (*columns)(k, 1 + start) =
-            residual.by_effort * model_jacobian_(sample * drives + drive, variables_.tuned() + static_cast<Eigen::Index>(s));
+        (*columns)(k, 1 + start) = residual.by_effort * model_jacobian_(sample * drives + drive, variables_.tuned() + to_signed(s));
   }
 }
 
@@ -175,26 +174,25 @@ Eigen::MatrixXd EffortResiduals::fitted(std::size_t recording, Eigen::MatrixXd* 
 }
 
 void EffortResiduals::record() {
-  recorded_.resize(rows_, static_cast<Eigen::Index>(outputs_.size()));
+  recorded_.resize(rows_, to_signed(outputs_.size()));
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     for (std::size_t o = 0; o < outputs_.size(); ++o) {
       Eigen::MatrixXd columns(begins_[r + 1] - begins_[r], 1);
       for (Eigen::Index k = 0; k < columns.rows(); ++k) columns(k, 0) = efforts_[r][o].at(time(r, k)).value;
       columns *= variables_.sensor(outputs_[o], variables_.start()).start_scale;
-      recorded_.col(static_cast<Eigen::Index>(o)).segment(row, lengths_[r]) = fitted(r, &columns).col(0);
+      recorded_.col(to_signed(o)).segment(row, lengths_[r]) = fitted(r, &columns).col(0);
     }
     row += lengths_[r];
   }
 }
 
 Eigen::MatrixXd EffortResiduals::shifts(const Eigen::VectorXd& x) const {
-  Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(start_columns_.empty() ? 0 : static_cast<Eigen::Index>(start_columns_.front().size()),
-                                                 static_cast<Eigen::Index>(start_columns_.size()));
+  Eigen::MatrixXd shifts =
+      Eigen::MatrixXd::Zero(start_columns_.empty() ? 0 : to_signed(start_columns_.front().size()), to_signed(start_columns_.size()));
   for (Eigen::Index r = 0; r < shifts.cols(); ++r)
     for (Eigen::Index s = 0; s < shifts.rows(); ++s)
-      if (const int column = start_columns_[static_cast<std::size_t>(r)][static_cast<std::size_t>(s)]; column >= 0)
-        shifts(s, r) = x[column] - variables_.start()[column];
+      if (const int column = start_columns_[to_index(r)][to_index(s)]; column >= 0) shifts(s, r) = x[column] - variables_.start()[column];
   return shifts;
 }
 
@@ -229,14 +227,14 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   if (Status placed = place(x); !placed.ok()) return placed;
   Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
   if (!status.ok()) return status;
-  const auto outputs = static_cast<Eigen::Index>(outputs_.size());
+  const auto outputs = to_signed(outputs_.size());
   residuals->resize(rows_, outputs);
   if (jacobian) jacobian->resize(rows_ * outputs, x.size());
   Eigen::Index row = 0;
   Eigen::MatrixXd columns;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     for (std::size_t o = 0; o < outputs_.size(); ++o) {
-      const auto output = static_cast<Eigen::Index>(o);
+      const auto output = to_signed(o);
       fill(r, o, x, jacobian != nullptr, &columns);
       const Eigen::MatrixXd kept = fitted(r, &columns);
       residuals->col(output).segment(row, lengths_[r]) = kept.col(0);
@@ -249,11 +247,11 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
 }
 
 void EffortResiduals::motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::MatrixXd* acceleration) const {
-  velocity->resize(model_->samples(), static_cast<Eigen::Index>(outputs_.size()));
+  velocity->resize(model_->samples(), to_signed(outputs_.size()));
   acceleration->resizeLike(*velocity);
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
-    velocity->col(static_cast<Eigen::Index>(o)) = model_->velocity().row(drives_[o]);
-    acceleration->col(static_cast<Eigen::Index>(o)) = model_->acceleration().row(drives_[o]);
+    velocity->col(to_signed(o)) = model_->velocity().row(drives_[o]);
+    acceleration->col(to_signed(o)) = model_->acceleration().row(drives_[o]);
   }
 }
 
@@ -264,10 +262,10 @@ std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x
   Eigen::MatrixXd residuals;
   for (std::size_t o = 0; o < outputs_.size(); ++o)
     if (const int column = variables_.columns(outputs_[o]).delay; column >= 0)
-      signals.push_back({outputs_[o], column, static_cast<Eigen::Index>(o), 1.0, {}});
+      signals.push_back({outputs_[o], column, to_signed(o), 1.0, {}});
   if (signals.empty() || !evaluate(x, &residuals, nullptr).ok()) return signals;
   for (DelaySignal& signal : signals) {
-    const auto o = static_cast<std::size_t>(std::find(outputs_.begin(), outputs_.end(), signal.joint) - outputs_.begin());
+    const auto o = to_index(std::find(outputs_.begin(), outputs_.end(), signal.joint) - outputs_.begin());
     const EffortSensor sensor = variables_.sensor(signal.joint, x);
     double both = 0.0, slopes = 0.0;
     Eigen::Index row = 0;

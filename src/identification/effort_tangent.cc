@@ -2,6 +2,7 @@
 #include "identification/effort_tangent.h"
 
 #include "description/study.h"
+#include "math/arrays.h"
 
 #include <algorithm>
 #include <utility>
@@ -28,7 +29,7 @@ void EffortTangent<N>::constraint_errors(const State<double>& state) {
   equations_.constraint_errors(state, y_, &Phi_, &Phi_rate_);
   const int parameters = static_cast<int>(system_.whole_study().tuned.size());
   for (int lane = seeded_.count; lane < lanes_.count; ++lane)
-    Phi_(lane, system_.drive_row(shifted_[static_cast<std::size_t>(lanes_.first + lane - parameters)])) -= 1.0;
+    Phi_(lane, system_.drive_row(shifted_[to_index(lanes_.first + lane - parameters)])) -= 1.0;
 }
 
 template <int N>

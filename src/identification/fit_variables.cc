@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "mechanism/mass_properties.h"
 
 namespace codesign {
@@ -33,7 +34,7 @@ void set_weak_prior(const Eigen::VectorXd& start, const std::array<int, 10>& col
   const double mass = find(kFreeInertiaParts[0], kWeak), centre = find(kFreeInertiaParts[1], kWeak),
                moments = find(kFreeInertiaParts[2], kWeak);
   double square = 0.0;  // of the radius of gyration
-  for (int k = 1; k <= 3; ++k) square += std::exp(2.0 * start[columns[static_cast<std::size_t>(k)]]);
+  for (int k = 1; k <= 3; ++k) square += std::exp(2.0 * start[columns[to_index(k)]]);
   const double radius = std::sqrt(square);
   const std::array<double, 10> of_columns{0.5 * mass,       0.5 * moments,    0.5 * moments,   0.5 * moments,   moments * radius,
                                           moments * radius, moments * radius, centre * radius, centre * radius, centre * radius};
@@ -57,7 +58,7 @@ EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort&
 FitVariables::FitVariables(const Study& study, const RobotDescription* robot, std::vector<RecordedSetting> settings)
     : study_(study), settings_(std::move(settings)), names_(tuned_names(study)), start_(start_of(study)) {
   for (int k : study.tuned) {
-    const Parameter& parameter = study.parameters[static_cast<std::size_t>(k)];
+    const Parameter& parameter = study.parameters[to_index(k)];
     units_.push_back(parameter.unit);
     append(parameter.lower, &lower_);
     append(parameter.upper, &upper_);
@@ -101,7 +102,7 @@ int FitVariables::find(const std::string& joint) const {
 
 std::vector<double> FitVariables::parameters(const Eigen::VectorXd& x) const {
   std::vector<double> parameters = parameters_at(study_, x.head(tuned()));
-  for (const RecordedSetting& setting : settings_) parameters[static_cast<std::size_t>(setting.parameter)] = setting.value;
+  for (const RecordedSetting& setting : settings_) parameters[to_index(setting.parameter)] = setting.value;
   return parameters;
 }
 
@@ -115,22 +116,22 @@ Eigen::VectorXd FitVariables::prior_deviations() const {
   Eigen::VectorXd deviations = Eigen::VectorXd::Constant(size(), std::numeric_limits<double>::infinity());
   for (const auto& [link, columns] : free_inertias(names_)) set_weak_prior(start_, columns, find, &deviations);
   for (Eigen::Index k = 0; k < tuned(); ++k)
-    if (const double relative = find(names_[static_cast<std::size_t>(k)], 0.0); relative > 0.0 && start_[k] != 0.0)
+    if (const double relative = find(names_[to_index(k)], 0.0); relative > 0.0 && start_[k] != 0.0)
       deviations[k] = relative * std::abs(start_[k]);
   return deviations;
 }
 
 FitVariables::SensorColumns FitVariables::columns(const std::string& joint) const {
   const int k = find(joint);
-  return k < 0 ? SensorColumns() : columns_[static_cast<std::size_t>(k)];
+  return k < 0 ? SensorColumns() : columns_[to_index(k)];
 }
 
 EffortSensor FitVariables::sensor(const std::string& joint, const Eigen::VectorXd& x) const {
   EffortSensor sensor;
   const int k = find(joint);
   if (k < 0) return sensor;
-  const JointCalibration& calibration = study_.identification->joints[static_cast<std::size_t>(k)];
-  const SensorColumns& columns = columns_[static_cast<std::size_t>(k)];
+  const JointCalibration& calibration = study_.identification->joints[to_index(k)];
+  const SensorColumns& columns = columns_[to_index(k)];
   sensor.scale = at(x, columns.scale, calibration.effort_scale.value);
   sensor.delay = at(x, columns.delay, calibration.delay.value);
   sensor.offset = at(x, columns.offset, calibration.offset.value);

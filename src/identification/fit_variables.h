@@ -9,6 +9,7 @@
 
 #include "description/robot.h"
 #include "description/study.h"
+#include "math/arrays.h"
 #include "math/sampled_function.h"
 
 namespace codesign {
@@ -50,7 +51,7 @@ class FitVariables {
   explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr, std::vector<RecordedSetting> settings = {});
 
   Eigen::Index size() const { return start_.size(); }
-  Eigen::Index tuned() const { return static_cast<Eigen::Index>(study_.tuned.size()); }
+  Eigen::Index tuned() const { return to_signed(study_.tuned.size()); }
   /// `mu_slider`, `elbow_joint/effort_scale`
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<std::string>& units() const { return units_; }  ///< for display; may be empty

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identification/fit_variables.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "statistics/identifiability.h"
 
@@ -60,8 +61,8 @@ LinearNumbers with_inertial_numbers(const std::vector<std::string>& names, const
     const LeastNorm inverse = least_norm(numbers.derivatives.transpose());
     const Eigen::MatrixXd by_numbers = inverse.solve(Eigen::MatrixXd(jacobian(Eigen::all, columns).transpose())).transpose();
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      result.names[static_cast<std::size_t>(columns[k])] = link + "_" + kInertialNames[k];
+      const auto column = to_signed(k);
+      result.names[to_index(columns[k])] = link + "_" + kInertialNames[k];
       result.x[columns[k]] = numbers.values[column];
       result.jacobian.col(columns[k]) = by_numbers.col(column);
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identification/inertial_numbers.h"
+#include "math/arrays.h"
 #include "statistics/parameter_covariance.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
@@ -64,7 +65,7 @@ void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fi
   const Identifiability& found = changed.identifiability;
   result->undetermined = describe_undetermined(found, numbers.names);
   for (Eigen::Index i = 0; i < numbers.x.size(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const auto k = to_index(i);
     const bool is_dependent = std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) != found.dependent.end();
     const bool is_told_alone = found.is_determined[k] && numbers.names[k] == names[k];
     if (is_dependent || is_told_alone || plain.identifiability.dependent.empty()) continue;
@@ -77,8 +78,8 @@ void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fi
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit, IdentificationResult* result) {
   for (Eigen::Index k = 0; k < variables.size(); ++k) {
     IdentifiedNumber number;
-    number.name = variables.names()[static_cast<std::size_t>(k)];
-    number.unit = variables.units()[static_cast<std::size_t>(k)];
+    number.name = variables.names()[to_index(k)];
+    number.unit = variables.units()[to_index(k)];
     number.start = variables.start()[k];
     number.value = number.low = number.high = fit.x[k];
     number.lower = variables.lower()[k];
@@ -102,7 +103,7 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
   std::vector<OutputFit> fits;
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
     OutputFit fit;
-    fit.joint = source.outputs()[static_cast<std::size_t>(k)];
+    fit.joint = source.outputs()[to_index(k)];
     fit.recorded = rms_of(recorded.col(k));
     fit.start = rms_of(start.col(k));
     fit.rms = rms_of(residuals.col(k));
@@ -117,7 +118,7 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
                    const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result) {
   begin_numbers(variables, fit, result);
-  for (const DelaySignal& delay : delays) result->numbers[static_cast<std::size_t>(delay.column)].slope_signal = delay.share;
+  for (const DelaySignal& delay : delays) result->numbers[to_index(delay.column)].slope_signal = delay.share;
   release_undetermined(fit, options.loss, result);
   const std::vector<int> columns = free_columns(*result);
   result->covariance.setZero(variables.size(), variables.size());
@@ -127,15 +128,14 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
       parameter_covariance(weighted.residuals, weighted.jacobian, lengths, options.intervals, fit.own_unknowns);
   std::vector<std::string> names;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    IdentifiedNumber& number = result->numbers[static_cast<std::size_t>(columns[k])];
+    const auto i = to_signed(k);
+    IdentifiedNumber& number = result->numbers[to_index(columns[k])];
     number.is_determined = known.identifiability.is_determined[k];
     number.deviation = std::sqrt(known.covariance(i, i));
     number.low = number.value - known.below[i];
     number.high = number.value + known.above[i];
     names.push_back(number.name);
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      result->covariance(columns[k], columns[j]) = known.covariance(i, static_cast<Eigen::Index>(j));
+    for (std::size_t j = 0; j < columns.size(); ++j) result->covariance(columns[k], columns[j]) = known.covariance(i, to_signed(j));
   }
   result->rank = known.identifiability.rank;
   result->lag = known.lag;
@@ -149,9 +149,9 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
   white.noise = NoiseModel::kWhite;
   const ParameterCovariance plain = covariance_of(fit, options.loss, source->lengths(), white, {}, columns);
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    IdentifiedNumber& number = result->numbers[static_cast<std::size_t>(columns[k])];
+    IdentifiedNumber& number = result->numbers[to_index(columns[k])];
     if (!number.is_determined || is_set(cancel)) continue;
-    const auto i = static_cast<Eigen::Index>(k);
+    const auto i = to_signed(k);
     const double inflation = number.deviation * number.deviation / plain.covariance(i, i);
     ProfileProblem profile;
     profile.optimum = number.value;

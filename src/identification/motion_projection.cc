@@ -22,10 +22,10 @@ DriveMotion motion_of(const Eigen::VectorXd (&drives)[3]) { return {drives[0], d
 MotionProjection::MotionProjection(const DrivenSystem& driven, const std::vector<MeasuredJoint>& measured) : driven_(driven) {
   const System& system = *driven.system;
   const auto weights = [&measured](const std::vector<int>& of) {
-    Eigen::VectorXd result(static_cast<Eigen::Index>(of.size()));
+    Eigen::VectorXd result(to_signed(of.size()));
     for (std::size_t k = 0; k < of.size(); ++k) {
       const double deviation = measured[to_index(of[k])].deviation;
-      result[static_cast<Eigen::Index>(k)] = 1.0 / (deviation * deviation);
+      result[to_signed(k)] = 1.0 / (deviation * deviation);
     }
     return result;
   };
@@ -40,18 +40,18 @@ MotionProjection::MotionProjection(const DrivenSystem& driven, const std::vector
 }
 
 Eigen::VectorXd MotionProjection::part_of(const Eigen::VectorXd& measured) const {
-  Eigen::VectorXd part(static_cast<Eigen::Index>(surplus_.size()));
-  for (std::size_t k = 0; k < surplus_.size(); ++k) part[static_cast<Eigen::Index>(k)] = measured[surplus_[k].measured];
+  Eigen::VectorXd part(to_signed(surplus_.size()));
+  for (std::size_t k = 0; k < surplus_.size(); ++k) part[to_signed(k)] = measured[surplus_[k].measured];
   return part;
 }
 
 Eigen::VectorXd MotionProjection::values(int order, DrivenMotion* motion, const State<double>& state) const {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(surplus_.size()));
+  Eigen::VectorXd result(to_signed(surplus_.size()));
   Formulas<double>& formulas = motion->equations().formulas();
   formulas.load(state);
   for (std::size_t k = 0; k < surplus_.size(); ++k) {
     const CoordinateMotion<double>& at = formulas.coordinate(surplus_[k].pair, surplus_[k].element);
-    result[static_cast<Eigen::Index>(k)] = order == 0 ? at.position : order == 1 ? at.rate : at.acceleration;
+    result[to_signed(k)] = order == 0 ? at.position : order == 1 ? at.rate : at.acceleration;
   }
   return result;
 }
@@ -59,7 +59,7 @@ Eigen::VectorXd MotionProjection::values(int order, DrivenMotion* motion, const 
 // K = d theta_surplus / d theta_drives: the rates of the surplus joints for a unit rate of each drive.
 Eigen::MatrixXd MotionProjection::slopes(DrivenMotion* motion, const State<double>& state) const {
   const System& system = motion->system();
-  Eigen::MatrixXd K(static_cast<Eigen::Index>(surplus_.size()), motion->drives());
+  Eigen::MatrixXd K(to_signed(surplus_.size()), motion->drives());
   State<double> moved = state;
   VectorX<double> unit(system.layout().columns());
   for (int drive = 0; drive < motion->drives(); ++drive) {
@@ -113,7 +113,7 @@ DrivenReplay::DrivenReplay(const CompiledSystem& system, std::vector<MeasuredJoi
   motion_.set_design(parameters_);
   const std::vector<std::string>& names = observer_.names().joints;
   for (const int k : driven_.drives)
-    drives_.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), joints_[to_index(k)].name) - names.begin()));
+    drives_.push_back(to_index(std::find(names.begin(), names.end(), joints_[to_index(k)].name) - names.begin()));
 }
 
 Status DrivenReplay::begin(const Eigen::VectorXd& positions) {
@@ -126,9 +126,8 @@ Status DrivenReplay::begin(const Eigen::VectorXd& positions) {
 Status DrivenReplay::show(const Eigen::VectorXd (&measured)[3], Frame* frame) {
   Eigen::VectorXd drives[3];
   for (int order = 0; order < 3; ++order) {
-    drives[order].resize(static_cast<Eigen::Index>(driven_.drives.size()));
-    for (std::size_t k = 0; k < driven_.drives.size(); ++k)
-      drives[order][static_cast<Eigen::Index>(k)] = measured[order][driven_.drives[k]];
+    drives[order].resize(to_signed(driven_.drives.size()));
+    for (std::size_t k = 0; k < driven_.drives.size(); ++k) drives[order][to_signed(k)] = measured[order][driven_.drives[k]];
   }
   const auto part = [&](int order) { return In<double>(drives[order].data(), drives[order].size()); };
   Status status = projection_.empty() ? motion_.follow({part(0), part(1), part(2)}, &state_)

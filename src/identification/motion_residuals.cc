@@ -8,6 +8,7 @@
 
 #include "engine/thread_engine.h"
 #include "identification/segments.h"
+#include "math/arrays.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 
@@ -22,11 +23,10 @@ constexpr double kSettledShare = 1e-8;  // of the value of a segment: a start wi
 /// Recorded positions at a few instants, joints x instants.
 Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::vector<MeasuredJoint>& joints) {
   constexpr Eigen::Index kInstants = 4;
-  Eigen::MatrixXd some(static_cast<Eigen::Index>(joints.size()), kInstants);
+  Eigen::MatrixXd some(to_signed(joints.size()), kInstants);
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (Eigen::Index k = 0; k < kInstants; ++k)
-      some(static_cast<Eigen::Index>(j), k) =
-          recording.find(joints[j].name)->position[(recording.times.size() - 1) * static_cast<std::size_t>(k) / kInstants];
+      some(to_signed(j), k) = recording.find(joints[j].name)->position[(recording.times.size() - 1) * to_index(k) / kInstants];
   return some;
 }
 
@@ -101,7 +101,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
     }
     lengths_.push_back(rows - begin);
   }
-  recorded_.resize(rows, static_cast<Eigen::Index>(outputs.size()));
+  recorded_.resize(rows, to_signed(outputs.size()));
   for (const Place& place : places_) {
     const Eigen::MatrixXd& part = segments_[place.recording][place.segment].recorded;
     recorded_.middleRows(place.row, part.rows()) = part;

@@ -33,7 +33,7 @@ Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
 double median_magnitude(const Eigen::VectorXd& column) {
   std::vector<double> numbers(column.begin(), column.end());
   for (double& number : numbers) number = std::abs(number);
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  const auto middle = numbers.begin() + to_signed(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());
   return *middle;
 }
@@ -178,8 +178,7 @@ std::vector<Eigen::VectorXd> points_of(const FitProblem& problem, const Multista
   for (std::size_t i = 1; i < points.size(); ++i)
     for (std::size_t j = 0; j < columns.size(); ++j) {
       const int k = columns[j];
-      points[i][k] =
-          problem.lower[k] + unit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * (problem.upper[k] - problem.lower[k]);
+      points[i][k] = problem.lower[k] + unit(to_signed(i), to_signed(j)) * (problem.upper[k] - problem.lower[k]);
     }
   return points;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
@@ -46,12 +48,12 @@ Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBeg
 Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
                        SegmentLanes lanes) {
   choose(lanes);
-  const auto outputs = static_cast<Eigen::Index>(system_.watched().size()), count = static_cast<Eigen::Index>(times.size());
+  const auto outputs = to_signed(system_.watched().size()), count = to_signed(times.size());
   values_.resize(count, outputs);
-  slopes_.resize(count * outputs, static_cast<Eigen::Index>(system_.whole_study().tuned.size()));
+  slopes_.resize(count * outputs, to_signed(system_.whole_study().tuned.size()));
   if (Status status = start(parameters, begin); !status.ok()) return status;
   for (Eigen::Index row = 0; row < count; ++row) {
-    const double time = times[static_cast<std::size_t>(row)];
+    const double time = times[to_index(row)];
     while (integrator_.state().t < time) {
       const Status status = integrator_.advance(times.back(), stages_);
       if (!status.ok()) return status;
@@ -76,7 +78,7 @@ Status SegmentRun::sample(double time, Eigen::Index row) {
   if (reads_rates_)
     if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
   for (Eigen::Index output = 0; output < values_.cols(); ++output)
-    values_(row, output) = integrator_.equations().watched(static_cast<std::size_t>(output), state_);
+    values_(row, output) = integrator_.equations().watched(to_index(output), state_);
   for_each_group([&](auto* group) {
     group->step.all_watched(integrator_.step(), state_, reads_rates_, integrator_.assembly(), &group->outputs);
     for (Eigen::Index output = 0; output < values_.cols(); ++output)

@@ -112,7 +112,7 @@ bool has_velocities(const JointRecording& recording, const std::string& joint) {
 bool moves_mass(const CompiledSystem& of, const std::string& joint) {
   const std::vector<JointDescription>& joints = of.robot().joints;
   const auto found = std::find_if(joints.begin(), joints.end(), [&](const JointDescription& other) { return other.name == joint; });
-  return found == joints.end() || of.topology().joint_pair[static_cast<std::size_t>(found - joints.begin())] >= 0;
+  return found == joints.end() || of.topology().joint_pair[to_index(found - joints.begin())] >= 0;
 }
 
 void refuse_idas(const Study& study) {

@@ -9,6 +9,7 @@
 #include "equations/compiled_system.h"
 #include "identification/driven_system.h"
 #include "identification/fit_variables.h"
+#include "math/arrays.h"
 #include "recordings/joint_recording.h"
 
 namespace codesign {
@@ -18,7 +19,7 @@ struct MotionOutput {
   std::string joint;
   MeasuredQuantity quantity = MeasuredQuantity::kPosition;
 
-  std::string name() const { return joint + "/" + kMeasuredQuantityNames[static_cast<std::size_t>(quantity)]; }
+  std::string name() const { return joint + "/" + kMeasuredQuantityNames[to_index(quantity)]; }
 };
 
 /// A mechanism for simulating one recording in segments, doc/theory.md (40): recorded efforts drive the joints that no controller of the

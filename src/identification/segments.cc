@@ -8,6 +8,7 @@
 
 #include "assembly/assembly.h"
 #include "identification/residual_fit.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "optimization/levenberg_marquardt.h"
 #include "recordings/measured_motion.h"
@@ -93,10 +94,10 @@ class StartCost final : public LeastSquaresModel {
     residuals_ = run_.values() - problem_.segment.recorded;
     by_all_.setZero(run_.slopes().rows(), problem_.x.size() + problem_.of.starts);
     for (Eigen::Index k = 0; lanes_ == SegmentLanes::kAll && k < sensors; ++k)
-      by_all_.col(problem_.of.columns[static_cast<std::size_t>(k)]) = run_.slopes().col(k);
+      by_all_.col(problem_.of.columns[to_index(k)]) = run_.slopes().col(k);
     by_all_.rightCols(problem_.of.starts) = run_.slopes().rightCols(problem_.of.starts);
     for (std::size_t k = 0; k < problem_.of.outputs.size(); ++k)
-      if (problem_.efforts[k]) sense(k, static_cast<Eigen::Index>(k) * rows);
+      if (problem_.efforts[k]) sense(k, to_signed(k) * rows);
   }
 
   /// The residuals of a recorded effort, (28c). @param first row of its derivatives
@@ -104,9 +105,9 @@ class StartCost final : public LeastSquaresModel {
     const std::string& joint = problem_.of.outputs[output].joint;
     const EffortSensor sensor = problem_.variables.sensor(joint, problem_.x);
     const FitVariables::SensorColumns at = problem_.variables.columns(joint);
-    const auto column = static_cast<Eigen::Index>(output);
+    const auto column = to_signed(output);
     for (Eigen::Index k = 0; k < residuals_.rows(); ++k) {
-      const double time = problem_.segment.times[static_cast<std::size_t>(k)];
+      const double time = problem_.segment.times[to_index(k)];
       const EffortResidual residual = effort_residual(sensor, *problem_.efforts[output], time, run_.values()(k, column));
       residuals_(k, column) = residual.value;
       by_all_.row(first + k) *= residual.by_effort;
@@ -150,7 +151,7 @@ std::vector<Samples> samples_by_segment(const JointRecording& recording, const I
   // Only segments with samples are made: a short `segment` may divide the recording into any number of them.
   std::vector<Samples> segments;
   double current = -1.0;
-  for (std::size_t k = 0; k < recording.times.size(); k += static_cast<std::size_t>(options.filter.decimate)) {
+  for (std::size_t k = 0; k < recording.times.size(); k += to_index(options.filter.decimate)) {
     const double segment = std::min(std::floor((recording.times[k] - begin) / options.segment * (1.0 + 1e-12)), last);
     if (segment != current) segments.emplace_back();
     current = segment;
@@ -161,7 +162,7 @@ std::vector<Samples> samples_by_segment(const JointRecording& recording, const I
 
 void require_enough(const JointRecording& recording, const std::vector<Samples>& segments, const SegmentSystem& of,
                     const IdentificationDescription& options) {
-  const auto least = static_cast<std::size_t>(of.starts) / of.outputs.size() + 2;
+  const auto least = to_index(of.starts) / of.outputs.size() + 2;
   for (const Samples& samples : segments)
     if (samples.size() < least)
       throw InputError({options.where, "identify.segment",
@@ -172,27 +173,26 @@ void require_enough(const JointRecording& recording, const std::vector<Samples>&
 
 /// The start that was measured at a time of the recording.
 Eigen::VectorXd measured_start(const MeasuredMotion& motion, const std::vector<std::string>& independent, double time, int starts) {
-  const auto nearest = static_cast<Eigen::Index>(std::llround((time - motion.times.start) / motion.times.step));
+  const auto nearest = to_signed(std::llround((time - motion.times.start) / motion.times.step));
   const Eigen::Index at = std::clamp<Eigen::Index>(nearest, 0, motion.times.count - 1);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(starts);
   for (std::size_t k = 0; k < independent.size(); ++k)
     for (const JointMotion& joint : motion.joints)
       if (joint.joint == independent[k]) {
-        start[static_cast<Eigen::Index>(k)] = joint.position[at];
-        start[static_cast<Eigen::Index>(independent.size() + k)] = joint.velocity[at];
+        start[to_signed(k)] = joint.position[at];
+        start[to_signed(independent.size() + k)] = joint.velocity[at];
       }
   return start;
 }
 
 Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem& of, const FitVariables& variables,
                             const Samples& samples) {
-  Eigen::MatrixXd recorded(static_cast<Eigen::Index>(samples.size()), static_cast<Eigen::Index>(of.outputs.size()));
+  Eigen::MatrixXd recorded(to_signed(samples.size()), to_signed(of.outputs.size()));
   for (std::size_t output = 0; output < of.outputs.size(); ++output) {
     const MotionOutput& at = of.outputs[output];
     const std::vector<double>& column = recording.find(at.joint)->of(at.quantity);
     const double scale = at.quantity == MeasuredQuantity::kEffort ? variables.sensor(at.joint, variables.start()).start_scale : 1.0;
-    for (std::size_t k = 0; k < samples.size(); ++k)
-      recorded(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(output)) = scale * column[samples[k]];
+    for (std::size_t k = 0; k < samples.size(); ++k) recorded(to_signed(k), to_signed(output)) = scale * column[samples[k]];
   }
   return recorded;
 }
@@ -201,7 +201,7 @@ Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem
 class Follower {
  public:
   Follower(const SegmentSystem& of, std::vector<double> parameters, VectorX<double> theta)
-      : first_(parameters.size() - static_cast<std::size_t>(of.starts)),
+      : first_(parameters.size() - to_index(of.starts)),
         parameters_(std::move(parameters)),
         theta_(std::move(theta)),
         equations_(*of.system),
@@ -216,7 +216,7 @@ class Follower {
     const int moves = static_cast<int>(std::clamp(std::ceil(way / kSmallMove), 1.0, kMostMoves));
     for (int move = 1; move <= moves; ++move) {
       position_ = from.size() > 0 ? Eigen::VectorXd(from + (positions - from) * move / moves) : positions;
-      std::copy(position_.begin(), position_.end(), parameters_.begin() + static_cast<std::ptrdiff_t>(first_));
+      std::copy(position_.begin(), position_.end(), parameters_.begin() + to_signed(first_));
       assembly_.begin_at(0.0, theta_);
       if (Status status = assembly_.solve_positions(parameters_, &equations_, &state_); !status.ok()) return status;
       theta_ = assembly_.theta();
@@ -237,19 +237,17 @@ class Follower {
 };
 
 Eigen::VectorXd positions_at(const JointRecording& recording, const std::vector<std::string>& independent, std::size_t sample) {
-  Eigen::VectorXd positions(static_cast<Eigen::Index>(independent.size()));
-  for (std::size_t k = 0; k < independent.size(); ++k)
-    positions[static_cast<Eigen::Index>(k)] = recording.find(independent[k])->position[sample];
+  Eigen::VectorXd positions(to_signed(independent.size()));
+  for (std::size_t k = 0; k < independent.size(); ++k) positions[to_signed(k)] = recording.find(independent[k])->position[sample];
   return positions;
 }
 
 /// Positions of the independent joints in the tree coordinates.
 Eigen::VectorXd positions_of(const StartWorkspace& start, const RobotDescription& robot, const std::vector<std::string>& independent) {
-  Eigen::VectorXd positions(static_cast<Eigen::Index>(independent.size()));
+  Eigen::VectorXd positions(to_signed(independent.size()));
   for (std::size_t k = 0; k < independent.size(); ++k)
     for (std::size_t joint = 0; joint < robot.joints.size(); ++joint)
-      if (robot.joints[joint].name == independent[k])
-        positions[static_cast<Eigen::Index>(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
+      if (robot.joints[joint].name == independent[k]) positions[to_signed(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
   return positions;
 }
 

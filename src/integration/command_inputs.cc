@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "text/nearest_name.h"
 
@@ -20,8 +21,8 @@ bool is_drivable(const CompiledSystem& system, const Constants<double>& constant
   const JointDescription& joint = system.robot().joints[k];
   const int pair = system.topology().joint_pair[k];
   if (joint.is_loop || joint.mimic || !has_one_coordinate(joint.type) || pair < 0) return false;
-  const std::vector<ChainElement>& chain = system.topology().pairs[static_cast<std::size_t>(pair)].chain;
-  const auto& coordinates = constants.pairs[static_cast<std::size_t>(pair)].coordinates;
+  const std::vector<ChainElement>& chain = system.topology().pairs[to_index(pair)].chain;
+  const auto& coordinates = constants.pairs[to_index(pair)].coordinates;
   for (std::size_t e = 0; e < chain.size() && e < coordinates.size(); ++e)
     if (chain[e].joint == static_cast<int>(k)) return coordinates[e].kind != Kind::kNone;
   return false;
@@ -34,7 +35,7 @@ void disconnect(const std::vector<std::string>& names, Study* study) {
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) throw unknown_name({"disconnect", 0}, name, "controller", name, known);
-    ControllerDescription& controller = study->controllers[static_cast<std::size_t>(found - known.begin())];
+    ControllerDescription& controller = study->controllers[to_index(found - known.begin())];
     if (controller.kind->load != ControlLoad::kNone) controller.kind = ControllerKind::kPid;
     controller.output.clear();
   }
@@ -72,7 +73,8 @@ std::vector<std::string> drivable_joints(const CompiledSystem& system) {
   return joints;
 }
 
-CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& options) : study(of.whole_study()), joints(drivable_joints(of)) {
+CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& options)
+    : study(of.whole_study()), joints(drivable_joints(of)) {
   if (options.joints) {
     check_joints(*options.joints, joints);
     joints = *options.joints;

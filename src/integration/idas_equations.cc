@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -39,7 +41,7 @@ IdasEquations::IdasEquations(const CompiledSystem& system, IdasNewton* newton)
       newton_(*newton),
       equations_(system),
       kappa_(kStabilizations / system.study().duration),
-      visited_(static_cast<std::size_t>(1 + 2 * size())) {
+      visited_(to_index(1 + 2 * size())) {
   state_.resize(layout_);
   direction_.resize(layout_);
   start();

@@ -16,6 +16,7 @@
 #include "integration/singularity_watch.h"
 #include "integration/stage_matrix.h"
 #include "integration/step_control.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -183,12 +184,12 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
     y_rho_ = std::make_unique<VectorArray>(count, y_.get());
     y_dot_rho_ = std::make_unique<VectorArray>(count, y_.get());
     psi_rho_ = std::make_unique<VectorArray>(count, psi_.get());
-    directions_.resize(static_cast<std::size_t>(count), initial_);
-    scales_.resize(static_cast<std::size_t>(count));
+    directions_.resize(to_index(count), initial_);
+    scales_.resize(to_index(count));
   }
   carried_->start(parameters, initial_, owner_, &directions_, &scales_);
   for (int k = 0; k < count; ++k) {
-    equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->span(k), y_dot_rho_->span(k));
+    equations_.pack(directions_[to_index(k)], y_rho_->span(k), y_dot_rho_->span(k));
     psi_rho_->span(k)[0] = 0.0;
   }
   if (!first) return;
@@ -219,10 +220,9 @@ template <class Change>
 Status IdasIntegrator::Implementation::begin_anew(const Change& change) {
   equations_.pack(state_, span_of(y_.get()), span_of(y_dot_.get()));
   if (with_sensitivities()) {
-    for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[to_index(k)]);
     if (!change()) return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
-    for (int k = 0; k < carried_->count(); ++k)
-      equations_.pack(directions_[static_cast<std::size_t>(k)], y_rho_->span(k), y_dot_rho_->span(k));
+    for (int k = 0; k < carried_->count(); ++k) equations_.pack(directions_[to_index(k)], y_rho_->span(k), y_dot_rho_->span(k));
   }
   before_restart_ = statistics_;
   restart_solver();
@@ -342,13 +342,13 @@ void IdasIntegrator::Implementation::interpolate_rates(double time, State<double
 
 void IdasIntegrator::Implementation::interpolate_sensitivities(double time, std::vector<State<double>>* directions) {
   const int count = carried_->count();
-  directions->resize(static_cast<std::size_t>(count), state_);
+  directions->resize(to_index(count), state_);
   const bool has_stepped = statistics_.steps > 0;
   if (!dense_rho_) dense_rho_ = std::make_unique<VectorArray>(count, y_.get());
   if (has_stepped) require(IDAGetSensDky(ida_.get(), time, 0, dense_rho_->get()), "IDAGetSensDky");
   for (int k = 0; k < count; ++k) {
     const Span<double> y = (has_stepped ? *dense_rho_ : *y_rho_).span(k);
-    equations_.unpack(time, y, y, &(*directions)[static_cast<std::size_t>(k)]);
+    equations_.unpack(time, y, y, &(*directions)[to_index(k)]);
   }
 }
 

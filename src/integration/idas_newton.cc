@@ -5,6 +5,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
+#include "math/arrays.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -43,7 +44,7 @@ void IdasNewton::stabilize() {
   const double scale = 1.0 / (1.0 + kappa_ / c_j_);
   const auto multiply = [](const Sparsity& pattern, int row, int first_column, double factor, std::vector<double>* values) {
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-      if (pattern.column(e) >= first_column) (*values)[static_cast<std::size_t>(e)] *= factor;
+      if (pattern.column(e) >= first_column) (*values)[to_index(e)] *= factor;
   };
   for (int row = layout.n; row < layout.n + layout.m; ++row) {
     multiply(patterns.position, row, 0, scale * scale, &derivatives_.position);
@@ -61,7 +62,7 @@ void IdasNewton::subtract_stabilization(In<double> b_q) {
     double sum = damping * row_product(patterns.velocity, derivatives_.velocity, row, b_q);
     for (int e = patterns.rate.first(row); e < patterns.rate.first(row + 1); ++e)
       if (const int column = patterns.rate.column(e); column < layout.n)
-        sum += damping * damping * derivatives_.rate[static_cast<std::size_t>(e)] * b_q[column];
+        sum += damping * damping * derivatives_.rate[to_index(e)] * b_q[column];
     u_[row] -= h * sum;
   }
 }

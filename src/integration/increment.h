@@ -62,7 +62,7 @@ void combine_up_to(std::size_t count, const T* from, const double* factors, cons
 template <class T>
 void combine(In<T> from, In<double> factors, const T* const (&parts)[RosenbrockTableau::kMaximumStages], Out<T> to) {
   assert(from.size() == to.size() && factors.size() <= RosenbrockTableau::kMaximumStages);
-  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(static_cast<std::size_t>(factors.size()), from.data(), factors.data(), parts,
+  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(to_index(factors.size()), from.data(), factors.data(), parts,
                                                              static_cast<int>(to.size()), to.data());
 }
 
@@ -70,7 +70,7 @@ void combine(In<T> from, In<double> factors, const T* const (&parts)[RosenbrockT
 template <class T>
 void combine(In<T> from, In<double> factors, const std::vector<VectorX<T>>& u, int first, Out<T> to) {
   const T* parts[RosenbrockTableau::kMaximumStages];
-  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = In<T>(u[static_cast<std::size_t>(j)]).subspan(first, to.size()).data();
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = In<T>(u[to_index(j)]).subspan(first, to.size()).data();
   combine(from, factors, parts, to);
 }
 

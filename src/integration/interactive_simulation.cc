@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 InteractiveSimulation::InteractiveSimulation(const CompiledSystem& of, const CommandOptions& options,
@@ -15,7 +17,7 @@ InteractiveSimulation::InteractiveSimulation(const CompiledSystem& of, const Com
       simulation_(std::make_unique<Simulation>(system_, parameters_, signals_)),
       names_(simulation_->names()),
       courses_(inputs_.setpoints.size()) {
-  names_.controllers.erase(names_.controllers.begin(), names_.controllers.begin() + static_cast<std::ptrdiff_t>(inputs_.joints.size()));
+  names_.controllers.erase(names_.controllers.begin(), names_.controllers.begin() + to_signed(inputs_.joints.size()));
 }
 
 Status InteractiveSimulation::start(const std::vector<double>& parameters) {
@@ -72,7 +74,7 @@ Status InteractiveSimulation::advance(double time) {
 
 void InteractiveSimulation::sample(double time, Frame* frame) {
   simulation_->sample(time, frame);
-  frame->controllers.erase(frame->controllers.begin(), frame->controllers.begin() + static_cast<std::ptrdiff_t>(inputs_.joints.size()));
+  frame->controllers.erase(frame->controllers.begin(), frame->controllers.begin() + to_signed(inputs_.joints.size()));
 }
 
 void InteractiveSimulation::set_effort(std::size_t joint, double effort) {

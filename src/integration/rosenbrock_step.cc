@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -31,8 +32,7 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
       stage_matrix_(system),
       projection_matrix_(system),
       product_(system),
-      increments_(static_cast<std::size_t>(std::max(tableau.stages, most_stages(system.study().solver.method))),
-                  VectorX<T>::Zero(at_.size())),
+      increments_(to_index(std::max(tableau.stages, most_stages(system.study().solver.method))), VectorX<T>::Zero(at_.size())),
       stages_(increments_.size()),
       factors_(increments_.size()) {
   derivatives_.resize(system.patterns());
@@ -112,7 +112,7 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_->c[i][j] / h_;
   const auto add = [&](In<T> rate, int first) {
-    combine(rate, In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), increments_, first, Out<T>(u).subspan(first, rate.size()));
+    combine(rate, In<double>(factors).first(to_signed(i)), increments_, first, Out<T>(u).subspan(first, rate.size()));
   };
   add(In<T>(stage.z).first(at_.n), at_.v());
   add(stage.v, at_.x());
@@ -130,7 +130,7 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   VectorX<T>& u = increments_[i];
   const T hg(h_ * tableau_->gamma), time_shift(h_ * tableau_->gamma_i[i]);
   T g(0.0);
-  combine(at_, state_, In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), increments_, &stages_[i]);
+  combine(at_, state_, In<double>(tableau_->a[i]).first(to_signed(i)), increments_, &stages_[i]);
   stages_[i].t = state_.t + tableau_->alpha[i] * h_;
   equations_.residual(stages_[i], &residual_, &g);
   stage_start(i);
@@ -244,7 +244,7 @@ bool RosenbrockStep<T>::attempt_explicitly() {
   factors_[0] = first_factor_;
   take_rates(0, first_g_);
   for (std::size_t i = 1; i < count(); ++i) {
-    const In<double> factors = In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i));
+    const In<double> factors = In<double>(tableau_->a[i]).first(to_signed(i));
     State<T>& stage = stages_[i];
     combine(state_.q, factors, increments_, at_.x(), stage.q);
     combine(state_.s, factors, increments_, at_.s(), stage.s);

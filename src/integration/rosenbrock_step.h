@@ -9,6 +9,7 @@
 #include "integration/increment.h"
 #include "integration/stage_matrix.h"
 #include "integration/tableau.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -107,7 +108,7 @@ class RosenbrockStep {
   /// Whether steps solve with a matrix: implicit ones do, and explicit ones where no expression gives the accelerations.
   bool needs_matrix() { return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.mass_factor(); }
   bool attempt_explicitly();
-  std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
+  std::size_t count() const { return to_index(tableau_->stages); }
   /// Solves G = 0 for the z of a state, beginning with the z that it has. @param g integrand there.
   bool solve_rates(State<T>* at, T* g, StageFactor* factor);
   void take_rates(std::size_t i, const T& g);

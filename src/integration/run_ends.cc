@@ -11,6 +11,7 @@
 #include "control/reference.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "text/number_text.h"
 
@@ -101,8 +102,8 @@ Eigen::MatrixXd scaled_jacobian(const CompiledSystem& system, const State<double
 
 Eigen::MatrixXd enforced_part(const CompiledSystem& system, const Eigen::MatrixXd& all) {
   const std::vector<int> enforced = enforced_rows(system);
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(enforced.size()), all.cols());
-  for (std::size_t k = 0; k < enforced.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = all.row(enforced[k]);
+  Eigen::MatrixXd rows(to_signed(enforced.size()), all.cols());
+  for (std::size_t k = 0; k < enforced.size(); ++k) rows.row(to_signed(k)) = all.row(enforced[k]);
   return rows;
 }
 
@@ -115,7 +116,7 @@ void add_name(const std::string& name, std::string* list) { *list += (list->empt
 std::string loaded_pairs(const CompiledSystem& system, const Eigen::VectorXd& stress) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(system.layout().constraints());
   const std::vector<int> enforced = enforced_rows(system);
-  for (std::size_t k = 0; k < enforced.size(); ++k) all[enforced[k]] = std::abs(stress[static_cast<Eigen::Index>(k)]);
+  for (std::size_t k = 0; k < enforced.size(); ++k) all[enforced[k]] = std::abs(stress[to_signed(k)]);
   const std::vector<Pair>& pairs = system.topology().pairs;
   std::vector<double> loads;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -132,8 +133,8 @@ std::string loaded_pairs(const CompiledSystem& system, const Eigen::VectorXd& st
 std::string frictions_in_loops(const CompiledSystem& system) {
   std::string names;
   for (int p : system.sharing().pairs)
-    if (const int joint = system.topology().pairs[static_cast<std::size_t>(p)].friction_joint; joint >= 0)
-      add_name(system.robot().joints[static_cast<std::size_t>(joint)].name, &names);
+    if (const int joint = system.topology().pairs[to_index(p)].friction_joint; joint >= 0)
+      add_name(system.robot().joints[to_index(joint)].name, &names);
   return names;
 }
 
@@ -203,10 +204,8 @@ double MotionWatch::target(const Equations<double>& equations) const {
   };
   const Design<double>& design = equations.formulas().view().design;
   for (std::size_t c = 0; c < study.controllers.size(); ++c) look(system_.controllers()[c].input, design.controllers[c].setpoint);
-  for (const ResolvedTerm& term : system_.integral())
-    look(term.signal, design.integral.references[static_cast<std::size_t>(term.description)]);
-  for (const ResolvedTerm& term : system_.terminal())
-    look(term.signal, design.terminal.references[static_cast<std::size_t>(term.description)]);
+  for (const ResolvedTerm& term : system_.integral()) look(term.signal, design.integral.references[to_index(term.description)]);
+  for (const ResolvedTerm& term : system_.terminal()) look(term.signal, design.terminal.references[to_index(term.description)]);
   return largest;
 }
 
@@ -234,7 +233,7 @@ double MotionWatch::expected_work(double time, std::int64_t work) const {
 Status MotionWatch::exceeded(const State<double>& state, const std::string& advice) const {
   const Speeds now = speeds(state);
   const auto sentence = [&](int body, const char* verb, double speed, const char* unit, double bound) {
-    return "the motion runs away: link '" + system_.topology().bodies[static_cast<std::size_t>(body)].name + "' " + verb + " at " +
+    return "the motion runs away: link '" + system_.topology().bodies[to_index(body)].name + "' " + verb + " at " +
            std::to_string(std::llround(speed)) + " " + unit + ", beyond " + to_decimal(bound) + "; " + advice;
   };
   if (angular_bound_ > 0.0 && now.angular > angular_bound_)

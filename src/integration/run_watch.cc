@@ -7,6 +7,7 @@
 
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_step.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "text/number_text.h"
 
@@ -55,7 +56,7 @@ BodyMotion::Measured::Measured(const CompiledSystem& system) : equations(system)
 
 BodyMotion::BodyMotion(const CompiledSystem& system)
     : gravity_(system.study().gravity.data()),
-      bodies_(static_cast<std::size_t>(system.layout().bodies)),
+      bodies_(to_index(system.layout().bodies)),
       measured_(system.layout().has_forest() ? std::make_unique<Measured>(system) : nullptr) {}
 
 void BodyMotion::set_design(const Equations<double>& equations) {

@@ -8,6 +8,7 @@
 
 #include "codegen/straight_line.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -52,7 +53,7 @@ bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, d
   const auto add = [&](const Sparsity& pattern, const std::vector<Scalar>& values, const auto& coefficient, const auto& column_of) {
     for (int row = 0; row < layout.columns(); ++row)
       for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-        entries.emplace_back(row, column_of(pattern.column(e)), coefficient(pattern.column(e)) * values[static_cast<std::size_t>(e)]);
+        entries.emplace_back(row, column_of(pattern.column(e)), coefficient(pattern.column(e)) * values[to_index(e)]);
   };
   const auto same = [](int column) { return column; };
   add(

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/tableau.h"
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 const RosenbrockTableau& rodas4() {
@@ -137,9 +139,9 @@ const RosenbrockTableau& dopri5() {
 
 RosenbrockTableau::Row dense_weights(const RosenbrockTableau& tableau, double theta) {
   RosenbrockTableau::Row weights{};
-  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
+  for (std::size_t j = 0; j < to_index(tableau.stages); ++j) {
     double sum = 0.0;
-    for (int k = tableau.dense_terms - 1; k >= 0; --k) sum = sum * theta + tableau.dense[static_cast<std::size_t>(k)][j];
+    for (int k = tableau.dense_terms - 1; k >= 0; --k) sum = sum * theta + tableau.dense[to_index(k)][j];
     weights[j] = sum * (theta * (1.0 - theta));
   }
   return weights;
@@ -147,11 +149,11 @@ RosenbrockTableau::Row dense_weights(const RosenbrockTableau& tableau, double th
 
 RosenbrockTableau::Row dense_weight_slopes(const RosenbrockTableau& tableau, double theta) {
   RosenbrockTableau::Row slopes{};
-  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j) {
+  for (std::size_t j = 0; j < to_index(tableau.stages); ++j) {
     double sum = 0.0, slope = 0.0;
     for (int k = tableau.dense_terms - 1; k >= 0; --k) {
       slope = slope * theta + sum;
-      sum = sum * theta + tableau.dense[static_cast<std::size_t>(k)][j];
+      sum = sum * theta + tableau.dense[to_index(k)][j];
     }
     slopes[j] = slope * (theta * (1.0 - theta)) + sum * (1.0 - 2.0 * theta);
   }
@@ -161,7 +163,7 @@ RosenbrockTableau::Row dense_weight_slopes(const RosenbrockTableau& tableau, dou
 RosenbrockTableau::Row dense_weight_curvatures(const RosenbrockTableau& tableau, double theta) {
   RosenbrockTableau::Row curvatures{};
   const auto& d = tableau.dense;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(tableau.stages); ++j)
+  for (std::size_t j = 0; j < to_index(tableau.stages); ++j)
     curvatures[j] = 2.0 * (d[1][j] - d[0][j]) + theta * (6.0 * (d[2][j] - d[1][j]) - theta * 12.0 * d[2][j]);
   return curvatures;
 }

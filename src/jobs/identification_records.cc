@@ -14,6 +14,7 @@
 #include "jobs/csv_writer.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
 #include "reading/urdf/overlay.h"
@@ -89,7 +90,7 @@ void add_rows(const std::string& set, const FittedSeries& series, std::vector<st
   Eigen::Index row = 0;
   for (std::size_t recording = 0; recording < series.lengths.size(); ++recording)
     for (const Eigen::Index end = row + series.lengths[recording]; row < end; ++row) {
-      std::vector<std::string> cells = {set, std::to_string(recording + 1), to_decimal(series.times[static_cast<std::size_t>(row)])};
+      std::vector<std::string> cells = {set, std::to_string(recording + 1), to_decimal(series.times[to_index(row)])};
       for (Eigen::Index k = 0; k < series.recorded.cols(); ++k) {
         cells.push_back(to_decimal(series.recorded(row, k)));
         cells.push_back(to_decimal(series.computed(row, k)));
@@ -109,7 +110,7 @@ Json searches_json(const FitSearches& searches, const std::vector<IdentifiedNumb
   Json optima = Json::array();
   for (const Optimum& optimum : searches.optima) {
     Json values = Json::object();
-    for (std::size_t k = 0; k < numbers.size(); ++k) values[numbers[k].name] = optimum.rho[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < numbers.size(); ++k) values[numbers[k].name] = optimum.rho[to_signed(k)];
     optima.push_back({{"mean_spread", optimum.objective}, {"found", optimum.found}, {"values", std::move(values)}});
   }
   return {
@@ -178,7 +179,7 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   }
   const IntervalOptions& intervals = problem.study().identification->intervals;
   object["level"] = intervals.level;
-  object["noise"] = kNoiseNames[static_cast<std::size_t>(intervals.noise)];
+  object["noise"] = kNoiseNames[to_index(intervals.noise)];
   object["lag"] = result.lag;
   object["rank"] = result.rank;
   object["undetermined"] = result.undetermined;

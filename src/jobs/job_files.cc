@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "jobs/files.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -25,7 +26,7 @@ constexpr std::size_t kBehindTheName = 48;
 
 std::string file_name_of(std::string robot, const std::string& directory) {
   const long longest = pathconf(directory.c_str(), _PC_NAME_MAX);
-  const std::size_t room = longest > 0 ? static_cast<std::size_t>(longest) : 255;
+  const std::size_t room = longest > 0 ? to_index(longest) : 255;
   robot.resize(std::min(robot.size(), std::max(room, kBehindTheName + 1) - kBehindTheName));
   for (char& c : robot)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';

@@ -19,6 +19,7 @@
 #include "integration/watch_layout.h"
 #include "jobs/files.h"
 #include "jobs/journal_lines.h"
+#include "math/arrays.h"
 #include "text/fingerprint.h"
 
 namespace codesign {
@@ -43,7 +44,7 @@ std::size_t hash_of(const std::vector<double>& values) {
 }
 
 std::size_t key_of(int system, Derivatives derivatives, const std::vector<double>& parameters) {
-  return hash_of(parameters) + 3 * static_cast<std::size_t>(system) + static_cast<std::size_t>(derivatives);
+  return hash_of(parameters) + 3 * to_index(system) + to_index(derivatives);
 }
 
 /// What is the same whenever a task is evaluated again.
@@ -77,7 +78,7 @@ Journal::Journal(std::string path, const Problem& problem, const OptimizerOption
     : path_(std::move(path)),
       header_(journal_header(problem, options)),
       parameters_(problem.all_parameters().size()),
-      tuned_(static_cast<Eigen::Index>(problem.tuned_names().size())),
+      tuned_(to_signed(problem.tuned_names().size())),
       systems_(number_systems(problem)),
       extremes_(count_extremes(problem)) {
   if (mode == Mode::kResume) read();
@@ -142,7 +143,7 @@ void Journal::require_fit(const EvaluationRecord& record) const {
   if (!evaluation.status.ok()) return;
   if (!std::isfinite(evaluation.objective)) throw std::invalid_argument("its objective is not finite");
   const Eigen::Index slopes = record.derivatives == Derivatives::kNone ? 0 : tuned_;
-  const Eigen::Index extremes = extremes_[static_cast<std::size_t>(record.system)];
+  const Eigen::Index extremes = extremes_[to_index(record.system)];
   require_count("the gradient", evaluation.gradient.size(), slopes);
   require_count("the signals' extremes", evaluation.extremes.values.size(), extremes);
   require_count("the slopes of the signals' extremes", evaluation.extremes.gradients.size(), extremes * slopes);
@@ -178,8 +179,7 @@ bool Journal::append(const std::string& line) {
   std::size_t done = 0;
   ssize_t written = 1;
   errno = 0;
-  while (done < text.size() && (written = write(file_, text.data() + done, text.size() - done)) > 0)
-    done += static_cast<std::size_t>(written);
+  while (done < text.size() && (written = write(file_, text.data() + done, text.size() - done)) > 0) done += to_index(written);
   if (done == text.size()) {
     end_ += static_cast<std::int64_t>(done);
     return true;
@@ -195,7 +195,7 @@ bool Journal::append(const std::string& line) {
 std::optional<Evaluation> Journal::look_up(std::size_t key, const EvaluationTask& task) const {
   const auto [first, last] = lines_.equal_range(key);
   for (auto place = first; place != last; ++place) {
-    std::string line(static_cast<std::size_t>(place->second.size), '\0');
+    std::string line(to_index(place->second.size), '\0');
     if (pread(file_, line.data(), line.size(), place->second.begin) != static_cast<ssize_t>(line.size())) continue;
     if (!has_right_checksum(line)) continue;  // the file has changed since it was opened
     EvaluationRecord record = read_line(line);

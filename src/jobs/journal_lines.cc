@@ -6,6 +6,7 @@
 
 #include "jobs/json.h"
 #include "jobs/json_records.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/version.h"
 #include "text/fingerprint.h"
 #include "text/number_text.h"
@@ -82,7 +83,7 @@ std::vector<double> numbers_of(const Json& array) {
 
 Eigen::VectorXd vector_of(const Json& array) {
   const std::vector<double> values = numbers_of(array);
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), to_signed(values.size()));
 }
 
 Json extremes_json(const Extremes& extremes) {

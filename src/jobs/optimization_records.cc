@@ -10,6 +10,7 @@
 #include "jobs/json_records.h"
 #include "jobs/shown_signals.h"
 #include "jobs/trial_lines.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -68,7 +69,7 @@ int count_failed(const std::vector<StartResult>& starts) {
 std::string describe_worst(const OptimizationResult& result) {
   const int worst = worst_scenario(result);
   if (worst < 0) return "";
-  const ScenarioResult& scenario = result.scenarios[static_cast<std::size_t>(worst)];
+  const ScenarioResult& scenario = result.scenarios[to_index(worst)];
   const std::string name = scenario_name(scenario.run, scenario.sample), law = scenario.friction_law;
   return "; the worst is " + (name.empty() ? "the nominal run" : name) + (law.empty() ? "" : " (" + law + ")") + ", with " +
          readable(scenario.objective) + (result.failed.empty() ? "" : "; " + std::to_string(result.failed.size()) + " failed");
@@ -87,7 +88,7 @@ std::string describe_risk(const RobustOptions& options, const OptimizationResult
 }  // namespace
 
 bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
-  return result.gradient.size() == static_cast<Eigen::Index>(problem.study().tuned.size());
+  return result.gradient.size() == to_signed(problem.study().tuned.size());
 }
 
 bool has_objective(const Problem& problem, const OptimizationResult& result) {
@@ -95,7 +96,7 @@ bool has_objective(const Problem& problem, const OptimizationResult& result) {
 }
 
 bool has_design(const Problem& problem, const OptimizationResult& result) {
-  const auto size = static_cast<Eigen::Index>(problem.study().tuned.size());
+  const auto size = to_signed(problem.study().tuned.size());
   const bool is_complete = result.rho.size() == size && result.initial_rho.size() == size;
   return is_complete && (is_evaluated(problem, result) || result.status.is_interrupted());
 }
@@ -113,7 +114,7 @@ Json margins_json(const Problem& problem, const OptimizationResult& result) {
 Json constraints_json(const Problem& problem, const OptimizationResult& result) {
   Json list = Json::array();
   for (const ParameterConstraint& constraint : problem.study().constraints) {
-    const double margin = result.margins[static_cast<Eigen::Index>(list.size())];
+    const double margin = result.margins[to_signed(list.size())];
     list.push_back({{"element", constraint.element},
                     {"constraint", constraint.text},
                     {"margin", margin},
@@ -171,8 +172,7 @@ int worst_scenario(const OptimizationResult& result) {
   int worst = -1;
   for (std::size_t k = 0; k < result.scenarios.size(); ++k) {
     if (result.scenarios[k].failed) continue;
-    if (worst < 0 || result.scenarios[k].objective > result.scenarios[static_cast<std::size_t>(worst)].objective)
-      worst = static_cast<int>(k);
+    if (worst < 0 || result.scenarios[k].objective > result.scenarios[to_index(worst)].objective) worst = static_cast<int>(k);
   }
   return worst;
 }
@@ -183,8 +183,7 @@ void add_ensemble(const Problem& problem, const OptimizationResult& result, Json
     for (const ScenarioResult& scenario : result.scenarios) scenarios.push_back(to_json(scenario));
     (*object)["scenarios"] = std::move(scenarios);
     (*object)["failed_scenarios"] = result.failed.size();
-    if (const int worst = worst_scenario(result); worst >= 0)
-      (*object)["worst_scenario"] = to_json(result.scenarios[static_cast<std::size_t>(worst)]);
+    if (const int worst = worst_scenario(result); worst >= 0) (*object)["worst_scenario"] = to_json(result.scenarios[to_index(worst)]);
   }
   if (result.value_at_risk) (*object)["value_at_risk"] = *result.value_at_risk;
   if (result.validation) (*object)["validation"] = to_json(*result.validation, result.value_at_risk.has_value());
@@ -196,7 +195,7 @@ std::vector<std::string> ensemble_sentences(const Problem& problem, const Optimi
   const EnsembleDescription& asked = problem.study().ensemble;
   if (!result.scenarios.empty()) {
     const RobustOptions options = asked.robust_options();
-    lines.push_back(std::string("objective: ") + kRobustMeasureNames[static_cast<std::size_t>(options.measure)] + " over " +
+    lines.push_back(std::string("objective: ") + kRobustMeasureNames[to_index(options.measure)] + " over " +
                     std::to_string(result.scenarios.size()) + " scenarios" + describe_worst(result));
   }
   if (result.value_at_risk) lines.push_back(describe_risk(asked.robust_options(), result));

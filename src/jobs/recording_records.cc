@@ -8,6 +8,7 @@
 #include "equations/equations.h"
 #include "excitation/excitation_result.h"
 #include "jobs/json.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -30,7 +31,7 @@ Json limit_json(const KeptLimit& limit) {
 
 Json trajectory_json(const ExcitationDescription& description, const ExcitationResult& result) {
   Json object;
-  object["kind"] = kTrajectoryNames[static_cast<std::size_t>(description.trajectory)];
+  object["kind"] = kTrajectoryNames[to_index(description.trajectory)];
   object["period"] = description.period;
   object["periods"] = description.periods;
   object["sample_rate"] = description.sample_rate;
@@ -39,7 +40,7 @@ Json trajectory_json(const ExcitationDescription& description, const ExcitationR
   else
     object["knots"] = description.knots;
   for (std::size_t joint = 0; joint < result.points.joints.size(); ++joint) {
-    const auto column = static_cast<Eigen::Index>(joint);
+    const auto column = to_signed(joint);
     const Eigen::VectorXd coefficients = result.coefficients.col(column);
     object["joints"][result.points.joints[joint]] = {{"rest", result.rest[column]},
                                                      {"coefficients", std::vector<double>(coefficients.begin(), coefficients.end())}};
@@ -135,7 +136,7 @@ std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& po
   std::vector<std::vector<std::string>> rows;
   rows.reserve(points.times.size());
   for (std::size_t k = 0; k < points.times.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
+    const auto column = to_signed(k);
     std::vector<std::string> cells = {to_decimal(points.times[k])};
     for (Eigen::Index joint = 0; joint < points.position.rows(); ++joint)
       for (const Eigen::MatrixXd* part : {&points.position, &points.velocity, &points.acceleration, &points.effort})

@@ -9,6 +9,7 @@
 #include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/shown_signals.h"
+#include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 #include "text/number_text.h"
@@ -104,7 +105,7 @@ LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parame
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (!joint.limit || found == names.joints.end()) continue;
     const auto watch = [&](const char* limit, const Quantity& bound) {
-      watched_.push_back({static_cast<std::size_t>(found - names.joints.begin()), joint.name, limit, bound.at(parameters), -1});
+      watched_.push_back({to_index(found - names.joints.begin()), joint.name, limit, bound.at(parameters), -1});
     };
     if (has_stops(joint) && !enforced.position) {
       watch("lower", joint.limit->lower);
@@ -132,7 +133,7 @@ void LimitWatch::note(Watched* watched, double value, bool beyond, double time) 
     watched->crossing = static_cast<int>(crossings_.size());
     crossings_.push_back({watched->joint, watched->limit, watched->bound, value, time});
   }
-  LimitCrossing& crossing = crossings_[static_cast<std::size_t>(watched->crossing)];
+  LimitCrossing& crossing = crossings_[to_index(watched->crossing)];
   const bool position = watched->limit == "lower" || watched->limit == "upper";
   const double excess = position ? std::abs(value - watched->bound) : std::abs(value);
   const double largest = position ? std::abs(crossing.worst - watched->bound) : std::abs(crossing.worst);

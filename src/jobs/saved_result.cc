@@ -12,6 +12,7 @@
 #include "jobs/json.h"
 #include "jobs/robot_gains.h"
 #include "jobs/trial_lines.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -20,7 +21,7 @@ namespace {
 constexpr const char* kAllowed = "what codesign optimize writes: {\"parameters\": {NAME: number, ...}, ...}";
 
 int line_at(const std::string& text, std::size_t offset) {
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + to_signed(std::min(offset, text.size())), '\n'));
 }
 
 /// Where a JSON text has its first number beyond the range of double, for which the parser tells no place.
@@ -34,7 +35,7 @@ std::size_t first_overflow(const std::string& text) {
     } else if (text[k] >= '0' && text[k] <= '9') {
       char* end = nullptr;
       if (std::isinf(std::strtod(text.c_str() + k, &end))) return k;
-      k = static_cast<std::size_t>(end - text.c_str()) - 1;
+      k = to_index(end - text.c_str()) - 1;
     }
   }
   return 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "jobs/json.h"
+#include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
 
@@ -142,8 +143,8 @@ void add_watched(const OptimizationResult& result, Json* object) {
                 {"violation", watched.violation},
                 {"tolerance", watched.tolerance}};
     if (!result.scenarios.empty()) {
-      one["smallest_in"] = place(result.scenarios[static_cast<std::size_t>(watched.smallest_scenario)]);
-      one["largest_in"] = place(result.scenarios[static_cast<std::size_t>(watched.largest_scenario)]);
+      one["smallest_in"] = place(result.scenarios[to_index(watched.smallest_scenario)]);
+      one["largest_in"] = place(result.scenarios[to_index(watched.largest_scenario)]);
     }
     list.push_back(std::move(one));
   }

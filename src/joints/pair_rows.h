@@ -228,12 +228,12 @@ struct PairMotion {
       const BodyKinematics<T>& body = term.side == Side::kI ? i : j;
       motion[k] = term.point ? point_motion(body, term.s) : direction_motion(body, term.s);
     }
-    constexpr auto from = static_cast<std::size_t>(PairRows<T>::shared(Side::kI, PairRows<T>::kPoint)),
-                   to = static_cast<std::size_t>(PairRows<T>::shared(Side::kJ, PairRows<T>::kPoint));
+    constexpr auto from = to_index(PairRows<T>::shared(Side::kI, PairRows<T>::kPoint)),
+                   to = to_index(PairRows<T>::shared(Side::kJ, PairRows<T>::kPoint));
     if (rows.used[from]) displacement = {motion[to].x - motion[from].x, motion[to].xd - motion[from].xd, motion[to].xdd - motion[from].xdd};
   }
 
-  const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[static_cast<std::size_t>(term.shared)]; }
+  const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[to_index(term.shared)]; }
 
   /// The motion of a direction of the rows, or of the displacement.
   const VectorMotion<T>& of(const PairVector<T>& x) const { return x.terms == 1 ? of(x.term[0]) : displacement; }

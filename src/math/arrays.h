@@ -12,7 +12,17 @@
 namespace codesign {
 
 /// A number that is known not to be negative, as an index of the standard library's containers.
-constexpr std::size_t to_index(int k) { return static_cast<std::size_t>(k); }
+template <class Integer>
+constexpr std::size_t to_index(Integer k) {
+  static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);
+  return static_cast<std::size_t>(k);
+}
+/// A size or an index of the standard library's containers as a signed number, as Eigen and Span have them.
+template <class Integer>
+constexpr std::ptrdiff_t to_signed(Integer k) {
+  static_assert(std::is_integral_v<Integer>);
+  return static_cast<std::ptrdiff_t>(k);
+}
 
 namespace internal {
 

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 SampledFunction::SampledFunction(std::vector<double> times, std::vector<double> values)
@@ -28,7 +30,7 @@ SampledFunction::Sample SampledFunction::at(double time) const {
   if (time < times_.front()) return {values_.front()};
   if (time > times_.back() || times_.size() == 1) return {values_.back()};
   const auto above = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
-  const auto k = static_cast<std::size_t>(above - times_.begin()) - 1;
+  const auto k = to_index(above - times_.begin()) - 1;
   const double h = times_[k + 1] - times_[k], s = (time - times_[k]) / h, rise = values_[k + 1] - values_[k];
   // v0 + s rise + s (1 - s) c with c = a (1 - s) + b s
   const double a = h * slopes_[k] - rise, b = rise - h * slopes_[k + 1], c = a * (1.0 - s) + b * s, turn = b - a;

@@ -119,7 +119,7 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair, const P
   return "";
 }
 
-const LinkDescription& link_of(const RobotDescription& robot, int link) { return robot.links[static_cast<std::size_t>(link)]; }
+const LinkDescription& link_of(const RobotDescription& robot, int link) { return robot.links[to_index(link)]; }
 
 /// The names of the links with an inertial, separated by commas.
 std::string names_of(const RobotDescription& robot, const std::vector<int>& links) {
@@ -220,8 +220,7 @@ void check_bodies(const RobotDescription& robot, Warnings* warnings) {
   const std::vector<double> values = default_values(robot);
   std::map<int, std::vector<int>> bodies;
   for (std::size_t link = 0; link < robot.links.size(); ++link)
-    if (groups.link_base[link] != groups.link_base[static_cast<std::size_t>(robot.root)])
-      bodies[groups.link_base[link]].push_back(static_cast<int>(link));
+    if (groups.link_base[link] != groups.link_base[to_index(robot.root)]) bodies[groups.link_base[link]].push_back(static_cast<int>(link));
   MassWorkspace<double> workspace;
   workspace.poses.start(robot.links.size());
   for (const auto& [base, links] : bodies) {

@@ -85,7 +85,7 @@ class TreeBuilder {
       : topology_(topology), where_(where), element_(element), carrier_(topology.bodies.size(), -1) {
     for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
       if (topology.pairs[k].is_loop) continue;
-      carrier_[static_cast<std::size_t>(child(topology.pairs[k]))] = static_cast<int>(k);
+      carrier_[to_index(child(topology.pairs[k]))] = static_cast<int>(k);
     }
   }
 
@@ -109,7 +109,7 @@ class TreeBuilder {
   static int child(const Pair& pair) { return upwards(pair) ? pair.body_i : pair.body_j; }
   static int parent(const Pair& pair) { return upwards(pair) ? pair.body_j : pair.body_i; }
 
-  const Pair& pair(int index) const { return topology_.pairs[static_cast<std::size_t>(index)]; }
+  const Pair& pair(int index) const { return topology_.pairs[to_index(index)]; }
 
   [[noreturn]] void fail(const std::string& message, const std::string& value, const std::string& allowed) const {
     throw InputError({where_, element_, message, value, allowed});
@@ -136,10 +136,10 @@ class TreeBuilder {
   /// Adds the bodies that carry `body`, from the ground on, and `body` itself.
   void add_path(int body) {
     if (body < 0) return;
-    const int above = carrier_[static_cast<std::size_t>(body)];
+    const int above = carrier_[to_index(body)];
     if (above < 0)
       fail("a body that carries the driven joint is connected by a loop only, not by a joint of the tree",
-           topology_.bodies[static_cast<std::size_t>(body)].name, "");
+           topology_.bodies[to_index(body)].name, "");
     require_simple(above);
     add_path(pair(above).body_i);
     add_node(above, false);
@@ -156,7 +156,7 @@ class TreeBuilder {
   void refuse_ties() const {
     const auto moved = [this](int body) {
       const int node = body < 0 ? -1 : node_of(body);
-      return node >= 0 && tree_.nodes[static_cast<std::size_t>(node)].moved;
+      return node >= 0 && tree_.nodes[to_index(node)].moved;
     };
     for (const Pair& loop : topology_.pairs)
       if (loop.is_loop && moved(loop.body_i) != moved(loop.body_j))

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "mechanism/pair_geometry.h"
 #include "mechanism/topology.h"
@@ -63,9 +64,8 @@ std::optional<PairKind> fold_axes(const Axes& axes) {
 
 [[noreturn]] void refuse(const RobotDescription& robot, const std::vector<ChainElement>& chain) {
   std::string names;
-  for (const ChainElement& element : chain)
-    names += (names.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(element.joint)].name;
-  const JointDescription& joint = robot.joints[static_cast<std::size_t>(chain.front().joint)];
+  for (const ChainElement& element : chain) names += (names.empty() ? "" : ", ") + robot.joints[to_index(element.joint)].name;
+  const JointDescription& joint = robot.joints[to_index(chain.front().joint)];
   throw InputError(
       {joint.where, joint.element(), "a chain of links without <inertial> that cannot be folded into one joint", names,
        "concurrent revolutes (universal, spherical), a coaxial revolute and prismatic, two or three prismatics, two prismatics with a "
@@ -76,7 +76,7 @@ std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topol
   const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, default_values(robot));
   Axes axes;
   for (std::size_t k = 0; k < chain.size(); ++k) {
-    const JointType type = robot.joints[static_cast<std::size_t>(chain[k].joint)].type;
+    const JointType type = robot.joints[to_index(chain[k].joint)].type;
     if (is_turn(type)) {
       axes.turn.push_back(geometry.axes[k]);
       axes.turn_point.push_back(geometry.frames[k].t);
@@ -90,7 +90,7 @@ std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topol
 }
 
 bool needs_coordinate(const RobotDescription& robot, const Topology& topology, int k) {
-  const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
+  const JointDescription& joint = robot.joints[to_index(k)];
   if (!joint.damping.is_zero() || !joint.dry_friction.is_zero() || joint.spring || joint.actuator || joint.mimic) return true;
   for (const JointDescription& other : robot.joints)
     if (other.mimic && other.mimic->joint == joint.name) return true;
@@ -104,8 +104,7 @@ bool needs_coordinate(const RobotDescription& robot, const Topology& topology, i
 }  // namespace
 
 PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
-  const auto kind =
-      chain.size() == 1 ? kind_of(robot.joints[static_cast<std::size_t>(chain[0].joint)]) : kind_of_chain(robot, topology, chain);
+  const auto kind = chain.size() == 1 ? kind_of(robot.joints[to_index(chain[0].joint)]) : kind_of_chain(robot, topology, chain);
   if (!kind) refuse(robot, chain);
   return *kind;
 }

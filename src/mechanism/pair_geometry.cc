@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codegen/number_types.h"
+#include "math/arrays.h"
 #include "mechanism/pose.h"
 
 namespace codesign {
@@ -53,7 +54,7 @@ class PairBuilder {
   using Coordinate = CoordinateConstants<T>;
   using Elements = ShortVector<std::size_t, ChainGeometry<T>::kFew>;
 
-  const JointDescription& joint(std::size_t k) const { return robot_.joints[static_cast<std::size_t>(pair_.chain[k].joint)]; }
+  const JointDescription& joint(std::size_t k) const { return robot_.joints[to_index(pair_.chain[k].joint)]; }
   const Vector3<T>& axis(std::size_t k) const { return geometry_.axes[k]; }
   const Vector3<T>& origin(std::size_t k) const { return geometry_.frames[k].t; }
 
@@ -270,7 +271,7 @@ class PairBuilder {
   }
 
   FrictionConstants<T> friction() const {
-    const FrictionDescription& f = *robot_.joints[static_cast<std::size_t>(pair_.friction_joint)].friction;
+    const FrictionDescription& f = *robot_.joints[to_index(pair_.friction_joint)].friction;
     FrictionConstants<T> c;
     const auto evaluate = [this, &c](const FrictionNumberRule& rule, const Quantity& q, T& number) {
       const bool missing = q.is_zero();

@@ -29,7 +29,7 @@ ChainGeometry<T> chain_geometry(const RobotDescription& robot, const Topology& t
                                 const std::vector<T>& parameters) {
   ChainGeometry<T> geometry;
   for (const ChainElement& element : chain) {
-    const JointDescription& joint = robot.joints[static_cast<std::size_t>(element.joint)];
+    const JointDescription& joint = robot.joints[to_index(element.joint)];
     const Pose<T> X_PF =
         link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.parent, parameters) * pose_at(joint.origin, parameters);
     const Pose<T> X_CF = link_in_base(robot, topology.link_base, topology.link_parent_joint, joint.child, parameters) *

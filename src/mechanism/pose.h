@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "description/robot.h"
+#include "math/arrays.h"
 #include "math/euler_parameters.h"
 #include "mechanism/mass_properties.h"
 
@@ -50,8 +51,8 @@ template <class T>
 Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint, int link,
                      const std::vector<T>& parameters) {
   Pose<T> pose;
-  while (link != link_base[static_cast<std::size_t>(link)]) {
-    const JointDescription& joint = robot.joints[static_cast<std::size_t>(link_parent_joint[static_cast<std::size_t>(link)])];
+  while (link != link_base[to_index(link)]) {
+    const JointDescription& joint = robot.joints[to_index(link_parent_joint[to_index(link)])];
     pose = pose_at(joint.origin, parameters) * pose;
     link = joint.parent;
   }
@@ -65,7 +66,7 @@ Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<d
   using std::sqrt;
   Vector3<T> x = Vector3<T>::Zero();
   if (preferred) {
-    for (int k = 0; k < 3; ++k) x[k] = T((*preferred)[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 3; ++k) x[k] = T((*preferred)[to_index(k)]);
   } else {
     int largest = 0;
     for (int k = 1; k < 3; ++k)

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "math/arrays.h"
 #include "mechanism/mass_properties.h"
 #include "mechanism/pose.h"
 
@@ -28,15 +29,15 @@ class LinkPoses {
   }
   const Pose<T>& of(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint, int link,
                     const std::vector<T>& parameters) {
-    const auto place = static_cast<std::size_t>(link);
+    const auto place = to_index(link);
     if (known_[place]) return poses_[place];
     Pose<T> pose;
-    for (int steps = 0; link != link_base[static_cast<std::size_t>(link)]; ++steps) {
+    for (int steps = 0; link != link_base[to_index(link)]; ++steps) {
       if (steps == kWalk) {
         pose = of(robot, link_base, link_parent_joint, link, parameters) * pose;
         break;
       }
-      const JointDescription& joint = robot.joints[static_cast<std::size_t>(link_parent_joint[static_cast<std::size_t>(link)])];
+      const JointDescription& joint = robot.joints[to_index(link_parent_joint[to_index(link)])];
       pose = pose_at(joint.origin, parameters) * pose;
       link = joint.parent;
     }
@@ -66,7 +67,7 @@ MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<i
   std::vector<MassProperties<T>>& parts = workspace->links;
   parts.clear();
   for (int link : links) {
-    const auto& inertial = robot.links[static_cast<std::size_t>(link)].inertial;
+    const auto& inertial = robot.links[to_index(link)].inertial;
     if (!inertial) continue;
     const Pose<T>& X = workspace->poses.of(robot, link_base, link_parent_joint, link, parameters);
     MassProperties<T> part = mass_properties<T>(*inertial, parameters, &workspace->solids);

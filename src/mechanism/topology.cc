@@ -39,7 +39,7 @@ class TopologyBuilder {
   }
 
  private:
-  static std::size_t index(int k) { return static_cast<std::size_t>(k); }
+  static std::size_t index(int k) { return to_index(k); }
   bool massless(int base) const { return !is_body_[index(base)]; }
 
   void find_groups() {
@@ -106,7 +106,7 @@ class TopologyBuilder {
         if (topology_.link_base[link] != group || !massless(group)) continue;
         const auto edges = edges_at(group);
         if (edges.size() != 1 || carries_load(edges_[edges[0]].chain[0].joint)) continue;
-        edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(edges[0]));
+        edges_.erase(edges_.begin() + to_signed(edges[0]));
         changed = true;
       }
     }
@@ -155,7 +155,7 @@ class TopologyBuilder {
         ++k;
         continue;
       }
-      edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(k));
+      edges_.erase(edges_.begin() + to_signed(k));
       if (edge.from == edge.to) continue;
       for (int group : edge.inside) is_body_[index(group)] = true;
       for (const ChainElement& element : edge.chain) edges_.push_back(single_edge(element.joint));
@@ -179,7 +179,7 @@ class TopologyBuilder {
     joined.inside.insert(joined.inside.end(), b.inside.begin(), b.inside.end());
     joined.chain.insert(joined.chain.end(), b.chain.begin(), b.chain.end());
     edges_[std::min(first, second)] = joined;
-    edges_.erase(edges_.begin() + static_cast<std::ptrdiff_t>(std::max(first, second)));
+    edges_.erase(edges_.begin() + to_signed(std::max(first, second)));
   }
 
   static void reverse(Edge* edge) {

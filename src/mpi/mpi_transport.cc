@@ -6,6 +6,8 @@
 #include <thread>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -39,7 +41,7 @@ std::optional<Envelope> MpiTransport::receive() {
     return std::nullopt;
   int size = 0;
   MPI_Get_count(&status, MPI_BYTE, &size);
-  Envelope envelope{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
+  Envelope envelope{status.MPI_SOURCE, std::string(to_index(size), '\0')};
   if (!check(MPI_Mrecv(envelope.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE), "receiving")) return std::nullopt;
   return envelope;
 }
@@ -79,7 +81,7 @@ bool MpiTransport::check(int code, const char* what) {
   std::string text(MPI_MAX_ERROR_STRING, '\0');
   int size = 0;
   MPI_Error_string(code, text.data(), &size);
-  failure_ = std::string("a connection to another rank has failed while ") + what + ": " + text.substr(0, static_cast<std::size_t>(size));
+  failure_ = std::string("a connection to another rank has failed while ") + what + ": " + text.substr(0, to_index(size));
   return false;
 }
 

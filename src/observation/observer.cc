@@ -4,6 +4,7 @@
 #include <algorithm>
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -27,7 +28,7 @@ void Observer::name_joints() {
     source.joint = static_cast<int>(k);
     source.pair = system_.topology().joint_pair[k];
     if (source.pair >= 0) {
-      const auto& chain = system_.topology().pairs[static_cast<std::size_t>(source.pair)].chain;
+      const auto& chain = system_.topology().pairs[to_index(source.pair)].chain;
       for (std::size_t e = 0; e < chain.size(); ++e)
         if (chain[e].joint == source.joint) source.element = static_cast<int>(e);
     }
@@ -36,7 +37,7 @@ void Observer::name_joints() {
     if (!robot.joints[k].is_loop) ++names_.tree_joints;
   }
   for (JointSource& source : joints_) {
-    const auto& mimic = robot.joints[static_cast<std::size_t>(source.joint)].mimic;
+    const auto& mimic = robot.joints[to_index(source.joint)].mimic;
     if (source.pair >= 0 || !mimic) continue;
     source.mimicked = static_cast<int>(std::find(names_.joints.begin(), names_.joints.end(), mimic->joint) - names_.joints.begin());
   }
@@ -46,17 +47,17 @@ void Observer::name_frictions() {
   const Topology& topology = system_.topology();
   for (const JointLoad& load : system_.loads()) {
     if (!load.reaction_friction && !load.constant_friction) continue;
-    const Pair& pair = topology.pairs[static_cast<std::size_t>(load.pair)];
+    const Pair& pair = topology.pairs[to_index(load.pair)];
     const int element = std::min(load.element, static_cast<int>(pair.chain.size()) - 1);
-    const JointDescription& joint = system_.robot().joints[static_cast<std::size_t>(pair.chain[static_cast<std::size_t>(element)].joint)];
+    const JointDescription& joint = system_.robot().joints[to_index(pair.chain[to_index(element)].joint)];
     frictions_.push_back({load.pair, load.element});
     names_.frictions.push_back(joint.name);
     names_.friction_is_torque.push_back(joint.type != JointType::kPrismatic && !(pair.kind == PairKind::kCylindrical && load.element == 1));
   }
   for (int contact : system_.contacts()) {
-    const Pair& pair = topology.pairs[static_cast<std::size_t>(contact)];
+    const Pair& pair = topology.pairs[to_index(contact)];
     frictions_.push_back({contact, kContact});
-    names_.frictions.push_back(system_.robot().joints[static_cast<std::size_t>(pair.friction_joint)].name);
+    names_.frictions.push_back(system_.robot().joints[to_index(pair.friction_joint)].name);
     names_.friction_is_torque.push_back(pair.kind == PairKind::kSpherical);
   }
 }
@@ -66,20 +67,19 @@ void Observer::name_links() {
   for (const LinkDescription& link : robot.links) names_.links.push_back(link.name);
   for (const JointDescription& joint : robot.joints)
     if (!joint.is_loop && (joint.type == JointType::kPlanar || joint.type == JointType::kFloating))
-      names_.free_links.emplace_back(static_cast<std::size_t>(joint.child), static_cast<std::size_t>(joint.parent));
+      names_.free_links.emplace_back(to_index(joint.child), to_index(joint.parent));
   for (std::size_t k = 0; k < system_.topology().pairs.size(); ++k) {
     if (!system_.topology().pairs[k].is_loop) continue;
     loops_.push_back(static_cast<int>(k));
     for (const ChainElement& element : system_.topology().pairs[k].chain)
-      if (robot.joints[static_cast<std::size_t>(element.joint)].is_loop)
-        names_.loops.push_back(robot.joints[static_cast<std::size_t>(element.joint)].name);
+      if (robot.joints[to_index(element.joint)].is_loop) names_.loops.push_back(robot.joints[to_index(element.joint)].name);
   }
 }
 
 std::vector<std::size_t> link_parents(const RobotDescription& robot) {
-  std::vector<std::size_t> parents(robot.links.size(), static_cast<std::size_t>(robot.root));
+  std::vector<std::size_t> parents(robot.links.size(), to_index(robot.root));
   for (const JointDescription& joint : robot.joints)
-    if (!joint.is_loop) parents[static_cast<std::size_t>(joint.child)] = static_cast<std::size_t>(joint.parent);
+    if (!joint.is_loop) parents[to_index(joint.child)] = to_index(joint.parent);
   return parents;
 }
 
@@ -94,7 +94,7 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const JointSource& source = joints_[k];
     JointSample& sample = frame->joints[k];
-    const int c = tree_.offset[static_cast<std::size_t>(source.joint)];
+    const int c = tree_.offset[to_index(source.joint)];
     if (source.pair < 0) {
       sample = {theta[c], 0.0, 0.0, 0.0};
       continue;
@@ -118,15 +118,15 @@ void Observer::follow_mimics(const std::vector<double>& parameters, VectorX<doub
     double factor = 1.0, offset = 0.0;
     std::size_t target = k;
     while (joints_[target].mimicked >= 0) {
-      const MimicDescription& mimic = *system_.robot().joints[static_cast<std::size_t>(joints_[target].joint)].mimic;
+      const MimicDescription& mimic = *system_.robot().joints[to_index(joints_[target].joint)].mimic;
       offset += factor * mimic.offset.at(parameters);
       factor *= mimic.multiplier.at(parameters);
-      target = static_cast<std::size_t>(joints_[target].mimicked);
+      target = to_index(joints_[target].mimicked);
     }
     if (target == k) continue;
     const JointSample& source = frame->joints[target];
     frame->joints[k] = {factor * source.position + offset, factor * source.velocity, factor * source.acceleration, 0.0};
-    (*positions)[tree_.offset[static_cast<std::size_t>(joints_[k].joint)]] = frame->joints[k].position;
+    (*positions)[tree_.offset[to_index(joints_[k].joint)]] = frame->joints[k].position;
   }
 }
 
@@ -134,8 +134,8 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
   frame->frictions.resize(frictions_.size());
   for (std::size_t k = 0; k < frictions_.size(); ++k) {
     const FrictionSource& source = frictions_[k];
-    const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(source.pair)];
-    const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(source.pair)];
+    const Pair& pair = system_.topology().pairs[to_index(source.pair)];
+    const PairConstants<double>& c = equations->constants().pairs[to_index(source.pair)];
     FrictionSample& sample = frame->frictions[k];
     sample = {};
     sample.position = equations->formulas().body(pair.body_j).r + equations->formulas().body(pair.body_j).A * c.s_j;
@@ -144,7 +144,7 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
       continue;
     }
     const FrictionState<double> friction = equations->formulas().friction(source.pair, source.element);
-    const double sign = c.coordinates[static_cast<std::size_t>(source.element)].sign;
+    const double sign = c.coordinates[to_index(source.element)].sign;
     const Eigen::Vector3d axis = equations->formulas().body(pair.body_i).A * c.C_i.col(2);
     sample.friction = -friction.load;
     sample.normal_force = friction.normal;
@@ -154,8 +154,8 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
 }
 
 void Observer::observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const {
-  const Pair& pair = system_.topology().pairs[static_cast<std::size_t>(index)];
-  const PairConstants<double>& c = equations->constants().pairs[static_cast<std::size_t>(index)];
+  const Pair& pair = system_.topology().pairs[to_index(index)];
+  const PairConstants<double>& c = equations->constants().pairs[to_index(index)];
   const ContactFriction<double> contact = equations->formulas().contact(index);
   sample->friction = -contact.magnitude();
   sample->normal_force = contact.normal;
@@ -200,8 +200,8 @@ void Observer::observe_links(const VectorX<double>& theta, Equations<double>* eq
   const std::vector<LinkMotion<double>> motions =
       link_motions<double>(system_.robot(), tree_, equations->parameters(), theta, VectorX<double>::Zero(theta.size()));
   for (int joint : tree_.joint_order) {
-    const JointDescription& description = system_.robot().joints[static_cast<std::size_t>(joint)];
-    const auto parent = static_cast<std::size_t>(description.parent), child = static_cast<std::size_t>(description.child);
+    const JointDescription& description = system_.robot().joints[to_index(joint)];
+    const auto parent = to_index(description.parent), child = to_index(description.child);
     if (system_.topology().link_body[child] != Topology::kMassless) continue;
     const LinkSample& base = frame->links[parent];
     const Pose<double> X = motions[parent].X.inverse() * motions[child].X;
@@ -213,7 +213,7 @@ void Observer::observe_loops(const State<double>& state, Equations<double>* equa
   equations->constraint_errors(state, &errors_, &rates_);
   frame->loop_errors.resize(loops_.size());
   for (std::size_t k = 0; k < loops_.size(); ++k) {
-    const auto pair = static_cast<std::size_t>(loops_[k]);
+    const auto pair = to_index(loops_[k]);
     const int first = system_.layout().pair_row[pair], last = system_.layout().pair_end(loops_[k]);
     frame->loop_errors[k] = last > first ? errors_.segment(first, last - first).cwiseAbs().maxCoeff() : 0.0;
   }

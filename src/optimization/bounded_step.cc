@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 
 namespace codesign {
@@ -46,7 +47,7 @@ void BoundedStep::hold_null_directions() {
 }
 
 Eigen::VectorXd BoundedStep::damped(double mu) const {
-  const auto size = static_cast<std::size_t>(gradient_.size());
+  const auto size = to_index(gradient_.size());
   Eigen::VectorXd y = Eigen::VectorXd::Zero(gradient_.size());
   std::vector<Place> places(size, Place::kFree);
   for (std::size_t k = 0; k < size; ++k) {
@@ -73,7 +74,7 @@ void BoundedStep::solve_free(double mu, const std::vector<Index>& free, Eigen::V
   Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(root_.rows() + count, count);
   Eigen::VectorXd held = *y, slope(count);
   for (Index k = 0; k < count; ++k) {
-    const Index i = free[static_cast<std::size_t>(k)];
+    const Index i = free[to_index(k)];
     stacked.col(k).head(root_.rows()) = root_.col(i);
     stacked(root_.rows() + k, k) = std::sqrt(mu);
     held[i] = 0.0;
@@ -89,7 +90,7 @@ void BoundedStep::solve_free(double mu, const std::vector<Index>& free, Eigen::V
   };
   Eigen::VectorXd solution = solve(right);
   solution += solve(right - stacked.transpose() * (stacked * solution));
-  for (Index k = 0; k < count; ++k) (*y)[free[static_cast<std::size_t>(k)]] = solution[k];
+  for (Index k = 0; k < count; ++k) (*y)[free[to_index(k)]] = solution[k];
 }
 
 /// Moves y to the target, or to the first bound on the way, which then holds that component. True if the target was reached.
@@ -112,7 +113,7 @@ bool BoundedStep::move_towards(const Eigen::VectorXd& target, const std::vector<
   const bool down = target[blocking] < (*y)[blocking];
   *y += fraction * (target - *y);
   (*y)[blocking] = down ? lower_[blocking] : upper_[blocking];
-  (*places)[static_cast<std::size_t>(blocking)] = down ? Place::kLower : Place::kUpper;
+  (*places)[to_index(blocking)] = down ? Place::kLower : Place::kUpper;
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/simulation.h"
 #include "optimization/near_multipliers.h"
 #include "problem/margins.h"
@@ -76,12 +77,12 @@ Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho, 
     spread(program->objective(y), scaling, gradient.data());
   } else {
     const std::vector<double> scaled = scaling.scale_gradient(at.total.gradient);
-    for (Index k = 0; k < tuned; ++k) gradient[k] = scaled[static_cast<std::size_t>(k)] / unit;
+    for (Index k = 0; k < tuned; ++k) gradient[k] = scaled[to_index(k)] / unit;
   }
   std::vector<Holder> holders = rows_at(rho, y, scaling, parameters, *program, cancel);
   const std::size_t rows = holders.size();
   for (Index k = 0; k < tuned; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const auto i = to_index(k);
     add_bound(k, 1.0, x[i] - lower[i], &holders);
     add_bound(k, -1.0, upper[i] - x[i], &holders);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/arrays.h"
 #include "optimization/bounded_step.h"
 
 namespace codesign {
@@ -139,7 +140,7 @@ class EnsembleSquares final : public LeastSquaresModel {
     point->value = evaluation.objective;
     point->gradient = Eigen::Map<const Eigen::VectorXd>(gradient.data(), x.size());
     point->root = evaluation.jacobian_root;
-    for (Eigen::Index k = 0; k < x.size(); ++k) point->root.col(k) *= scaling_.range(static_cast<std::size_t>(k));
+    for (Eigen::Index k = 0; k < x.size(); ++k) point->root.col(k) *= scaling_.range(to_index(k));
     return Outcome::kUsable;
   }
 
@@ -149,7 +150,7 @@ class EnsembleSquares final : public LeastSquaresModel {
 };
 
 Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), to_signed(numbers.size()));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "math/arrays.h"
 #include "optimization/algorithm.h"
 #include "optimization/levenberg_marquardt.h"
 #include "optimization/scaling.h"
@@ -65,7 +66,7 @@ class Minimization {
     optimizer->set_maxeval(static_cast<int>(std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
     for (Constraint& constraint : constraints_)
       optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint, kRowTolerance);
-    const auto tolerances = [](int rows) { return std::vector<double>(static_cast<std::size_t>(rows), kRowTolerance); };
+    const auto tolerances = [](int rows) { return std::vector<double>(to_index(rows), kRowTolerance); };
     if (program_.inequalities() > 0)
       optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this, tolerances(program_.inequalities()));
     if (program_.equalities() > 0)
@@ -156,7 +157,7 @@ class Minimization {
     if (!std::isfinite(margin)) return owner.step_back_from_constraint(x, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
     for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
-      gradient[k] = -by_rho[static_cast<Eigen::Index>(k)] * owner.scaling_.range(k);
+      gradient[k] = -by_rho[to_signed(k)] * owner.scaling_.range(k);
     return -margin;
   }
 
@@ -197,7 +198,7 @@ class Minimization {
 
   /// The tuned parameters of NLopt's variables, which the slack variables follow.
   Eigen::VectorXd design(const std::vector<double>& x) const {
-    return scaling_.from_scaled({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(study_.tuned.size())});
+    return scaling_.from_scaled({x.begin(), x.begin() + to_signed(study_.tuned.size())});
   }
   Eigen::VectorXd slack(const std::vector<double>& x) const {
     return Eigen::Map<const Eigen::VectorXd>(x.data() + study_.tuned.size(), program_.slacks());

@@ -8,6 +8,7 @@
 
 #include "engine/thread_engine.h"
 #include "ensemble/parameter_rows.h"
+#include "math/arrays.h"
 #include "optimization/lagrangian.h"
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
@@ -93,7 +94,7 @@ class Multistart {
   Eigen::VectorXd at(const Eigen::VectorXd& u) const {
     Eigen::VectorXd rho(u.size());
     for (Eigen::Index k = 0; k < u.size(); ++k) {
-      const Parameter& p = study_.parameters[static_cast<std::size_t>(study_.tuned[static_cast<std::size_t>(k)])];
+      const Parameter& p = study_.parameters[to_index(study_.tuned[to_index(k)])];
       rho[k] = p.lower + u[k] * (p.upper - p.lower);
     }
     return rho;
@@ -124,7 +125,7 @@ class Multistart {
       starts_.push_back({round[k], total.objective});
     }
     std::stable_sort(starts_.begin(), starts_.end(), [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
-    if (starts_.size() > static_cast<std::size_t>(asked_.starts)) starts_.resize(static_cast<std::size_t>(asked_.starts));
+    if (starts_.size() > to_index(asked_.starts)) starts_.resize(to_index(asked_.starts));
   }
 
   std::vector<OptimizationResult> search() {
@@ -264,7 +265,7 @@ std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scal
       representatives.push_back(k);
       optima.push_back({start.rho, start.objective, 0});
     }
-    ++optima[static_cast<std::size_t>(start.optimum)].found;
+    ++optima[to_index(start.optimum)].found;
   }
   return optima;
 }

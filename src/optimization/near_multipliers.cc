@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 
 namespace codesign {
@@ -53,7 +54,7 @@ Places places_of(const std::vector<Holder>& holders, Index variables) {
   }
   std::sort(close.begin(), close.end());
   for (std::size_t i = 0; i < close.size(); ++i)
-    if (const std::size_t k = close[i].second; i < static_cast<std::size_t>(kMostNear * variables))
+    if (const std::size_t k = close[i].second; i < to_index(kMostNear * variables))
       places.near.push_back(k);
     else
       add_far(k, kNear * length_of(holders[k]));
@@ -186,7 +187,7 @@ FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vecto
   leading_.setZero(leading, distances_.size());
   std::map<std::vector<Index>, std::size_t> group_of;
   for (Index row = 0; row < distances_.size(); ++row) {
-    const Holder& holder = holders_[far_[static_cast<std::size_t>(row)]];
+    const Holder& holder = holders_[far_[to_index(row)]];
     if (holder.leading.size() > 0) leading_.col(row) = holder.leading / distances_[row];
     if (holder.is_bound) continue;
     std::vector<Index> pattern;
@@ -200,8 +201,7 @@ FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vecto
 Eigen::VectorXd FarRows::along(const Eigen::VectorXd& x) const {
   Eigen::VectorXd products = leading_.transpose() * x.head(leading_.rows());
   for (Index row = 0; row < products.size(); ++row)
-    for (const auto& [variable, entry] : holders_[far_[static_cast<std::size_t>(row)]].others)
-      products[row] += entry / distances_[row] * x[variable];
+    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others) products[row] += entry / distances_[row] * x[variable];
   return products;
 }
 
@@ -210,8 +210,7 @@ Eigen::VectorXd FarRows::sum(const Eigen::VectorXd& p) const {
   x.head(leading_.rows()) = leading_ * p;
   for (Index row = 0; row < p.size(); ++row) {
     if (p[row] == 0.0) continue;
-    for (const auto& [variable, entry] : holders_[far_[static_cast<std::size_t>(row)]].others)
-      x[variable] += entry / distances_[row] * p[row];
+    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others) x[variable] += entry / distances_[row] * p[row];
   }
   return x;
 }
@@ -229,14 +228,14 @@ Eigen::MatrixXd FarRows::metric(const std::vector<bool>& active) const {
 void FarRows::append(const std::vector<Index>& group, const std::vector<bool>& active, Eigen::MatrixXd* rows) const {
   std::vector<Index> chosen;
   for (const Index row : group)
-    if (active[static_cast<std::size_t>(row)]) chosen.push_back(row);
+    if (active[to_index(row)]) chosen.push_back(row);
   if (chosen.empty()) return;
-  const auto others_of = [&](Index row) -> const auto& { return holders_[far_[static_cast<std::size_t>(row)]].others; };
+  const auto others_of = [&](Index row) -> const auto& { return holders_[far_[to_index(row)]].others; };
   const auto& pattern = others_of(chosen[0]);
   const Index leading = leading_.rows(), columns = leading + static_cast<Index>(pattern.size());
   Eigen::MatrixXd block(static_cast<Index>(chosen.size()), columns);
   for (Index k = 0; k < block.rows(); ++k) {
-    const Index row = chosen[static_cast<std::size_t>(k)];
+    const Index row = chosen[to_index(k)];
     block.row(k).head(leading) = leading_.col(row).transpose();
     for (std::size_t i = 0; i < pattern.size(); ++i) block(k, leading + static_cast<Index>(i)) = others_of(row)[i].second / distances_[row];
   }
@@ -261,7 +260,7 @@ NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient, const std::vec
     directions_.col(k).head(one.leading.size()) = one.leading;
     for (const auto& [variable, entry] : one.others) directions_(variable, k) = entry;
     distances_[k] = one.distance;
-    used_[static_cast<std::size_t>(k)] = one.any_sign || (one.is_on_bound() && directions_.col(k).dot(gradient_) > 0.0);
+    used_[to_index(k)] = one.any_sign || (one.is_on_bound() && directions_.col(k).dot(gradient_) > 0.0);
   }
 }
 
@@ -283,7 +282,7 @@ Eigen::VectorXd NearMultipliers::solve(const Eigen::VectorXd& x) const {
 void NearMultipliers::balance_bounds(const Eigen::VectorXd& x) {
   const Eigen::VectorXd rest = x - held();
   for (Index k = 0; k < c_.size(); ++k)
-    if (used_[static_cast<std::size_t>(k)] && holder(k).is_on_bound()) c_[k] = std::max(0.0, c_[k] + directions_.col(k).dot(rest));
+    if (used_[to_index(k)] && holder(k).is_on_bound()) c_[k] = std::max(0.0, c_[k] + directions_.col(k).dot(rest));
 }
 
 /// Adds the unused multiplier that reduces the residual fastest. False if there is none.
@@ -293,14 +292,14 @@ bool NearMultipliers::add_best() {
   Index best = -1;
   const Eigen::VectorXd gains = directions_.transpose() * rest_;
   for (Index k = 0; k < gains.size(); ++k) {
-    if (used_[static_cast<std::size_t>(k)]) continue;
+    if (used_[to_index(k)]) continue;
     const double gain = gains[k] / directions_.col(k).norm();
     if (!(gain > most)) continue;
     most = gain;
     best = k;
   }
   if (best < 0) return false;
-  used_[static_cast<std::size_t>(best)] = true;
+  used_[to_index(best)] = true;
   return true;
 }
 
@@ -316,20 +315,20 @@ void NearMultipliers::settle(const Eigen::MatrixXd& metric) {
     for (Index k = 0; k < c_.size(); ++k) {
       if (!may_block(k) || !(target[k] < 0.0) || c_[k] > kNoGain * (1.0 + std::abs(target[k]))) continue;
       c_[k] = 0.0;
-      used_[static_cast<std::size_t>(k)] = false;
+      used_[to_index(k)] = false;
       dropped = true;
     }
     if (!dropped) return;
   }
 }
 
-bool NearMultipliers::may_block(Index k) const { return used_[static_cast<std::size_t>(k)] && !holder(k).any_sign; }
+bool NearMultipliers::may_block(Index k) const { return used_[to_index(k)] && !holder(k).any_sign; }
 
 /// Decomposes the columns of the free variables, if they have changed.
 void NearMultipliers::factor(const Eigen::MatrixXd& metric) {
-  std::vector<bool> held(static_cast<std::size_t>(gradient_.size()), false);
+  std::vector<bool> held(to_index(gradient_.size()), false);
   for (Index k = 0; k < c_.size(); ++k)
-    if (used_[static_cast<std::size_t>(k)] && holder(k).is_on_bound()) held[static_cast<std::size_t>(holder(k).others[0].first)] = true;
+    if (used_[to_index(k)] && holder(k).is_on_bound()) held[to_index(holder(k).others[0].first)] = true;
   std::vector<int> free;
   for (std::size_t i = 0; i < held.size(); ++i)
     if (!held[i]) free.push_back(static_cast<int>(i));
@@ -344,7 +343,7 @@ Eigen::VectorXd NearMultipliers::target(const Eigen::MatrixXd& metric) {
   factor(metric);
   std::vector<Index> columns;
   for (Index k = 0; k < c_.size(); ++k)
-    if (used_[static_cast<std::size_t>(k)] && !holder(k).is_on_bound()) columns.push_back(k);
+    if (used_[to_index(k)] && !holder(k).is_on_bound()) columns.push_back(k);
   const auto size = static_cast<Index>(free_.size()), count = static_cast<Index>(columns.size());
   Eigen::VectorXd target = Eigen::VectorXd::Zero(c_.size());
   if (count > 0) {
@@ -361,7 +360,7 @@ Eigen::VectorXd NearMultipliers::target(const Eigen::MatrixXd& metric) {
   rest_ = solve(left);
   const Eigen::VectorXd missing = left - metric.transpose() * (metric * rest_);
   for (Index k = 0; k < c_.size(); ++k)
-    if (used_[static_cast<std::size_t>(k)] && holder(k).is_on_bound()) target[k] = directions_.col(k).dot(missing);
+    if (used_[to_index(k)] && holder(k).is_on_bound()) target[k] = directions_.col(k).dot(missing);
   return target;
 }
 

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 /// A row or bound with a multiplier c: the residual contains c times its direction a, and c times its distance d from being active.
@@ -45,7 +47,7 @@ class FarRows {
 
   std::size_t size() const { return far_.size(); }
   std::size_t holder(std::size_t row) const { return far_[row]; }
-  double distance(std::size_t row) const { return distances_[static_cast<Eigen::Index>(row)]; }
+  double distance(std::size_t row) const { return distances_[to_signed(row)]; }
 
   /// w^T x of each row.
   Eigen::VectorXd along(const Eigen::VectorXd& x) const;
@@ -97,7 +99,7 @@ class NearMultipliers {
   void factor(const Eigen::MatrixXd& metric);
   Eigen::VectorXd target(const Eigen::MatrixXd& metric);
   bool may_block(Eigen::Index k) const;
-  const Holder& holder(Eigen::Index k) const { return holders_[near_[static_cast<std::size_t>(k)]]; }
+  const Holder& holder(Eigen::Index k) const { return holders_[near_[to_index(k)]]; }
 
   const Eigen::VectorXd& gradient_;
   const std::vector<Holder>& holders_;

@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
-Scaling::Scaling(const Study& study) : study_(study), start_(static_cast<Eigen::Index>(study.tuned.size())) {
+Scaling::Scaling(const Study& study) : study_(study), start_(to_signed(study.tuned.size())) {
   for (std::size_t k = 0; k < study.tuned.size(); ++k) {
-    const Parameter& p = study.parameters[static_cast<std::size_t>(study.tuned[k])];
+    const Parameter& p = study.parameters[to_index(study.tuned[k])];
     const bool bounded = std::isfinite(p.lower) && std::isfinite(p.upper) && p.upper > p.lower;
-    start_[static_cast<Eigen::Index>(k)] = p.value;
+    start_[to_signed(k)] = p.value;
     origin_.push_back(bounded ? p.lower : 0.0);
     range_.push_back(bounded ? p.upper - p.lower : p.value != 0.0 ? std::abs(p.value) : 1.0);
     lower_.push_back((p.lower - origin_[k]) / range_[k]);
@@ -20,22 +22,22 @@ Scaling::Scaling(const Study& study) : study_(study), start_(static_cast<Eigen::
 
 std::vector<double> Scaling::to_scaled(const Eigen::VectorXd& rho) const {
   std::vector<double> x(range_.size());
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] = (rho[static_cast<Eigen::Index>(k)] - origin_[k]) / range_[k];
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = (rho[to_signed(k)] - origin_[k]) / range_[k];
   return x;
 }
 
 Eigen::VectorXd Scaling::from_scaled(const std::vector<double>& x) const {
-  Eigen::VectorXd rho(static_cast<Eigen::Index>(x.size()));
+  Eigen::VectorXd rho(to_signed(x.size()));
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const Parameter& p = study_.parameters[static_cast<std::size_t>(study_.tuned[k])];
-    rho[static_cast<Eigen::Index>(k)] = std::min(p.upper, std::max(p.lower, origin_[k] + range_[k] * x[k]));
+    const Parameter& p = study_.parameters[to_index(study_.tuned[k])];
+    rho[to_signed(k)] = std::min(p.upper, std::max(p.lower, origin_[k] + range_[k] * x[k]));
   }
   return rho;
 }
 
 std::vector<double> Scaling::scale_gradient(const Eigen::VectorXd& gradient) const {
   std::vector<double> scaled(range_.size());
-  for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] = gradient[static_cast<Eigen::Index>(k)] * range_[k];
+  for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] = gradient[to_signed(k)] * range_[k];
   return scaled;
 }
 
@@ -50,7 +52,7 @@ double Scaling::free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::Vect
   const std::vector<double> x = to_scaled(rho);
   Eigen::VectorXd free = gradient;
   for (std::size_t k = 0; k < x.size(); ++k) {
-    double& component = free[static_cast<Eigen::Index>(k)];
+    double& component = free[to_signed(k)];
     if ((x[k] - lower_[k] <= kOnBound && component > 0.0) || (upper_[k] - x[k] <= kOnBound && component < 0.0)) component = 0.0;
   }
   return gradient_norm(free);

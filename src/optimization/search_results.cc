@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "description/study.h"
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "optimization/algorithm.h"
 #include "optimization/local_search.h"
@@ -19,8 +20,7 @@ namespace {
 
 ScenarioResult describe(const Study& study, const Scenario& scenario, double initial, double final) {
   ScenarioResult result{scenario.run, scenario.sample, scenario.weight, {}, initial, final, scenario.friction_law};
-  for (const auto& [index, value] : scenario.values)
-    result.values.emplace_back(study.parameters[static_cast<std::size_t>(index)].name, value);
+  for (const auto& [index, value] : scenario.values) result.values.emplace_back(study.parameters[to_index(index)].name, value);
   return result;
 }
 
@@ -57,7 +57,7 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
     weights.push_back(scenarios[k].weight);
   }
   if (values.empty()) return validation;
-  const Eigen::VectorXd psi = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  const Eigen::VectorXd psi = Eigen::Map<Eigen::VectorXd>(values.data(), to_signed(values.size()));
   Eigen::VectorXd w = Eigen::Map<Eigen::VectorXd>(weights.data(), psi.size());
   w /= w.sum();
   const Measured measured = measure(options, psi, w);
@@ -130,7 +130,7 @@ void add_flat_warning(const Study& study, const OptimizerOptions& options, const
     for (Eigen::Index k = 0; k < result.flat_directions.rows(); ++k) {
       const double by = result.flat_directions(k, d);
       if (by == 0.0) continue;
-      const Parameter& parameter = study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])];
+      const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
       direction += (direction.empty() ? "" : ", ") + parameter.name + (by > 0.0 ? " +" : " ") + readable(by, 3);
     }
     list += (d == 0 ? "" : "; ") + direction;
@@ -167,15 +167,14 @@ void reduce(Eigen::MatrixXd* rows) {
 void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
-  const bool known =
-      result->values.size() == static_cast<Eigen::Index>(scenarios.size()) && result->initial_values.size() == result->values.size();
+  const bool known = result->values.size() == to_signed(scenarios.size()) && result->initial_values.size() == result->values.size();
   if (!problem.study().ensemble.is_ensemble() || !known) return;
   for (std::size_t k = 0; k < scenarios.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
+    const auto i = to_signed(k);
     result->scenarios.push_back(describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
   }
-  for (int k : result->initial_failed) result->scenarios[static_cast<std::size_t>(k)].initial_failed = true;
-  for (int k : result->failed) result->scenarios[static_cast<std::size_t>(k)].failed = true;
+  for (int k : result->initial_failed) result->scenarios[to_index(k)].initial_failed = true;
+  for (int k : result->failed) result->scenarios[to_index(k)].failed = true;
   if (ensemble.options().measure == RobustMeasure::kCvar)
     result->value_at_risk = measure(ensemble.options(), result->values, ensemble.weights()).threshold;
   if (ensemble.options().validate == 0 || is_set(cancel)) return;
@@ -200,8 +199,8 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options, co
   add_evaluations_warning(study, options, result, &warnings);
   add_stop_warning(study, options, result, &warnings);
   for (std::size_t k = 0; k < study.tuned.size(); ++k) {
-    const Parameter& parameter = study.parameters[static_cast<std::size_t>(study.tuned[k])];
-    const auto i = static_cast<Eigen::Index>(k);
+    const Parameter& parameter = study.parameters[to_index(study.tuned[k])];
+    const auto i = to_signed(k);
     add_bound_warning(parameter, result.rho[i], result.bound_multipliers[i], result.objective, &warnings);
     if (!result.influences[k])
       warnings.push_back(
@@ -218,12 +217,12 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options, co
 Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active, const std::vector<bool>& held) {
   std::vector<Index> moving;
   for (Index k = 0; k < root.cols(); ++k)
-    if (!held[static_cast<std::size_t>(k)]) moving.push_back(k);
+    if (!held[to_index(k)]) moving.push_back(k);
   const auto count = static_cast<Index>(moving.size());
   Eigen::MatrixXd stacked(root.rows() + active.cols(), count);
   for (Index k = 0; k < count; ++k) {
-    stacked.col(k).head(root.rows()) = root.col(moving[static_cast<std::size_t>(k)]);
-    stacked.col(k).tail(active.cols()) = active.row(moving[static_cast<std::size_t>(k)]).transpose();
+    stacked.col(k).head(root.rows()) = root.col(moving[to_index(k)]);
+    stacked.col(k).tail(active.cols()) = active.row(moving[to_index(k)]).transpose();
   }
   // A constraint holds its direction whatever its unit.
   const double size = stacked.topRows(root.rows()).norm();
@@ -239,7 +238,7 @@ Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::Matrix
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(root.cols(), flat);
   for (Index k = 0; k < count; ++k)
     for (Index d = 0; d < flat; ++d)
-      if (std::abs(rows(d, k)) > kBalances) directions(moving[static_cast<std::size_t>(k)], d) = rows(d, k);
+      if (std::abs(rows(d, k)) > kBalances) directions(moving[to_index(k)], d) = rows(d, k);
   return directions;
 }
 

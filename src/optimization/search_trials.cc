@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "optimization/algorithm.h"
 #include "optimization/lagrangian.h"
 #include "optimization/search_results.h"
@@ -148,7 +149,7 @@ void SearchTrials::judge_stop() {
 }
 
 void SearchTrials::find_flat_directions() {
-  const auto size = static_cast<Eigen::Index>(study_.tuned.size());
+  const auto size = to_signed(study_.tuned.size());
   if (size < 2 || !is_sum_of_squares(study_)) return;
   Eigen::MatrixXd root = best_.total.jacobian_root;
   if (root.size() == 0) {
@@ -161,12 +162,12 @@ void SearchTrials::find_flat_directions() {
   }
   std::vector<bool> held(study_.tuned.size());
   for (std::size_t k = 0; k < held.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
+    const auto i = to_signed(k);
     root.col(i) *= scaling_.range(k);
     held[k] = !result_.influences[k] || result_.bound_multipliers[i] != 0.0;
   }
   result_.flat_directions = flat_directions(root, best_optimality().active, held);
-  for (Eigen::Index k = 0; k < size; ++k) result_.flat_directions.row(k) *= scaling_.range(static_cast<std::size_t>(k));
+  for (Eigen::Index k = 0; k < size; ++k) result_.flat_directions.row(k) *= scaling_.range(to_index(k));
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
@@ -199,7 +200,7 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
 /// @param gradients one row per tuned parameter.
 void SearchTrials::note_influences(const Eigen::MatrixXd& gradients) {
   for (std::size_t k = 0; k < result_.influences.size(); ++k)
-    if ((gradients.row(static_cast<Eigen::Index>(k)).array() != 0.0).any()) result_.influences[k] = true;
+    if ((gradients.row(to_signed(k)).array() != 0.0).any()) result_.influences[k] = true;
 }
 
 double SearchTrials::violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 SlackForm::SlackForm(const RobustOptions& options, Eigen::VectorXd weights)
@@ -72,7 +74,7 @@ double SignalRows::value(const SignalRow& row, const Extremes& extremes, const s
 }
 
 double SignalRows::derivative(const SignalRow& row, std::size_t k, const Extremes& extremes, const std::vector<double>& parameters) const {
-  const double x = row.sign * extremes.gradients(static_cast<Eigen::Index>(k), row.place);
+  const double x = row.sign * extremes.gradients(to_signed(k), row.place);
   if (row.peak >= 0 || bound(row).is_constant()) return x;
   return x - row.sign * bound(row).expression()->derivative(study_.tuned[k], parameters);
 }

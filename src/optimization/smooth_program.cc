@@ -7,6 +7,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "math/arrays.h"
 #include "optimization/lagrangian.h"
 #include "sampling/measure.h"
 #include "sensitivity/signal_watch.h"
@@ -102,7 +103,7 @@ void SmoothProgram::take(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     const Scenario& scenario = ensemble_.scenarios()[i];
     parameters_.push_back(scenario.parameters(rho));
     if (rows_[i].peaks().empty()) continue;
-    const auto column = static_cast<Eigen::Index>(i);
+    const auto column = to_signed(i);
     Eigen::VectorXd of_peaks = Eigen::VectorXd::Zero(rho.size());
     smooth_values_[column] -= peak_terms(scenario.system->whole_study(), all.extremes[i], &of_peaks);
     smooth_gradients_.col(column) -= of_peaks;
@@ -126,18 +127,18 @@ SmoothProgram::Value SmoothProgram::objective(const Eigen::VectorXd& slack) cons
   Eigen::VectorXd psi = smooth_values_;
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j)
-      psi[static_cast<Eigen::Index>(i)] += unit_ * peak_factor(i, j) * slack[peak_variable(i, j)];
+      psi[to_signed(i)] += unit_ * peak_factor(i, j) * slack[peak_variable(i, j)];
   const Measured measured = measure(ensemble_.options(), psi, ensemble_.weights());
   result.value = measured.value / unit_;
   result.by_rho = smooth_gradients_ * measured.by_value / unit_;
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j)
-      result.by_slack[peak_variable(i, j)] = measured.by_value[static_cast<Eigen::Index>(i)] * peak_factor(i, j);
+      result.by_slack[peak_variable(i, j)] = measured.by_value[to_signed(i)] * peak_factor(i, j);
   return result;
 }
 
 double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
-  const std::size_t watched = rows_[scenario].peaks()[static_cast<std::size_t>(peak)];
+  const std::size_t watched = rows_[scenario].peaks()[to_index(peak)];
   const double weight = ensemble_.scenarios()[scenario].system->whole_study().watched[watched].weight;
   return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
 }
@@ -148,14 +149,14 @@ SmoothProgram::Value SmoothProgram::signal_value(const Place& place) const {
   const Extremes& extremes = all_->extremes[place.scenario];
   result.value = rows.value(*place.row, extremes, parameters_[place.scenario]);
   for (Eigen::Index k = 0; k < result.by_rho.size(); ++k)
-    result.by_rho[k] = rows.derivative(*place.row, static_cast<std::size_t>(k), extremes, parameters_[place.scenario]);
+    result.by_rho[k] = rows.derivative(*place.row, to_index(k), extremes, parameters_[place.scenario]);
   return result;
 }
 
 // psi_i - t - z_i <= 0 for the robust measure, then the rows of signals.
 SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& slack) const {
   if (row >= slack_.constraints()) {
-    const Place& place = inequality_places_[static_cast<std::size_t>(row - slack_.constraints())];
+    const Place& place = inequality_places_[to_index(row - slack_.constraints())];
     Value result = signal_value(place);
     if (place.row->peak < 0) return result;
     const int variable = peak_variable(place.scenario, place.row->peak);
@@ -166,7 +167,7 @@ SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& s
     return result;
   }
   Value result = blank();
-  const auto i = static_cast<std::size_t>(row);
+  const auto i = to_index(row);
   double psi = smooth_values_[row] / unit_;
   for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
     result.by_slack[peak_variable(i, j)] = peak_factor(i, j);
@@ -178,7 +179,7 @@ SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& s
   return result;
 }
 
-SmoothProgram::Value SmoothProgram::equality(int row) const { return signal_value(equality_places_[static_cast<std::size_t>(row)]); }
+SmoothProgram::Value SmoothProgram::equality(int row) const { return signal_value(equality_places_[to_index(row)]); }
 
 std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
                                                    const Eigen::VectorXd& rho) const {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -35,7 +36,7 @@ bool all_met(const Eigen::VectorXd& margins) {
 std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins) {
   std::string list;
   for (std::size_t k = 0; k < study.constraints.size(); ++k) {
-    const double margin = margins[static_cast<Eigen::Index>(k)];
+    const double margin = margins[to_signed(k)];
     if (margin >= kMet) continue;
     list += (list.empty() ? "\"" : ", \"") + study.constraints[k].text + "\" (margin " + to_decimal(margin) + ")";
   }

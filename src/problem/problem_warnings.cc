@@ -7,6 +7,7 @@
 
 #include "control/reference.h"
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -70,7 +71,7 @@ Warnings differing_nominals(const Study& study) {
   SourceLocation where;
   for (const UncertainQuantity& quantity : study.ensemble.uncertain) {
     if (!quantity.is_identified) continue;
-    const double nominal = study.parameters[static_cast<std::size_t>(quantity.parameter)].value, found = quantity.distribution.mean;
+    const double nominal = study.parameters[to_index(quantity.parameter)].value, found = quantity.distribution.mean;
     if (std::abs(nominal - found) <= kEqual * std::max(std::abs(found), quantity.spread)) continue;
     values += (values.empty() ? "" : ", ") + quantity.name + " " + readable(nominal);
     identified += (identified.empty() ? "" : ", ") + readable(found);
@@ -87,7 +88,7 @@ Warnings unused_parameters(const Study& study) {
   Warnings warnings;
   for (int index : study.tuned) {
     if (is_used(study, index)) continue;
-    const Parameter& parameter = study.parameters[static_cast<std::size_t>(index)];
+    const Parameter& parameter = study.parameters[to_index(index)];
     warnings.push_back(
         warn("unused_parameter", {parameter.where, "parameter " + parameter.name,
                                   "nothing in the model or the study depends on this parameter, which is to be tuned; write ${" +

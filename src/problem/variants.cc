@@ -7,6 +7,7 @@
 #include "description/robot.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "problem/load_problem.h"
 #include "sampling/sampler.h"
 
@@ -26,14 +27,13 @@ RobotDescription with_law(RobotDescription robot, FrictionModel model) {
 }
 
 bool is_tuned(const Study& study, const std::string& name) {
-  return std::any_of(study.tuned.begin(), study.tuned.end(),
-                     [&](int index) { return study.parameters[static_cast<std::size_t>(index)].name == name; });
+  return std::any_of(study.tuned.begin(), study.tuned.end(), [&](int index) { return study.parameters[to_index(index)].name == name; });
 }
 
 /// The points of the Sobol sequence have a largest dimension. @param quantities that are drawn, in words.
 void require_dimension(SamplerKind sampler, std::size_t count, const SourceLocation& where, const std::string& block,
                        const std::string& quantities) {
-  if (sampler != SamplerKind::kSobol || count <= static_cast<std::size_t>(kMaxSobolDimension)) return;
+  if (sampler != SamplerKind::kSobol || count <= to_index(kMaxSobolDimension)) return;
   throw InputError({where, block + ".sampler", "the sampler sobol draws fewer quantities than there are " + quantities,
                     std::to_string(count) + " " + quantities,
                     "at most " + std::to_string(kMaxSobolDimension) + ", or sampler: latin_hypercube or random"});
@@ -55,7 +55,7 @@ void require_compatible(const Study& study) {
       throw tuned_error(quantity.where, "uncertain." + quantity.name, quantity.name);
   if (study.ensemble.multistart.starts == 0) return;
   for (int index : study.tuned)
-    if (const auto fault = find_missing_bounds(study.parameters[static_cast<std::size_t>(index)])) throw InputError(*fault);
+    if (const auto fault = find_missing_bounds(study.parameters[to_index(index)])) throw InputError(*fault);
 }
 
 int count_laws(const Study& study) {
@@ -83,8 +83,8 @@ std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDesc
 std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law) {
   const auto& variants = problem.contents().variants;
   if (variants.empty()) return problem.system();
-  const auto laws = static_cast<std::size_t>(count_laws(problem.study()));
-  return variants[static_cast<std::size_t>(run) * (1 + laws) + static_cast<std::size_t>(1 + law)];
+  const auto laws = to_index(count_laws(problem.study()));
+  return variants[to_index(run) * (1 + laws) + to_index(1 + law)];
 }
 
 std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "description/named_file.h"
+#include "math/arrays.h"
 #include "recordings/measured_motion.h"
 #include "recordings/number_table.h"
 #include "recordings/recording_check.h"
@@ -90,7 +91,7 @@ void require_one_piece(const RecordingDescription& description, const std::vecto
 std::vector<JointRecording> long_enough(std::vector<JointRecording> pieces, const Context& context) {
   const IdentificationDescription& options = context.identification;
   const auto is_short = [&options](const JointRecording& piece) {
-    return samples_to_fit(piece, options.filter) < static_cast<Eigen::Index>(kLeastSamples);
+    return samples_to_fit(piece, options.filter) < to_signed(kLeastSamples);
   };
   if (options.residual != ResidualKind::kEffort || std::all_of(pieces.begin(), pieces.end(), is_short)) return pieces;
   const auto short_ones = std::stable_partition(pieces.begin(), pieces.end(), [&](const auto& piece) { return !is_short(piece); });
@@ -136,7 +137,7 @@ bool share_samples(const JointRecording& one, const JointRecording& other) {
   return std::all_of(one.joints.begin(), one.joints.end(), [&](const JointSamples& samples) {
     const JointSamples* same = other.find(samples.joint);
     if (!same || same->position.size() != other.times.size() || samples.position.size() != one.times.size()) return same != nullptr;
-    return samples.position[static_cast<std::size_t>(index(one))] == same->position[static_cast<std::size_t>(index(other))];
+    return samples.position[to_index(index(one))] == same->position[to_index(index(other))];
   });
 }
 
@@ -270,8 +271,7 @@ bool has_same_settings(const JointRecording& one, const JointRecording& other) {
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end) {
   const auto cut = [begin, end](const auto& column) {
     auto part = column;
-    if (!column.empty())
-      part.assign(column.begin() + static_cast<std::ptrdiff_t>(begin), column.begin() + static_cast<std::ptrdiff_t>(end));
+    if (!column.empty()) part.assign(column.begin() + to_signed(begin), column.begin() + to_signed(end));
     return part;
   };
   JointRecording part;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "math/arrays.h"
 #include "recordings/recording_check.h"
 #include "recordings/zero_phase_filter.h"
 #include "text/number_text.h"
@@ -61,7 +62,7 @@ bool choose_samples(const FilterOptions& filter, MeasuredMotion* motion) {
 }
 
 void require_samples(const JointRecording& recording, const FilterOptions& filter, MeasuredMotion* motion) {
-  if (choose_samples(filter, motion) && motion->fitted() >= static_cast<Eigen::Index>(kLeastSamples)) return;
+  if (choose_samples(filter, motion) && motion->fitted() >= to_signed(kLeastSamples)) return;
   throw InputError({recording.where, recording.element,
                     std::to_string(motion->times.count) + " samples leave " + std::to_string(motion->fitted()) +
                         " to fit, without the ends where filters know one side only: " + recording.file,
@@ -118,11 +119,11 @@ UniformTimes uniform_times(const std::vector<double>& times) {
   UniformTimes uniform;
   uniform.start = times.front();
   uniform.step = (times.back() - times.front()) / periods;
-  uniform.count = static_cast<Eigen::Index>(periods) + 1;
+  uniform.count = to_signed(periods) + 1;
   double off = 0.0;
-  for (std::size_t k = 0; k < times.size(); ++k) off = std::max(off, std::abs(times[k] - uniform.at(static_cast<Eigen::Index>(k))));
+  for (std::size_t k = 0; k < times.size(); ++k) off = std::max(off, std::abs(times[k] - uniform.at(to_signed(k))));
   constexpr double kJitter = 1e-3;
-  uniform.exact = uniform.count == static_cast<Eigen::Index>(times.size()) && off < kJitter * uniform.step;
+  uniform.exact = uniform.count == to_signed(times.size()) && off < kJitter * uniform.step;
   return uniform;
 }
 
@@ -146,8 +147,7 @@ Eigen::VectorXd derivative(const Eigen::VectorXd& samples, double step) {
   for (Eigen::Index k = 1; k + 1 < n; ++k) {
     const Eigen::Index reach = std::min<Eigen::Index>({4, k, n - 1 - k});
     double sum = 0.0;
-    for (Eigen::Index j = 1; j <= reach; ++j)
-      sum += kCentral[static_cast<std::size_t>(reach - 1)][static_cast<std::size_t>(j - 1)] * (samples[k + j] - samples[k - j]);
+    for (Eigen::Index j = 1; j <= reach; ++j) sum += kCentral[to_index(reach - 1)][to_index(j - 1)] * (samples[k + j] - samples[k - j]);
     result[k] = sum / step;
   }
   result[0] = (-1.5 * samples[0] + 2.0 * samples[1] - 0.5 * samples[2]) / step;

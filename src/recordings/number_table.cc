@@ -9,6 +9,7 @@
 #include <fstream>
 #include <utility>
 
+#include "math/arrays.h"
 #include "text/nearest_name.h"
 
 namespace codesign {
@@ -91,7 +92,7 @@ std::string text_of_file(const RecordingDescription& description, const std::str
   if (!file) fail(std::string("the file cannot be read: ") + std::strerror(errno), "a path, relative to the folder of the study");
   const std::streamoff size = file.tellg();
   if (size < 0 || size > kMostBytes) fail("no file, or one that is too large", "a file of at most 2 GB");
-  std::string text(static_cast<std::size_t>(size), '\0');
+  std::string text(to_index(size), '\0');
   file.seekg(0);
   if (!file.read(text.data(), size)) fail(std::string("the file cannot be read: ") + std::strerror(errno), "");
   return text;
@@ -217,7 +218,7 @@ void NumberTable::split(std::string_view line, Cells* cells) const {
 NumberTable::Columns NumberTable::read(const std::vector<int>& indices) const {
   Columns columns;
   columns.values.resize(indices.size());
-  const auto rows = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n') + 1);
+  const auto rows = to_index(std::count(text_.begin(), text_.end(), '\n') + 1);
   for (std::vector<double>& column : columns.values) column.reserve(rows);
   columns.lines.reserve(rows);
   Lines lines(text_, body_, body_line_);
@@ -226,7 +227,7 @@ NumberTable::Columns NumberTable::read(const std::vector<int>& indices) const {
     const std::string_view row = trimmed(line);
     if (row.empty() || row.front() == '#') continue;
     split(line, &cells);
-    read_row(cells, static_cast<std::size_t>(lines.number()), indices, &columns);
+    read_row(cells, to_index(lines.number()), indices, &columns);
   }
   return columns;
 }
@@ -236,7 +237,7 @@ void NumberTable::read_row(const Cells& cells, std::size_t line, const std::vect
     fail(line, "", "a row of " + std::to_string(cells.size()) + " cells, where the first has " + std::to_string(width_), "",
          "rows of equal length; `delimiter` gives the separator of the cells");
   for (std::size_t k = 0; k < indices.size(); ++k) {
-    const auto column = static_cast<std::size_t>(indices[k]);
+    const auto column = to_index(indices[k]);
     columns->values[k].push_back(read_cell(cells[column], line, column));
   }
   columns->lines.push_back(line);

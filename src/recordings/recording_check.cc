@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -24,7 +25,7 @@ void require_finite(const JointRecording& recording) {
       const std::vector<double>& column = samples.of(static_cast<MeasuredQuantity>(q));
       const auto bad = std::find_if(column.begin(), column.end(), [](double value) { return !std::isfinite(value); });
       if (bad != column.end())
-        fail_at(recording, static_cast<std::size_t>(bad - column.begin()),
+        fail_at(recording, to_index(bad - column.begin()),
                 "the " + std::string(kMeasuredQuantityNames[q]) + " of " + samples.joint + " is not a finite number", to_decimal(*bad),
                 "finite numbers; `from` and `to` choose a part of the recording");
     }
@@ -80,7 +81,7 @@ constexpr std::size_t kReach = 5, kLongest = 3;  // samples beside one that its 
 constexpr double kSteps = 20.0;                  // usual steps between neighbours by which a spike leaves them
 
 double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + to_signed(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -99,7 +100,7 @@ std::vector<bool> suspects_of(const std::vector<double>& column) {
   std::vector<bool> suspects(column.size(), false);
   for (std::size_t k = 0; k < column.size(); ++k) {
     const std::size_t begin = k < kReach ? 0 : k - kReach, end = std::min(column.size(), k + kReach + 1);
-    const auto at = [&column](std::size_t i) { return column.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto at = [&column](std::size_t i) { return column.begin() + to_signed(i); };
     suspects[k] = std::abs(column[k] - median_of({at(begin), at(end)})) > most;
   }
   return suspects;
@@ -222,7 +223,7 @@ double median_period(const std::vector<double>& times) {
   std::vector<double> periods;
   periods.reserve(times.size() - 1);
   for (std::size_t k = 1; k < times.size(); ++k) periods.push_back(times[k] - times[k - 1]);
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  const auto middle = periods.begin() + to_signed(periods.size() / 2);
   std::nth_element(periods.begin(), middle, periods.end());
   return *middle;
 }
@@ -233,10 +234,8 @@ JointRecording checked_part(const JointRecording& recording, double from, double
   const auto inside = [from, to](double time) { return from <= time && time <= to; };
   const auto first = std::find_if(recording.times.begin(), recording.times.end(), inside);
   const auto last = std::find_if(recording.times.rbegin(), recording.times.rend(), inside).base();
-  if (last - first < static_cast<std::ptrdiff_t>(kLeastSamples))
-    refuse_length(recording, static_cast<std::size_t>(std::max<std::ptrdiff_t>(last - first, 0)), from, to);
-  JointRecording part = part_of(recording, static_cast<std::size_t>(first - recording.times.begin()),
-                                static_cast<std::size_t>(last - recording.times.begin()));
+  if (last - first < to_signed(kLeastSamples)) refuse_length(recording, to_index(std::max<std::ptrdiff_t>(last - first, 0)), from, to);
+  JointRecording part = part_of(recording, to_index(first - recording.times.begin()), to_index(last - recording.times.begin()));
   require_ascending(part);
   require_finite(part);
   return part;

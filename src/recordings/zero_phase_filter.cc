@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 // Pairs of poles of the analog prototype, s^2 + q s + 1 with q = 2 sin(pi (2k + 1) / (2 n)), and the real pole of odd orders, taken to
@@ -32,7 +34,7 @@ void ZeroPhaseFilter::run(const Section& c, double* first, double* last, std::pt
 void ZeroPhaseFilter::apply(Eigen::Ref<Eigen::VectorXd> samples, Workspace* workspace) const {
   const Eigen::Index n = samples.size(), m = padding_;
   assert(n >= least_samples());
-  workspace->resize(static_cast<std::size_t>(n + 2 * m));
+  workspace->resize(to_index(n + 2 * m));
   double* const x = workspace->data();
   for (Eigen::Index k = 0; k < m; ++k) {
     x[k] = 2.0 * samples[0] - samples[m - k];

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -42,7 +44,7 @@ Measured worst(const VectorXd& values) {
 
 // Places of the values from the largest to the smallest; equal ones keep their order.
 std::vector<Index> worst_first(const VectorXd& values) {
-  std::vector<Index> order(static_cast<std::size_t>(values.size()));
+  std::vector<Index> order(to_index(values.size()));
   std::iota(order.begin(), order.end(), Index{0});
   std::stable_sort(order.begin(), order.end(), [&values](Index a, Index b) { return values[a] > values[b]; });
   return order;

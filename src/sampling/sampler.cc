@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -24,9 +26,7 @@ double draw_unit(std::mt19937* generator) {
 }
 
 // A whole number from 0 to size - 1; the numbers' probabilities differ by 2^-32 at most.
-std::size_t draw_below(std::size_t size, std::mt19937* generator) {
-  return static_cast<std::size_t>((std::uint64_t{draw_bits(generator)} * size) >> 32);
-}
+std::size_t draw_below(std::size_t size, std::mt19937* generator) { return to_index((std::uint64_t{draw_bits(generator)} * size) >> 32); }
 
 PointSequence random_sequence(std::uint32_t seed) {
   return [generator = std::mt19937(seed)](Eigen::MatrixXd* points) mutable {
@@ -40,13 +40,13 @@ PointSequence random_sequence(std::uint32_t seed) {
 Eigen::MatrixXd latin_hypercube(int count, int dimension, std::uint32_t seed) {
   std::mt19937 generator(seed);
   Eigen::MatrixXd points(count, dimension);
-  std::vector<int> intervals(static_cast<std::size_t>(count));
+  std::vector<int> intervals(to_index(count));
   for (int j = 0; j < dimension; ++j) {
     std::iota(intervals.begin(), intervals.end(), 0);
     for (std::size_t left = intervals.size(); left > 1; --left) std::swap(intervals[left - 1], intervals[draw_below(left, &generator)]);
     for (int i = 0; i < count; ++i) {
       const double place = (draw_bits(&generator) + 0.5) * 0x1p-32;
-      points(i, j) = std::min((intervals[static_cast<std::size_t>(i)] + place) / count, kBelowOne);
+      points(i, j) = std::min((intervals[to_index(i)] + place) / count, kBelowOne);
     }
   }
   return points;
@@ -103,7 +103,7 @@ Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uin
 
 PointSequence sobol_sequence(int dimension, std::uint32_t seed) {
   if (dimension == 0) return [](Eigen::MatrixXd*) {};
-  const auto size = static_cast<std::size_t>(dimension);
+  const auto size = to_index(dimension);
   std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of <random>'s distributions
   std::vector<std::uint32_t> keys(size);
   for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(generator());
@@ -112,8 +112,7 @@ PointSequence sobol_sequence(int dimension, std::uint32_t seed) {
       // Boost leaves out the first point, zero, without which the first 2^k points are no net.
       if (!is_first) engine.generate(bits.begin(), bits.end());
       is_first = false;
-      for (std::size_t j = 0; j < keys.size(); ++j)
-        (*points)(i, static_cast<Eigen::Index>(j)) = (scramble(bits[j], keys[j]) + 0.5) * 0x1p-32;
+      for (std::size_t j = 0; j < keys.size(); ++j) (*points)(i, to_signed(j)) = (scramble(bits[j], keys[j]) + 0.5) * 0x1p-32;
     }
   };
 }

@@ -5,6 +5,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "math/arrays.h"
 #include "sampling/sampler.h"
 
 namespace codesign {
@@ -45,11 +46,11 @@ double normal_quantile(const Distribution& d, double u) {
 std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities, SamplerKind sampler, int count,
                                       std::uint32_t seed) {
   const Eigen::MatrixXd points = unit_points(sampler, count, static_cast<int>(quantities.size()), seed);
-  std::vector<std::vector<double>> samples(static_cast<std::size_t>(count));
+  std::vector<std::vector<double>> samples(to_index(count));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].reserve(quantities.size());
     for (std::size_t j = 0; j < quantities.size(); ++j) {
-      samples[i].push_back(quantile(given(quantities, j, samples[i]), points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+      samples[i].push_back(quantile(given(quantities, j, samples[i]), points(to_signed(i), to_signed(j))));
     }
   }
   return samples;
@@ -65,7 +66,7 @@ double quantile(const Distribution& distribution, double u) {
       break;
   }
   const std::size_t size = distribution.choices.size();
-  return distribution.choices[std::min(static_cast<std::size_t>(u * static_cast<double>(size)), size - 1)];
+  return distribution.choices[std::min(to_index(u * static_cast<double>(size)), size - 1)];
 }
 
 }  // namespace codesign

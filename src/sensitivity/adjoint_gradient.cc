@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/arrays.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -145,7 +146,7 @@ bool AdjointGradient::go_back() {
 }
 
 void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
-  gradient->setZero(static_cast<Eigen::Index>(system_.study().tuned.size()));
+  gradient->setZero(to_signed(system_.study().tuned.size()));
   if (!go_back()) {
     gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
     return;

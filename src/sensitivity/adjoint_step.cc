@@ -2,6 +2,7 @@
 #include "sensitivity/adjoint_step.h"
 
 #include "equations/mass_solution.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -26,7 +27,7 @@ void MatrixWeights::set(int k, const VectorX<double>& u, const VectorX<double>& 
 void MatrixWeights::compute(const Sparsity& pattern, int first_column, std::vector<double>* weights) const {
   for (int row = 0; row < pattern.rows; ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-      (*weights)[static_cast<std::size_t>(e)] = mu_.col(row).dot(u_.col(first_column + pattern.column(e)));
+      (*weights)[to_index(e)] = mu_.col(row).dot(u_.col(first_column + pattern.column(e)));
 }
 
 const ByVariable<std::vector<double>>& MatrixWeights::compute() {

@@ -6,6 +6,7 @@
 #include "equations/compiled_system.h"
 #include "integration/increment.h"
 #include "integration/rosenbrock_step.h"
+#include "math/arrays.h"
 #include "sparse/sparsity.h"
 
 namespace codesign {
@@ -65,7 +66,7 @@ class AdjointStep {
   void clear();
 
  private:
-  std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
+  std::size_t count() const { return to_index(tableau_->stages); }
   void reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* step);
   void reverse_stage(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_integrand(std::size_t i, const RosenbrockStep<double>& step);

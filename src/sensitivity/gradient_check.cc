@@ -11,6 +11,7 @@
 #include "elements/state_view.h"
 #include "equations/compiled_system.h"
 #include "integration/rosenbrock_integrator.h"
+#include "math/arrays.h"
 #include "math/differences.h"
 #include "mechanism_codesign/gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
@@ -128,8 +129,7 @@ Eigen::MatrixXd directions_of(const GradientCheck& check) {
 template <class T>
 std::vector<T> moved(const MotionStudy& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const T& step) {
   std::vector<T> result(parameters.begin(), parameters.end());
-  for (std::size_t k = 0; k < study.tuned.size(); ++k)
-    result[static_cast<std::size_t>(study.tuned[k])] += step * direction[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < study.tuned.size(); ++k) result[to_index(study.tuned[k])] += step * direction[to_signed(k)];
   return result;
 }
 
@@ -138,8 +138,8 @@ template <class Size>
 double step_along(const MotionStudy& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const Size& size) {
   double step = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
-    if (const double component = std::abs(direction[static_cast<Eigen::Index>(k)]); component > 0.0)
-      step = std::min(step, size(parameters[static_cast<std::size_t>(study.tuned[k])]) / component);
+    if (const double component = std::abs(direction[to_signed(k)]); component > 0.0)
+      step = std::min(step, size(parameters[to_index(study.tuned[k])]) / component);
   return step;
 }
 
@@ -150,8 +150,7 @@ void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
     const MotionStudy& study = system.study();
     const bool along = check->directions.size() > 0;
     const std::string name =
-        along ? "along direction " + std::to_string(k + 1)
-              : "by \"" + study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name + "\"";
+        along ? "along direction " + std::to_string(k + 1) : "by \"" + study.parameters[to_index(study.tuned[to_index(k)])].name + "\"";
     check->status = {StatusCode::kNonFiniteGradient, study.duration, "the reference for the gradient " + name + " is not finite"};
     return;
   }
@@ -261,7 +260,7 @@ Eigen::MatrixXd check_directions(const Eigen::VectorXd& gradient, int count) {
 
 GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, CheckMethod method,
                            const std::atomic<bool>* cancel, const Eigen::MatrixXd& directions) {
-  const auto count = directions.size() > 0 ? directions.cols() : static_cast<Eigen::Index>(system->study().tuned.size());
+  const auto count = directions.size() > 0 ? directions.cols() : to_signed(system->study().tuned.size());
   GradientCheck check;
   check.directions = directions;
   check.method = system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;

@@ -6,6 +6,7 @@
 #include "control/control_clock.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
 #include "sensitivity/adjoint_gradient.h"
@@ -19,7 +20,7 @@ namespace {
 
 const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
   const MotionStudy& study = system.study();
-  return study.parameters[static_cast<std::size_t>(study.tuned[static_cast<std::size_t>(k)])].name;
+  return study.parameters[to_index(study.tuned[to_index(k)])].name;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
+#include "math/arrays.h"
 
 namespace codesign {
 
@@ -15,7 +16,7 @@ template <int N>
 void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
   cast_state(at, &state);
   for (int k = 0; directions && k < range.count; ++k) {
-    const State<double>& direction = (*directions)[static_cast<std::size_t>(range.first + k)];
+    const State<double>& direction = (*directions)[to_index(range.first + k)];
     const auto put = [k](const VectorX<double>& from, VectorX<Scalar>* lanes) {
       for (Eigen::Index i = 0; i < from.size(); ++i) (*lanes)[i].v[k] = from[i];
     };
@@ -38,10 +39,7 @@ void IdasTangent::Group<N>::take(int k, State<double>* direction) const {
 }
 
 IdasTangent::IdasTangent(const CompiledSystem& system)
-    : system_(system),
-      groups_(system),
-      partial_(system.layout().columns() + 1, static_cast<Eigen::Index>(system.study().tuned.size())),
-      matrix_(system) {
+    : system_(system), groups_(system), partial_(system.layout().columns() + 1, to_signed(system.study().tuned.size())), matrix_(system) {
   derivatives_.resize(system.patterns());
 }
 
@@ -53,10 +51,10 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
     group->range.seed(system_, parameters, &group->parameters);
     group->equations.set_design(group->parameters);
     integrator->assembly().extend(group->parameters, initial, &group->equations, &group->extension, &group->state);
-    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*sensitivities)[static_cast<std::size_t>(group->range.first + k)]);
+    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*sensitivities)[to_index(group->range.first + k)]);
   });
   for (std::size_t k = 0; k < scales->size(); ++k) {
-    const double value = std::abs(parameters[static_cast<std::size_t>(system_.study().tuned[k])]);
+    const double value = std::abs(parameters[to_index(system_.study().tuned[k])]);
     (*scales)[k] = value > 0.0 ? value : 1.0;
   }
 }
@@ -104,7 +102,7 @@ bool IdasTangent::factor(const State<double>& state, Equations<double>* equation
 
 void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
   for (int k = 0; k < count(); ++k) {
-    State<double>& direction = (*directions)[static_cast<std::size_t>(k)];
+    State<double>& direction = (*directions)[to_index(k)];
     direction.z.setZero();
     derivative(k, direction, &dG_);
     matrix_.lu().solve(Out<double>(dG_).first(direction.z.size()));
@@ -123,7 +121,7 @@ void IdasTangent::correct(const State<double>& state, VectorX<double> State<doub
       dG_.setZero(layout.columns() + 1);
       for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
       matrix_.lu().solve(Out<double>(dG_).first(layout.columns()));
-      (*directions)[static_cast<std::size_t>(group->range.first + k)].*part += dG_.head(layout.n);
+      (*directions)[to_index(group->range.first + k)].*part += dG_.head(layout.n);
     }
   });
 }
@@ -133,7 +131,7 @@ bool IdasTangent::jump(const std::vector<ControlEvent>& events, const State<doub
   groups_.for_each([&](auto* group) {
     group->load(before, directions);
     group->equations.jump(events, &group->state);
-    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*directions)[static_cast<std::size_t>(group->range.first + k)]);
+    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*directions)[to_index(group->range.first + k)]);
   });
   if (!factor(behind, equations)) return false;
   solve_rates(directions);
@@ -179,12 +177,12 @@ void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<d
 void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equations<double>* equations,
                             std::vector<State<double>>* directions, Eigen::MatrixXd* rows) {
   const std::vector<ResolvedTerm>& terms = part == ObjectivePart::kTerminal ? system_.terminal() : system_.integral();
-  rows->setConstant(count(), static_cast<Eigen::Index>(terms.size()), std::numeric_limits<double>::quiet_NaN());
+  rows->setConstant(count(), to_signed(terms.size()), std::numeric_limits<double>::quiet_NaN());
   if (!factor(state, equations)) return;
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes = group->residuals[static_cast<std::size_t>(part)];
+    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes = group->residuals[to_index(part)];
     group->equations.residuals(part, group->state, &in_lanes);
     for (int k = 0; k < group->range.count; ++k)
       for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = in_lanes[term].v[k];
@@ -241,8 +239,8 @@ const State<double>& IdasGradient::consistent_state() {
 double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(consistent_state()); }
 
 void IdasGradient::take_directions() {
-  directions_.resize(static_cast<std::size_t>(tangent_->count()), integrator_.state());
-  for (int k = 0; k < tangent_->count(); ++k) integrator_.sensitivity(k, &directions_[static_cast<std::size_t>(k)]);
+  directions_.resize(to_index(tangent_->count()), integrator_.state());
+  for (int k = 0; k < tangent_->count(); ++k) integrator_.sensitivity(k, &directions_[to_index(k)]);
 }
 
 void IdasGradient::jacobian_root(Eigen::MatrixXd* root) { residuals_.finish(consistent_state(), root); }

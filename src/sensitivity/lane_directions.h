@@ -34,7 +34,7 @@ class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
   /// A change of the number of columns sets all entries to zero.
   void resize(Eigen::Index columns) {
     if (columns == this->cols()) return;
-    numbers_.assign(static_cast<std::size_t>(N * columns), 0.0);
+    numbers_.assign(to_index(N * columns), 0.0);
     new (static_cast<Map*>(this)) Map(numbers_.data(), N, columns);
   }
 
@@ -60,8 +60,8 @@ struct LaneRange {
   void seed(const CompiledSystem& system, const std::vector<double>& parameters, std::vector<Lanes<N>>* lanes) const {
     lanes->assign(parameters.begin(), parameters.end());
     for (int k = 0; k < count; ++k) {
-      const int tuned = system.study().tuned[static_cast<std::size_t>(first + k)];
-      (*lanes)[static_cast<std::size_t>(tuned)].v[k] = 1.0;
+      const int tuned = system.study().tuned[to_index(first + k)];
+      (*lanes)[to_index(tuned)].v[k] = 1.0;
     }
   }
   std::vector<Lanes<N>> seed(const CompiledSystem& system, const std::vector<double>& parameters) const {

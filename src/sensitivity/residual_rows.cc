@@ -6,6 +6,7 @@
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "equations/formulas.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -24,7 +25,7 @@ Status ResidualRows::start(Integrator* integrator, Differentiate differentiate) 
   integrator_ = integrator;
   differentiate_ = std::move(differentiate);
   time_ = integrator->state().t;
-  root_.start(static_cast<Eigen::Index>(system_.study().tuned.size()));
+  root_.start(to_signed(system_.study().tuned.size()));
   for (const ObjectivePart part : {ObjectivePart::kIntegral, ObjectivePart::kTerminal})
     if (Status status = check_weights(part); !status.ok()) return status;
   return {};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -61,7 +63,7 @@ Status RosenbrockGradient::start_watches() {
 
 void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows) {
   const bool at_end = part == ObjectivePart::kTerminal;
-  const auto terms = static_cast<Eigen::Index>((at_end ? system_.terminal() : system_.integral()).size());
+  const auto terms = to_signed((at_end ? system_.terminal() : system_.integral()).size());
   rows->resize(count(), terms);
   groups_->for_each([&](auto* group) {
     auto* const own = at_end ? &group->terminal_residuals : &group->integral_residuals;

@@ -10,6 +10,7 @@
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -62,7 +63,7 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
   time_ = integrator->state().t;
   clock_.start();
   begins_at_jump_ = ends_at_jump_ = false;
-  const auto parameters = static_cast<Eigen::Index>(differentiate_ ? system_.study().tuned.size() : 0);
+  const auto parameters = to_signed(differentiate_ ? system_.study().tuned.size() : 0);
   extremes_.values.setConstant(layout_.size(), std::numeric_limits<double>::quiet_NaN());
   extremes_.times.setZero(layout_.size());
   extremes_.gradients.setZero(parameters, layout_.size());

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -17,7 +19,7 @@ int points_in_memory(const Layout& layout) {
 
 }  // namespace
 
-StepPath::StepPath(const Layout& layout, int most) : most_(static_cast<std::size_t>(most > 0 ? most : points_in_memory(layout))) {}
+StepPath::StepPath(const Layout& layout, int most) : most_(to_index(most > 0 ? most : points_in_memory(layout))) {}
 
 void StepPath::clear() {
   sizes_.clear();
@@ -41,7 +43,7 @@ void StepPath::grow(const State<double>& state) {
   const std::size_t size = kept_.size(), wanted = std::min(std::max(std::size_t{kFewest}, 2 * size), 2 * most_);
   kept_.resize(std::max(size + 1, wanted));
   for (std::size_t k = size; k < kept_.size(); ++k) {
-    kept_[k].numbers.reserve(static_cast<std::size_t>(1 + state.q.size() + state.v.size() + state.s.size() + state.z.size()));
+    kept_[k].numbers.reserve(to_index(1 + state.q.size() + state.v.size() + state.s.size() + state.z.size()));
     kept_[k].turns.reserve(state.turns.size());
   }
 }
@@ -66,12 +68,12 @@ void StepPath::thin_out() {
 }
 
 int StepPath::kept_before(int k) const {
-  const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto end = kept_.begin() + to_signed(count_);
   return std::prev(std::upper_bound(kept_.begin(), end, k, [](int number, const Kept& kept) { return number < kept.k; }))->k;
 }
 
 void StepPath::point(int k, State<double>* point) const {
-  const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto end = kept_.begin() + to_signed(count_);
   const Kept& kept = *std::lower_bound(kept_.begin(), end, k, [](const Kept& one, int number) { return one.k < number; });
   const double* from = kept.numbers.data();
   State<double>& state = *point;

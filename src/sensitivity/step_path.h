@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "integration/tableau.h"
+#include "math/arrays.h"
 #include "system/state.h"
 
 namespace codesign {
@@ -23,10 +24,10 @@ class StepPath {
 
   int size() const { return static_cast<int>(sizes_.size()); }
   /// Size [s] of the step that ended at point k.
-  double step_size(int k) const { return sizes_[static_cast<std::size_t>(k)]; }
+  double step_size(int k) const { return sizes_[to_index(k)]; }
 
   /// The method of the step that ended at point k.
-  const RosenbrockTableau& tableau(int k) const { return *tableaus_[static_cast<std::size_t>(k)]; }
+  const RosenbrockTableau& tableau(int k) const { return *tableaus_[to_index(k)]; }
 
   /// Index of the last stored point that is not after k.
   int kept_before(int k) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "equations/mass_solution.h"
+#include "math/arrays.h"
 #include "sensitivity/lane_directions.h"
 #include "sparse/sparsity.h"
 
@@ -80,7 +81,7 @@ TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTablea
       stage_y_(y_),
       rows_(layout_.columns() + 1),
       estimate_(y_),
-      stages_(static_cast<std::size_t>(std::max(tableau.stages, most_stages(system.study().solver.method))), y_),
+      stages_(to_index(std::max(tableau.stages, most_stages(system.study().solver.method))), y_),
       matrix_changes_(stages_.size(), rows_) {
   projected_.resize(layout_);
 }
@@ -122,7 +123,7 @@ void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<d
 template <int N>
 void TangentStep<N>::combine(In<double> from, In<double> factors, int first, Out<double> to) const {
   const double* parts[RosenbrockTableau::kMaximumStages];
-  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = stages_[static_cast<std::size_t>(j)].data() + std::ptrdiff_t{N} * first;
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = stages_[to_index(j)].data() + std::ptrdiff_t{N} * first;
   codesign::combine(from, factors, parts, to);
 }
 
@@ -134,7 +135,7 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
   RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_->c[i][j] / h;
   const auto add = [&](const Directions<N>& from, int rate, int first, int size) {
-    combine(from.part(rate, size), In<double>(factors).first(static_cast<std::ptrdiff_t>(i)), first, u.part(first, size));
+    combine(from.part(rate, size), In<double>(factors).first(to_signed(i)), first, u.part(first, size));
   };
   add(stage_y_, at_.z(), at_.v(), at_.n);
   add(stage_y_, at_.v(), at_.x(), at_.n);
@@ -175,7 +176,7 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   const double hg = step.step_size() * tableau_->gamma;
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  combine(y_.part(0, at_.psi()), In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.psi()));
+  combine(y_.part(0, at_.psi()), In<double>(tableau_->a[i]).first(to_signed(i)), 0, stage_y_.part(0, at_.psi()));
   equations_.residual(step.stages()[i], stage_y_, &residual_);
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
@@ -202,7 +203,7 @@ template <int N>
 void TangentStep<N>::explicit_stage(std::size_t i, RosenbrockStep<double>* step) {
   const double h = step->step_size();
   const int z_size = at_.z_size;
-  combine(y_.part(0, at_.z()), In<double>(tableau_->a[i]).first(static_cast<std::ptrdiff_t>(i)), 0, stage_y_.part(0, at_.z()));
+  combine(y_.part(0, at_.z()), In<double>(tableau_->a[i]).first(to_signed(i)), 0, stage_y_.part(0, at_.z()));
   for (int k = 0; k < z_size; ++k) stage_y_.vector(at_.z() + k) = Vector{};
   equations_.residual(step->stages()[i], stage_y_, &residual_);
   const Out<double> z = stage_y_.part(at_.z(), z_size);
@@ -345,9 +346,9 @@ template <int N>
 void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
                                  Directions<N>* signals) {
   go_to(step, state, reads_rates, assembly);
-  signals->resize(static_cast<Eigen::Index>(system_.watched().size()));
+  signals->resize(to_signed(system_.watched().size()));
   for (std::size_t k = 0; k < system_.watched().size(); ++k)
-    signals->col(static_cast<Eigen::Index>(k)) = equations_.equations().watched(k, point_).directions();
+    signals->col(to_signed(k)) = equations_.equations().watched(k, point_).directions();
 }
 
 template <int N>
@@ -363,7 +364,7 @@ void TangentStep<N>::terminal_residuals(const State<double>& state, Directions<N
 
 template <int N>
 void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals) {
-  VectorX<Lanes<N>>& terms = objective_residuals_[static_cast<std::size_t>(part)];
+  VectorX<Lanes<N>>& terms = objective_residuals_[to_index(part)];
   equations_.equations().residuals(part, state, &terms);
   residuals->resize(terms.size());
   for (Eigen::Index k = 0; k < terms.size(); ++k) residuals->col(k) = terms[k].directions();

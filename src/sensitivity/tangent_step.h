@@ -110,7 +110,7 @@ class TangentStep {
   /// Handles `together` stages at a time; `together` divides the number of stages.
   template <std::size_t together>
   void change_matrices(const RosenbrockStep<double>& step);
-  std::size_t count() const { return static_cast<std::size_t>(tableau_->stages); }
+  std::size_t count() const { return to_index(tableau_->stages); }
   void linearize(const State<double>& state);
   void explicit_stage(std::size_t i, RosenbrockStep<double>* step);
   void stage_start(std::size_t i, double h);

@@ -6,6 +6,7 @@
 #include <new>
 #include <numeric>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 
 namespace codesign {
@@ -23,10 +24,10 @@ double largest_column(const SparseMatrix& A) {
 void copy_columns(const SparseMatrix& A, const std::vector<int>& columns, Eigen::MatrixXd* to) {
   to->setZero();
   for (std::size_t k = 0; k < columns.size(); ++k)
-    for (SparseMatrix::InnerIterator entry(A, columns[k]); entry; ++entry) (*to)(entry.row(), static_cast<Eigen::Index>(k)) = entry.value();
+    for (SparseMatrix::InnerIterator entry(A, columns[k]); entry; ++entry) (*to)(entry.row(), to_signed(k)) = entry.value();
 }
 
-Eigen::Index count(const std::vector<int>& columns) { return static_cast<Eigen::Index>(columns.size()); }
+Eigen::Index count(const std::vector<int>& columns) { return to_signed(columns.size()); }
 
 std::vector<int> ascending(std::vector<int> columns) {
   std::sort(columns.begin(), columns.end());
@@ -87,8 +88,8 @@ class SparseView {
       }
     }
     starts_.push_back(static_cast<SuiteSparse_long>(values_.size()));
-    view_.nrow = static_cast<std::size_t>(A.rows());
-    view_.ncol = static_cast<std::size_t>(A.cols());
+    view_.nrow = to_index(A.rows());
+    view_.ncol = to_index(A.cols());
     view_.nzmax = values_.size();
     view_.p = starts_.data();
     view_.i = rows_.data();
@@ -141,9 +142,9 @@ Eigen::MatrixXd SparseQr::solve(const Eigen::MatrixXd& b) const {
   cholmod_common* const common = &implementation_->common;
   Eigen::MatrixXd right = b;
   cholmod_dense view{};
-  view.nrow = view.d = static_cast<std::size_t>(right.rows());
-  view.ncol = static_cast<std::size_t>(right.cols());
-  view.nzmax = static_cast<std::size_t>(right.size());
+  view.nrow = view.d = to_index(right.rows());
+  view.ncol = to_index(right.cols());
+  view.nzmax = to_index(right.size());
   view.x = right.data();
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
@@ -152,7 +153,7 @@ Eigen::MatrixXd SparseQr::solve(const Eigen::MatrixXd& b) const {
   const Handle rotated(Implementation::require(SuiteSparseQR_qmult<double>(SPQR_QTX, implementation_->factors, &view, common)), release);
   const Handle x(Implementation::require(SuiteSparseQR_solve<double>(SPQR_RETX_EQUALS_B, implementation_->factors, rotated.get(), common)),
                  release);
-  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), static_cast<Eigen::Index>(x->nrow), b.cols());
+  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), to_signed(x->nrow), b.cols());
 }
 
 struct LeastSquares::Implementation {
@@ -233,7 +234,7 @@ void IndependentColumns::choose_dense(const SparseMatrix& A, const ColumnPrefere
     }
     qr_.factor(tolerance);
     const Eigen::Index take = std::min(missing, qr_.rank());
-    for (Eigen::Index k = 0; k < take; ++k) chosen_.push_back(candidates[static_cast<std::size_t>(qr_.column(k))]);
+    for (Eigen::Index k = 0; k < take; ++k) chosen_.push_back(candidates[to_index(qr_.column(k))]);
   }
 }
 
@@ -245,7 +246,7 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
   std::vector<int> dependent;
   if (A.cols() == 0) return dependent;
   if (A.rows() == 0) {
-    dependent.resize(static_cast<std::size_t>(A.cols()));
+    dependent.resize(to_index(A.cols()));
     std::iota(dependent.begin(), dependent.end(), 0);
   } else if (A.cols() <= 2 * kDense) {
     const PivotedColumns pivots = pivot_columns(Eigen::MatrixXd(A), tolerance);
@@ -261,8 +262,8 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
 }
 
 SparseMatrix columns_of(const SparseMatrix& A, const std::vector<int>& columns) {
-  SparseMatrix result(A.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = A.col(columns[k]);
+  SparseMatrix result(A.rows(), to_signed(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) result.col(to_signed(k)) = A.col(columns[k]);
   result.makeCompressed();
   return result;
 }

@@ -149,7 +149,7 @@ std::vector<Sum> LuSchedule::solution_sums() const {
 }
 
 LuSchedule::Quality LuSchedule::refactor(In<double> values) {
-  assert(values.size() == static_cast<std::ptrdiff_t>(source_slot_.size()));
+  assert(values.size() == to_signed(source_slot_.size()));
   if (const StraightLine* const code = elimination_.get([this] { return elimination_sums(); }, 1))
     code->run({values.data(), factors_.data(), inverse_scale_.data(), nullptr, nullptr});
   else
@@ -272,7 +272,7 @@ void spread_products(const double* factors, const int* column, int first, int la
 
 template <int N>
 void LuSchedule::solve(Out<double> x) const {
-  assert(x.size() == static_cast<std::ptrdiff_t>(N * n_));
+  assert(x.size() == to_signed(N * n_));
   if (const StraightLine* const code = solution_.get([this] { return solution_sums(); }, N))
     code->run({x.data(), factors_.data(), inverse_scale_.data(), work_.data(), nullptr});
   else
@@ -302,7 +302,7 @@ void LuSchedule::solve_by_lists(Out<double> in_place) const {
 // R^-1 A = P^T L U Q^T, so A^T x = b is solved with U^T first, then L^T. Their columns are the rows of the stored factors.
 template <int N>
 void LuSchedule::solve_transposed(Out<double> in_place) const {
-  assert(in_place.size() == static_cast<std::ptrdiff_t>(N * n_));
+  assert(in_place.size() == to_signed(N * n_));
   double *const x = in_place.data(), *const y = work_.data();
   const double* const f = factors_.data();
   const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();

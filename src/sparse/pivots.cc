@@ -9,6 +9,8 @@
 #include <queue>
 #include <utility>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -59,7 +61,7 @@ class Run {
   }
 
   Pivots pivots() {
-    const auto size = static_cast<std::size_t>(n_);
+    const auto size = to_index(n_);
     Pivots pivots{std::vector<int>(size), std::vector<int>(size), std::vector<double>(size)};
     klu_extract(numeric_, symbolic_, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, pivots.row_of.data(),
                 pivots.column_of.data(), pivots.row_scale.data(), nullptr, &common_);
@@ -82,13 +84,12 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
   pattern.U.resize(n);
   pattern.L.resize(n);
   std::vector<int> pivot_of_row(n);
-  for (std::size_t k = 0; k < n; ++k) pivot_of_row[static_cast<std::size_t>(pivots.row_of[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < n; ++k) pivot_of_row[to_index(pivots.row_of[k])] = static_cast<int>(k);
   std::vector<std::vector<int>> rows(n);  // columns of each row; of eliminated rows only those right of the diagonal, ascending
   for (std::size_t k = 0; k < n; ++k) {
-    const auto column = static_cast<std::size_t>(pivots.column_of[k]);
+    const auto column = to_index(pivots.column_of[k]);
     for (int e = column_start[column]; e < column_start[column + 1]; ++e)
-      rows[static_cast<std::size_t>(pivot_of_row[static_cast<std::size_t>(row_index[static_cast<std::size_t>(e)])])].push_back(
-          static_cast<int>(k));
+      rows[to_index(pivot_of_row[to_index(row_index[to_index(e)])])].push_back(static_cast<int>(k));
   }
   std::vector<std::size_t> seen(n, n);  // per column: the last row in which it was found
   for (std::size_t k = 0; k < n; ++k) {
@@ -96,20 +97,20 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
     std::vector<int>& row = rows[k];
     std::priority_queue<int, std::vector<int>, std::greater<>> left;  // entries left of the diagonal that are still to be eliminated
     for (int column : row) {
-      seen[static_cast<std::size_t>(column)] = k;
+      seen[to_index(column)] = k;
       if (column < diagonal) left.push(column);
     }
     for (; !left.empty(); left.pop()) {
-      for (int column : rows[static_cast<std::size_t>(left.top())]) {
-        if (seen[static_cast<std::size_t>(column)] == k) continue;
-        seen[static_cast<std::size_t>(column)] = k;
+      for (int column : rows[to_index(left.top())]) {
+        if (seen[to_index(column)] == k) continue;
+        seen[to_index(column)] = k;
         row.push_back(column);
         if (column < diagonal) left.push(column);
       }
     }
     std::sort(row.begin(), row.end());
     for (int column : row)
-      if (column != diagonal) (column < diagonal ? pattern.L : pattern.U)[static_cast<std::size_t>(column)].push_back(diagonal);
+      if (column != diagonal) (column < diagonal ? pattern.L : pattern.U)[to_index(column)].push_back(diagonal);
     row.erase(row.begin(), std::upper_bound(row.begin(), row.end(), diagonal));
   }
   return pattern;
@@ -118,14 +119,14 @@ LuPattern eliminate_pattern(const Pivots& pivots, const std::vector<int>& column
 std::int64_t count_products(const LuPattern& pattern) {
   std::vector<std::int64_t> length(pattern.row_of.size(), 0);  // entries per row of U
   for (const std::vector<int>& column : pattern.U)
-    for (int row : column) ++length[static_cast<std::size_t>(row)];
+    for (int row : column) ++length[to_index(row)];
   std::int64_t products = 0;
   for (std::size_t k = 0; k < length.size(); ++k) products += length[k] * static_cast<std::int64_t>(pattern.L[k].size());
   return products;
 }
 
 std::optional<LuPattern> choose_pivots(const std::vector<int>& column_start, const std::vector<int>& row_index, In<double> values) {
-  assert(values.size() == static_cast<std::ptrdiff_t>(row_index.size()));
+  assert(values.size() == to_signed(row_index.size()));
   std::optional<LuPattern> best;
   std::pair<std::int64_t, int> least;  // products, preference
   double fewest = 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "math/arrays.h"
 #include "sparse/lu_schedule.h"
 #include "sparse/pivots.h"
 
@@ -35,7 +36,7 @@ struct SparseLu::Implementation {
 
   // Earlier pivots are kept since a mechanism that swings returns to positions for which they were chosen.
   bool refactor(In<double> values) {
-    const auto first = schedules.end() - static_cast<std::ptrdiff_t>(chosen);
+    const auto first = schedules.end() - to_signed(chosen);
     for (std::size_t tried = 0; tried < chosen; ++tried) {
       const LuSchedule::Quality quality = schedule().refactor(values);
       if (quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular) return true;
@@ -56,7 +57,7 @@ struct SparseLu::Implementation {
   /// Brings a schedule for these pivots to the end: a forgotten one or a new one.
   void add(const LuPattern& pattern) {
     if (chosen == kMostSchedules) --chosen;
-    const auto last = schedules.end() - static_cast<std::ptrdiff_t>(chosen);
+    const auto last = schedules.end() - to_signed(chosen);
     const auto known =
         std::find_if(schedules.begin(), last, [&pattern](Kept& kept) { return !kept.is_settled && kept.schedule.rescale(pattern); });
     if (known != last) {
@@ -72,7 +73,7 @@ struct SparseLu::Implementation {
   std::ptrdiff_t settled() const {
     return std::find_if(schedules.begin(), schedules.end(), [](const Kept& kept) { return kept.is_settled; }) - schedules.begin();
   }
-  bool has_settled() const { return settled() < static_cast<std::ptrdiff_t>(schedules.size()); }
+  bool has_settled() const { return settled() < to_signed(schedules.size()); }
 
   void forget() {
     chosen = has_settled() ? 1 : 0;
@@ -87,7 +88,7 @@ struct SparseLu::Implementation {
 
   void settle_as(const Implementation& other) {
     if (has_settled() || !other.has_settled()) return;
-    schedules.assign(1, other.schedules[static_cast<std::size_t>(other.settled())]);
+    schedules.assign(1, other.schedules[to_index(other.settled())]);
     chosen = 1;
   }
 };

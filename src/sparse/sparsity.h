@@ -16,8 +16,8 @@ struct Sparsity {
   std::vector<int> row_start, column_index;  ///< index of the first nonzero of each row (rows + 1 of them); column of each nonzero
 
   int nonzeros() const { return static_cast<int>(column_index.size()); }
-  int first(int row) const { return row_start[static_cast<std::size_t>(row)]; }
-  int column(int entry) const { return column_index[static_cast<std::size_t>(entry)]; }
+  int first(int row) const { return row_start[to_index(row)]; }
+  int column(int entry) const { return column_index[to_index(entry)]; }
 };
 
 /// One object for each group of variables that the equations are differentiated by: positions (q, s), velocities v, rates
@@ -66,7 +66,7 @@ T row_product(const Sparsity& pattern, const std::vector<T>& values, int row, In
   T sum(0.0);
   const T* const factor = x.data();
   const int* const column = pattern.column_index.data();
-  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) sum += values[static_cast<std::size_t>(e)] * factor[column[e]];
+  for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) sum += values[to_index(e)] * factor[column[e]];
   return sum;
 }
 
@@ -78,7 +78,7 @@ void add_row_product(const Sparsity& pattern, const std::vector<double>& values,
   const int* const column = pattern.column_index.data();
   const double* const first = x.data();
   for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-    *sum += values[static_cast<std::size_t>(e)] * *reinterpret_cast<const Vector*>(first + std::ptrdiff_t{N} * column[e]);
+    *sum += values[to_index(e)] * *reinterpret_cast<const Vector*>(first + std::ptrdiff_t{N} * column[e]);
 }
 
 /// One row of N directional derivatives d_k A of a sparse matrix times M real vectors, which are read from index `offset` on:
@@ -119,7 +119,7 @@ inline void add_transposed_product(const Sparsity& pattern, const std::vector<do
   for (int row = rows.first; row < rows.last; ++row) {
     const double scaled = factor * multiplier[row];
     if (scaled == 0.0) continue;
-    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) sum[column[e]] += scaled * values[static_cast<std::size_t>(e)];
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) sum[column[e]] += scaled * values[to_index(e)];
   }
 }
 

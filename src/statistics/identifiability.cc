@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "text/number_text.h"
 
@@ -21,8 +22,8 @@ Eigen::VectorXd column_lengths(const Eigen::MatrixXd& R) {
 }
 
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& A, const std::vector<int>& indices) {
-  Eigen::MatrixXd result(A.rows(), static_cast<Eigen::Index>(indices.size()));
-  for (std::size_t k = 0; k < indices.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = A.col(indices[k]);
+  Eigen::MatrixXd result(A.rows(), to_signed(indices.size()));
+  for (std::size_t k = 0; k < indices.size(); ++k) result.col(to_signed(k)) = A.col(indices[k]);
   return result;
 }
 
@@ -54,7 +55,7 @@ void clear_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian, double 
 Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
   const Eigen::Index p = R.cols();
   Identifiability found;
-  found.is_determined.assign(static_cast<std::size_t>(p), true);
+  found.is_determined.assign(to_index(p), true);
   if (p == 0) return found;
   const Eigen::VectorXd lengths = column_lengths(R);
   const Eigen::MatrixXd scaled = R * lengths.cwiseInverse().asDiagonal();
@@ -63,52 +64,51 @@ Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
   found.rank = scaled.isZero(0.0) ? 0 : static_cast<int>(pivots.rank);
   const std::vector<int> independent(pivots.order.begin(), pivots.order.begin() + found.rank);
   found.dependent.assign(pivots.order.begin() + found.rank, pivots.order.end());
-  const auto count = static_cast<Eigen::Index>(found.dependent.size());
+  const auto count = to_signed(found.dependent.size());
   found.null_directions = Eigen::MatrixXd::Zero(p, count);
   if (count == 0) return found;
   const Eigen::MatrixXd C =
       found.rank == 0 ? Eigen::MatrixXd(0, count) : least_norm(columns_of(scaled, independent)).solve(columns_of(scaled, found.dependent));
   for (Eigen::Index k = 0; k < count; ++k) {
-    const int d = found.dependent[static_cast<std::size_t>(k)];
+    const int d = found.dependent[to_index(k)];
     found.null_directions(d, k) = 1.0;
     for (std::size_t row = 0; row < independent.size(); ++row) {
-      const double c = C(static_cast<Eigen::Index>(row), k);
+      const double c = C(to_signed(row), k);
       const int i = independent[row];
       if (std::abs(c) > kNegligible) found.null_directions(i, k) = -c * lengths[d] / lengths[i];
     }
   }
-  for (Eigen::Index i = 0; i < p; ++i) found.is_determined[static_cast<std::size_t>(i)] = found.null_directions.row(i).isZero(0.0);
+  for (Eigen::Index i = 0; i < p; ++i) found.is_determined[to_index(i)] = found.null_directions.row(i).isZero(0.0);
   return found;
 }
 
 std::string combination_of(const Identifiability& found, const std::vector<std::string>& names, Eigen::Index i) {
-  std::string sum = names[static_cast<std::size_t>(i)];
+  std::string sum = names[to_index(i)];
   for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
     if (const double factor = -found.null_directions(i, k); factor != 0.0)
-      sum += term(factor, names[static_cast<std::size_t>(found.dependent[static_cast<std::size_t>(k)])]);
+      sum += term(factor, names[to_index(found.dependent[to_index(k)])]);
   return sum;
 }
 
 double combination_value(const Identifiability& found, const Eigen::VectorXd& x, Eigen::Index i) {
   double sum = x[i];
-  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
-    sum -= found.null_directions(i, k) * x[found.dependent[static_cast<std::size_t>(k)]];
+  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k) sum -= found.null_directions(i, k) * x[found.dependent[to_index(k)]];
   return sum;
 }
 
 std::vector<std::string> describe_undetermined(const Identifiability& found, const std::vector<std::string>& names) {
   std::vector<std::string> sentences;
-  const auto name = [&names](Eigen::Index index) { return names[static_cast<std::size_t>(index)]; };
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(names.size()); ++i) {
+  const auto name = [&names](Eigen::Index index) { return names[to_index(index)]; };
+  for (Eigen::Index i = 0; i < to_signed(names.size()); ++i) {
     std::vector<std::string> involved = {name(i)};
     if (std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) != found.dependent.end()) continue;
     for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
-      if (found.null_directions(i, k) != 0.0) involved.push_back(name(found.dependent[static_cast<std::size_t>(k)]));
+      if (found.null_directions(i, k) != 0.0) involved.push_back(name(found.dependent[to_index(k)]));
     if (involved.size() > 1) sentences.push_back(joined(involved) + " appear only as " + combination_of(found, names, i));
   }
   for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
     if ((found.null_directions.col(k).array() != 0.0).count() == 1)
-      sentences.push_back(name(found.dependent[static_cast<std::size_t>(k)]) + " has no effect");
+      sentences.push_back(name(found.dependent[to_index(k)]) + " has no effect");
   return sentences;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "statistics/time_series.h"
 
@@ -26,12 +27,12 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identif
   std::vector<int> told;
   for (int k = 0; k < static_cast<int>(p); ++k)
     if (std::find(dependent.begin(), dependent.end(), k) == dependent.end()) told.push_back(k);
-  const auto rank = static_cast<Eigen::Index>(told.size());
+  const auto rank = to_signed(told.size());
   Eigen::MatrixXd scaled(R.rows(), rank);
   Eigen::VectorXd lengths(rank);
   for (Eigen::Index k = 0; k < rank; ++k) {
-    lengths[k] = R.col(told[static_cast<std::size_t>(k)]).norm();
-    scaled.col(k) = R.col(told[static_cast<std::size_t>(k)]) / lengths[k];
+    lengths[k] = R.col(told[to_index(k)]).norm();
+    scaled.col(k) = R.col(told[to_index(k)]) / lengths[k];
   }
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p, p);
   if (rank == 0) return result;
@@ -39,7 +40,7 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identif
   const Eigen::MatrixXd root = lengths.cwiseInverse().asDiagonal() * svd.V * svd.values.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd inverse = root * root.transpose();
   for (Eigen::Index i = 0; i < rank; ++i)
-    for (Eigen::Index j = 0; j < rank; ++j) result(told[static_cast<std::size_t>(i)], told[static_cast<std::size_t>(j)]) = inverse(i, j);
+    for (Eigen::Index j = 0; j < rank; ++j) result(told[to_index(i)], told[to_index(j)]) = inverse(i, j);
   return result;
 }
 
@@ -85,7 +86,7 @@ void mark_undetermined(ParameterCovariance* result) {
   result->combination_below = result->below;
   result->combination_above = result->above;
   for (Eigen::Index k = 0; k < result->below.size(); ++k) {
-    if (result->identifiability.is_determined[static_cast<std::size_t>(k)]) continue;
+    if (result->identifiability.is_determined[to_index(k)]) continue;
     result->covariance.row(k).setConstant(kUnknown);
     result->covariance.col(k).setConstant(kUnknown);
     result->covariance(k, k) = result->below[k] = result->above[k] = kInfinite;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "math/arrays.h"
 #include "statistics/parameter_covariance.h"
 
 namespace codesign {
@@ -50,7 +51,7 @@ int capped(double lag, Eigen::Index rows) {
 /// distributions.
 Eigen::Index draw_index(Eigen::Index size, std::mt19937* generator) {
   const auto bits = static_cast<std::uint64_t>((*generator)());
-  return static_cast<Eigen::Index>((bits * static_cast<std::uint64_t>(size)) >> 32);
+  return to_signed((bits * static_cast<std::uint64_t>(size)) >> 32);
 }
 
 /// One series: sums over the rows before k, so that a block is a difference of two.
@@ -131,7 +132,7 @@ Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths
 double empirical_quantile(Eigen::VectorXd values, double fraction) {
   std::sort(values.begin(), values.end());
   const double place = fraction * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<Eigen::Index>(place);
+  const auto below = to_signed(place);
   const Eigen::Index above = std::min(below + 1, values.size() - 1);
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }

@@ -18,13 +18,13 @@ struct ForestMotion {
 
   explicit ForestMotion(const Layout& layout) {
     if (!layout.has_forest()) return;
-    bodies.resize(static_cast<std::size_t>(layout.bodies) + 1);
-    poses.resize(static_cast<std::size_t>(layout.bodies));
+    bodies.resize(to_index(layout.bodies) + 1);
+    poses.resize(to_index(layout.bodies));
   }
 
   /// The motion of a body; -1 is the ground.
-  AxesMotion<T>& body(int index) { return index < 0 ? bodies.back() : bodies[static_cast<std::size_t>(index)]; }
-  const AxesMotion<T>& body(int index) const { return index < 0 ? bodies.back() : bodies[static_cast<std::size_t>(index)]; }
+  AxesMotion<T>& body(int index) { return index < 0 ? bodies.back() : bodies[to_index(index)]; }
+  const AxesMotion<T>& body(int index) const { return index < 0 ? bodies.back() : bodies[to_index(index)]; }
 };
 
 /// The motion of a free body from its kinematics.
@@ -47,11 +47,11 @@ void sweep_out(const System& system, const Constants<T>& constants, const Vector
   const Layout& layout = system.layout();
   motion->body(-1).acceleration = -gravity;
   for (int b : layout.forest.order) {
-    const int pair = layout.forest.pair_above[static_cast<std::size_t>(b)], c = layout.column(b);
-    const AxesMotion<T>& parent = motion->body(system.topology().pairs[static_cast<std::size_t>(pair)].body_i);
-    JointPose<T>& pose = motion->poses[static_cast<std::size_t>(b)];
-    pose = joint_pose(constants.pairs[static_cast<std::size_t>(pair)], q + c);
-    motion->body(b) = move_child(parent, constants.pairs[static_cast<std::size_t>(pair)], pose, q + c, v + c, a + c);
+    const int pair = layout.forest.pair_above[to_index(b)], c = layout.column(b);
+    const AxesMotion<T>& parent = motion->body(system.topology().pairs[to_index(pair)].body_i);
+    JointPose<T>& pose = motion->poses[to_index(b)];
+    pose = joint_pose(constants.pairs[to_index(pair)], q + c);
+    motion->body(b) = move_child(parent, constants.pairs[to_index(pair)], pose, q + c, v + c, a + c);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "joints/joint_sweep.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "mechanism/coupling.h"
 
@@ -47,14 +48,13 @@ T gravity_load(const DrivenTree& tree, const Constants<T>& constants, const std:
   Vector3<T> moment = Vector3<T>::Zero();  // sum of m r
   for (const DrivenTree::Node& node : tree.nodes) {
     if (!node.moved) continue;
-    const T& own = constants.bodies[static_cast<std::size_t>(node.body)].mass;
+    const T& own = constants.bodies[to_index(node.body)].mass;
     mass += own;
-    moment += own * bodies[static_cast<std::size_t>(node.body)].r;
+    moment += own * bodies[to_index(node.body)].r;
   }
-  const DrivenTree::Node& joint = tree.nodes[static_cast<std::size_t>(tree.driven)];
-  const PairConstants<T>& pair = constants.pairs[static_cast<std::size_t>(joint.pair)];
-  const BodyKinematics<T>& base =
-      joint.parent < 0 ? bodies.back() : bodies[static_cast<std::size_t>(tree.nodes[static_cast<std::size_t>(joint.parent)].body)];
+  const DrivenTree::Node& joint = tree.nodes[to_index(tree.driven)];
+  const PairConstants<T>& pair = constants.pairs[to_index(joint.pair)];
+  const BodyKinematics<T>& base = joint.parent < 0 ? bodies.back() : bodies[to_index(tree.nodes[to_index(joint.parent)].body)];
   const Vector3<T> axis = base.A * pair.steps[0].axis, point = base.r + base.A * pair.s_i;
   return -dot<T>(axis, joint.slides ? Vector3<T>(mass * gravity) : cross<T>(Vector3<T>(moment - mass * point), gravity));
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "math/arrays.h"
 #include "mechanism/topology.h"
 #include "system/state.h"
 
@@ -46,10 +47,10 @@ struct SharingLayout {
 
   int size() const { return 7 * static_cast<int>(bodies.size()) + rows + misses; }
   /// Columns in z, and rows in G, of the first w of a body, and of eta and mu of a row of Phi.
-  int displacement(int body) const { return first + 7 * body_slot[static_cast<std::size_t>(body)]; }
-  int load(int row) const { return first + 7 * static_cast<int>(bodies.size()) + row_slot[static_cast<std::size_t>(row)]; }
-  int miss(int row) const { return first + 7 * static_cast<int>(bodies.size()) + rows + miss_slot[static_cast<std::size_t>(row)]; }
-  bool has_miss(int row) const { return miss_slot[static_cast<std::size_t>(row)] >= 0; }
+  int displacement(int body) const { return first + 7 * body_slot[to_index(body)]; }
+  int load(int row) const { return first + 7 * static_cast<int>(bodies.size()) + row_slot[to_index(row)]; }
+  int miss(int row) const { return first + 7 * static_cast<int>(bodies.size()) + rows + miss_slot[to_index(row)]; }
+  bool has_miss(int row) const { return miss_slot[to_index(row)] >= 0; }
 };
 
 }  // namespace codesign

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "joints/pair_rows.h"
+#include "math/arrays.h"
 #include "math/scalar.h"
 #include "mechanism/forest.h"
 
@@ -43,7 +44,7 @@ struct Layout {
   int sign_slot = 0;                  ///< first entry of State::turns that is the sign of a body's Euler parameters, with a forest only
   std::vector<double> initial_turns;  ///< State::turns before a start is assembled
 
-  int turn(int pair, int element) const { return turn_slot[static_cast<std::size_t>(pair)] + element; }
+  int turn(int pair, int element) const { return turn_slot[to_index(pair)] + element; }
   int constraints() const { return m - sharing; }       ///< number of rows of Phi
   int columns() const { return n + m + states; }        ///< size of z and of G
   int positions() const { return n + states; }          ///< size of (q, s)
@@ -54,26 +55,22 @@ struct Layout {
   int rate_column(int position) const { return position < n ? position : state_column(position - n); }
   bool has_forest() const { return !forest.order.empty(); }
   /// Whether a body has the coordinates r and p.
-  bool is_free(int body) const { return forest.order.empty() || forest.pair_above[static_cast<std::size_t>(body)] < 0; }
+  bool is_free(int body) const { return forest.order.empty() || forest.pair_above[to_index(body)] < 0; }
   /// Whether a pair has constraint rows and multipliers.
-  bool is_cut(int pair) const { return forest.order.empty() || forest.body_below[static_cast<std::size_t>(pair)] < 0; }
+  bool is_cut(int pair) const { return forest.order.empty() || forest.body_below[to_index(pair)] < 0; }
   /// The first coordinate of a body in q: of r of a free body, else of the pair on which it hangs.
-  int column(int body) const { return body_column.empty() ? kBodySize * body : body_column[static_cast<std::size_t>(body)]; }
+  int column(int body) const { return body_column.empty() ? kBodySize * body : body_column[to_index(body)]; }
   /// The coordinate in q of an element of a pair's chain; -1 for a cut pair, and for an element with several coordinates.
   int element_column(int pair, int element) const {
-    return is_cut(pair) || forest.is_plane[static_cast<std::size_t>(pair)]
-               ? -1
-               : column(forest.body_below[static_cast<std::size_t>(pair)]) + element;
+    return is_cut(pair) || forest.is_plane[to_index(pair)] ? -1 : column(forest.body_below[to_index(pair)]) + element;
   }
   int norms() const { return bodies - static_cast<int>(forest.order.size()); }  ///< number of rows |p| = 1
   /// Row |p| = 1 of Phi of a free body.
-  int norm_row(int body) const {
-    return constraints() - norms() + (body_norm_row.empty() ? body : body_norm_row[static_cast<std::size_t>(body)]);
-  }
+  int norm_row(int body) const { return constraints() - norms() + (body_norm_row.empty() ? body : body_norm_row[to_index(body)]); }
   int coupling_row(int k) const { return constraints() - norms() - couplings + k; }  ///< row of Phi of a coupling
   /// The index after the last row of Phi of a pair.
   int pair_end(int pair) const {
-    const auto next = static_cast<std::size_t>(pair) + 1;
+    const auto next = to_index(pair) + 1;
     return next < pair_row.size() ? pair_row[next] : coupling_row(0);
   }
 };

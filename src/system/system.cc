@@ -35,10 +35,10 @@ int coupled_coordinates(const Topology& topology, const Forest& forest) {
   std::vector<int> above(topology.bodies.size(), 0);  // coordinates on the way to each body
   int sum = 0;
   for (int body : forest.order) {
-    const Pair& pair = topology.pairs[static_cast<std::size_t>(forest.pair_above[static_cast<std::size_t>(body)])];
-    const int own = forest_coordinates(pair), carried = pair.body_i < 0 ? 0 : above[static_cast<std::size_t>(pair.body_i)];
-    above[static_cast<std::size_t>(body)] = carried + own;
-    sum += own * above[static_cast<std::size_t>(body)];
+    const Pair& pair = topology.pairs[to_index(forest.pair_above[to_index(body)])];
+    const int own = forest_coordinates(pair), carried = pair.body_i < 0 ? 0 : above[to_index(pair.body_i)];
+    above[to_index(body)] = carried + own;
+    sum += own * above[to_index(body)];
   }
   return sum;
 }
@@ -140,9 +140,7 @@ void System::lay_out_bodies() {
     const bool free = layout_.is_free(body);
     layout_.body_column.push_back(layout_.n);
     layout_.body_norm_row.push_back(free ? norms++ : -1);
-    layout_.n +=
-        free ? kBodySize
-             : forest_coordinates(topology_.pairs[static_cast<std::size_t>(layout_.forest.pair_above[static_cast<std::size_t>(body)])]);
+    layout_.n += free ? kBodySize : forest_coordinates(topology_.pairs[to_index(layout_.forest.pair_above[to_index(body)])]);
   }
 }
 
@@ -187,7 +185,7 @@ void System::check_signals() const {
       check_readable(controllers_[k].feedback[term], description.feedback[term].signal);
   }
   const auto check = [this](const std::vector<ResolvedTerm>& resolved, const std::vector<ObjectiveTerm>& terms) {
-    for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[static_cast<std::size_t>(term.description)].signal);
+    for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[to_index(term.description)].signal);
   };
   check(integral_, study().integral);
   check(terminal_, study().terminal);
@@ -209,9 +207,9 @@ void System::collect_loads() {
       load.pair = static_cast<int>(p);
       load.element = static_cast<int>(e);
       load.reaction_friction = pair.friction_joint >= 0 && !contact;
-      load.directional = load.reaction_friction && robot_.joints[static_cast<std::size_t>(pair.friction_joint)].friction->is_directional;
+      load.directional = load.reaction_friction && robot_.joints[to_index(pair.friction_joint)].friction->is_directional;
       if (e < pair.chain.size()) {
-        const JointDescription& joint = robot_.joints[static_cast<std::size_t>(pair.chain[e].joint)];
+        const JointDescription& joint = robot_.joints[to_index(pair.chain[e].joint)];
         load.constant_friction = !joint.dry_friction.is_zero();
         load.spring = joint.spring.has_value();
         load.passive = !joint.damping.is_zero() || load.spring;
@@ -258,14 +256,14 @@ void System::collect_rotors() {
       throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault, value,
                         "a link with <inertial>, which holds the rotor's mass and its inertia as if it did not spin"});
     };
-    const int pair = topology_.joint_pair[j], body = topology_.link_body[static_cast<std::size_t>(joint.parent)];
-    if (pair < 0) refuse("the joint moves only a link without <inertial>", robot_.links[static_cast<std::size_t>(joint.child)].name);
+    const int pair = topology_.joint_pair[j], body = topology_.link_body[to_index(joint.parent)];
+    if (pair < 0) refuse("the joint moves only a link without <inertial>", robot_.links[to_index(joint.child)].name);
     if (body == Topology::kMassless)
-      refuse("the parent link, which carries the rotor, has no <inertial>", robot_.links[static_cast<std::size_t>(joint.parent)].name);
-    const std::vector<ChainElement>& chain = topology_.pairs[static_cast<std::size_t>(pair)].chain;
+      refuse("the parent link, which carries the rotor, has no <inertial>", robot_.links[to_index(joint.parent)].name);
+    const std::vector<ChainElement>& chain = topology_.pairs[to_index(pair)].chain;
     for (std::size_t e = 0; e < chain.size(); ++e) {
       if (chain[e].joint != static_cast<int>(j)) continue;
-      if (!has_coordinate_[static_cast<std::size_t>(pair)][e]) refuse_load(pair, static_cast<int>(e));
+      if (!has_coordinate_[to_index(pair)][e]) refuse_load(pair, static_cast<int>(e));
       rotors_.push_back({pair, static_cast<int>(e), body});
     }
   }
@@ -285,7 +283,7 @@ void System::add_bristle(int pair, int element, int size) {
 void System::collect_bristles() {
   for (const JointLoad& load : loads_)
     if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
-  for (int contact : contacts_) add_bristle(contact, -1, topology_.pairs[static_cast<std::size_t>(contact)].kind->slip_coordinates);
+  for (int contact : contacts_) add_bristle(contact, -1, topology_.pairs[to_index(contact)].kind->slip_coordinates);
 }
 
 const BristleContact* System::bristle(int pair, int element) const {
@@ -303,7 +301,7 @@ void System::find_coordinates() {
       has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
   }
   layout_.drop_slot = static_cast<int>(layout_.initial_turns.size());
-  layout_.initial_turns.resize(layout_.initial_turns.size() + static_cast<std::size_t>(sharing_layout_.misses), 0.0);
+  layout_.initial_turns.resize(layout_.initial_turns.size() + to_index(sharing_layout_.misses), 0.0);
   for (const SharedRow& row : sharing_.dropped) {
     dropped_rows_.push_back(row.pair >= 0 ? layout_.pair_row[to_index(row.pair)] + row.within : layout_.coupling_row(row.coupling));
     layout_.initial_turns[to_index(layout_.drop_slot + sharing_layout_.miss_slot[to_index(dropped_rows_.back())])] = 1.0;
@@ -314,23 +312,22 @@ void System::find_coordinates() {
 }
 
 void System::refuse_load(int pair, int element) const {
-  const ChainElement& in_chain = topology_.pairs[static_cast<std::size_t>(pair)].chain[static_cast<std::size_t>(element)];
-  const JointDescription& joint = robot_.joints[static_cast<std::size_t>(in_chain.joint)];
+  const ChainElement& in_chain = topology_.pairs[to_index(pair)].chain[to_index(element)];
+  const JointDescription& joint = robot_.joints[to_index(in_chain.joint)];
   throw InputError(
       {joint.where, joint.element(),
        "a controller, load, actuator, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
-       topology_.pairs[static_cast<std::size_t>(pair)].name,
+       topology_.pairs[to_index(pair)].name,
        "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
 }
 
 void System::check_couplings() const {
   for (const Coupling& coupling : topology_.couplings)
     for (const CouplingTerm& term : coupling.terms)
-      if (!has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)])
-        throw InputError({coupling.where, coupling.element(),
-                          "a joint of a chain of links without <inertial> has no coordinate in closed form",
-                          robot_.joints[static_cast<std::size_t>(term.joint)].name,
-                          "in a ball joint of three hinges, hinges at right angles to each other"});
+      if (!has_coordinate_[to_index(term.pair)][to_index(term.element)])
+        throw InputError(
+            {coupling.where, coupling.element(), "a joint of a chain of links without <inertial> has no coordinate in closed form",
+             robot_.joints[to_index(term.joint)].name, "in a ball joint of three hinges, hinges at right angles to each other"});
 }
 
 void System::check_effort_rate(const SignalReference& term, const SignalDescription& description) const {
@@ -347,13 +344,13 @@ void System::check_effort_rate(const SignalReference& term, const SignalDescript
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
   for (const SignalReference& term : signal) {
-    if (term.kind == SignalKind::kControllerIntegral && controllers_[static_cast<std::size_t>(term.controller)].state < 0)
+    if (term.kind == SignalKind::kControllerIntegral && controllers_[to_index(term.controller)].state < 0)
       throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
                         "an i gain, or the signal in the objective or in a later controller"});
     if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
     const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
                             term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
-    if (!coordinate || has_coordinate_[static_cast<std::size_t>(term.pair)][static_cast<std::size_t>(term.element)]) continue;
+    if (!coordinate || has_coordinate_[to_index(term.pair)][to_index(term.element)]) continue;
     throw InputError({description.where, "signal", "a joint of this chain of links without <inertial> has no coordinate in closed form",
                       description.text, "in a ball joint of three hinges, hinges at right angles to each other"});
   }
@@ -361,7 +358,7 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
 
 void System::refuse_unsupported() const {
   if (topology_.bodies.empty())
-    throw InputError({robot_.links[static_cast<std::size_t>(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
+    throw InputError({robot_.links[to_index(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint", "",
                       "at least one link with <inertial> below a joint that is not fixed"});
 }

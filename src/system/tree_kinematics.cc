@@ -61,21 +61,20 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
 TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
   std::vector<std::vector<int>> children(robot.links.size());
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (!robot.joints[k].is_loop) children[static_cast<std::size_t>(robot.joints[k].parent)].push_back(static_cast<int>(k));
+    if (!robot.joints[k].is_loop) children[to_index(robot.joints[k].parent)].push_back(static_cast<int>(k));
   // A joint that stands behind its parent's joint in the file is taken in the same pass, else in the next one.
   using Place = std::pair<int, int>;  // pass, joint
   std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
-  for (int k : children[static_cast<std::size_t>(robot.root)]) next.emplace(0, k);
+  for (int k : children[to_index(robot.root)]) next.emplace(0, k);
   while (!next.empty()) {
     const auto [pass, joint] = next.top();
     next.pop();
     joint_order.push_back(joint);
-    for (int k : children[static_cast<std::size_t>(robot.joints[static_cast<std::size_t>(joint)].child)])
-      next.emplace(k > joint ? pass : pass + 1, k);
+    for (int k : children[to_index(robot.joints[to_index(joint)].child)]) next.emplace(k > joint ? pass : pass + 1, k);
   }
   for (int k : joint_order) {
-    offset[static_cast<std::size_t>(k)] = size;
-    size += coordinates_of(robot.joints[static_cast<std::size_t>(k)].type);
+    offset[to_index(k)] = size;
+    size += coordinates_of(robot.joints[to_index(k)].type);
   }
 }
 
@@ -85,10 +84,10 @@ void link_motions(const RobotDescription& robot, const TreeLayout& layout, const
   std::vector<LinkMotion<T>>& links = *result;
   links.assign(robot.links.size(), LinkMotion<T>());
   for (int k : layout.joint_order) {
-    const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
-    const LinkMotion<T>& parent = links[static_cast<std::size_t>(joint.parent)];
-    LinkMotion<T>& child = links[static_cast<std::size_t>(joint.child)];
-    const int first = layout.offset[static_cast<std::size_t>(k)], count = coordinates_of(joint.type);
+    const JointDescription& joint = robot.joints[to_index(k)];
+    const LinkMotion<T>& parent = links[to_index(joint.parent)];
+    LinkMotion<T>& child = links[to_index(joint.child)];
+    const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
     const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
     const JointMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count), In<T>(theta_rate).subspan(first, count));
     child.X = X_GF * m.X;
@@ -100,18 +99,17 @@ void link_motions(const RobotDescription& robot, const TreeLayout& layout, const
 void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout, const std::vector<double>& parameters,
                        const VectorX<double>& theta, const std::vector<LinkMotion<double>>& links, std::vector<CoordinateTwist>* result) {
   std::vector<CoordinateTwist>& twists = *result;
-  twists.resize(static_cast<std::size_t>(layout.size));
+  twists.resize(to_index(layout.size));
   for (int k : layout.joint_order) {
-    const JointDescription& joint = robot.joints[static_cast<std::size_t>(k)];
-    const int first = layout.offset[static_cast<std::size_t>(k)], count = coordinates_of(joint.type);
+    const JointDescription& joint = robot.joints[to_index(k)];
+    const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
     if (count == 0) continue;
-    const Matrix3<double> R =
-        links[static_cast<std::size_t>(joint.parent)].X.R * rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
+    const Matrix3<double> R = links[to_index(joint.parent)].X.R * rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
     double unit[6] = {};
     for (int c = 0; c < count; ++c) {
       unit[c] = 1.0;
       const JointMotion<double> m = joint_motion(joint, parameters, In<double>(theta).subspan(first, count), unit);
-      twists[static_cast<std::size_t>(first + c)] = {R * m.omega, R * m.velocity, links[static_cast<std::size_t>(joint.child)].X.t};
+      twists[to_index(first + c)] = {R * m.omega, R * m.velocity, links[to_index(joint.child)].X.t};
       unit[c] = 0.0;
     }
   }
@@ -121,8 +119,8 @@ void set_turns(const System& system, const TreeLayout& layout, const VectorX<dou
   for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
     const Pair& pair = system.topology().pairs[p];
     for (std::size_t e = 0; e < pair.chain.size(); ++e) {
-      const auto joint = static_cast<std::size_t>(pair.chain[e].joint);
-      state->turns[static_cast<std::size_t>(system.layout().turn(static_cast<int>(p), static_cast<int>(e)))] =
+      const auto joint = to_index(pair.chain[e].joint);
+      state->turns[to_index(system.layout().turn(static_cast<int>(p), static_cast<int>(e)))] =
           system.robot().joints[joint].is_loop ? 0.0 : theta[layout.offset[joint]];
     }
   }
@@ -147,19 +145,18 @@ template <class T>
 void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
                       VectorX<T>* v) {
   const std::vector<Body>& bodies = system.topology().bodies;
-  for (VectorX<T>* x : {q, v}) x->resize(kBodySize * static_cast<Eigen::Index>(bodies.size()));
+  for (VectorX<T>* x : {q, v}) x->resize(kBodySize * to_signed(bodies.size()));
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    place_body(links[static_cast<std::size_t>(bodies[b].base_link)], constants.bodies[b].centre, static_cast<Eigen::Index>(kBodySize * b),
-               q, v);
+    place_body(links[to_index(bodies[b].base_link)], constants.bodies[b].centre, to_signed(kBodySize * b), q, v);
 }
 
 void set_signs(const System& system, const Constants<double>& constants, const std::vector<LinkMotion<double>>& links,
                State<double>* state) {
   const Layout& layout = system.layout();
   for (int body : layout.forest.order) {
-    const int base = system.topology().bodies[static_cast<std::size_t>(body)].base_link;
-    const Vector4<double> p = euler_parameters(links[static_cast<std::size_t>(base)].X.R);
-    double& sign = state->turns[static_cast<std::size_t>(layout.sign_slot + body)];
+    const int base = system.topology().bodies[to_index(body)].base_link;
+    const Vector4<double> p = euler_parameters(links[to_index(base)].X.R);
+    double& sign = state->turns[to_index(layout.sign_slot + body)];
     if (p.dot(body_parameters(system, constants, *state, body)) < 0.0) sign = -sign;
   }
 }
@@ -174,11 +171,11 @@ void state_coordinates(const System& system, const TreeLayout& layout, const Con
   for (std::size_t b = 0; b < topology.bodies.size(); ++b) {
     Eigen::Index c = at.column(static_cast<int>(b));
     if (at.is_free(static_cast<int>(b))) {
-      place_body(links[static_cast<std::size_t>(topology.bodies[b].base_link)], constants.bodies[b].centre, c, q, v);
+      place_body(links[to_index(topology.bodies[b].base_link)], constants.bodies[b].centre, c, q, v);
       continue;
     }
-    for (const ChainElement& element : topology.pairs[static_cast<std::size_t>(at.forest.pair_above[b])].chain) {
-      const auto joint = static_cast<std::size_t>(element.joint);
+    for (const ChainElement& element : topology.pairs[to_index(at.forest.pair_above[b])].chain) {
+      const auto joint = to_index(element.joint);
       for (int k = 0; k < coordinates_of(system.robot().joints[joint].type); ++k, ++c) {
         (*q)[c] = theta[layout.offset[joint] + k];
         (*v)[c] = theta_rate[layout.offset[joint] + k];
@@ -206,7 +203,7 @@ RobotDescription with_start_rotations(RobotDescription robot, const MotionStudy&
   for (const InitialJointState& initial : study.initial_state) {
     const int joint = tree_joint(robot, initial);
     if (joint < 0 || !initial.rotation) continue;
-    JointDescription& description = robot.joints[static_cast<std::size_t>(joint)];
+    JointDescription& description = robot.joints[to_index(joint)];
     if (description.type == JointType::kFloating) description.start_rotation = *initial.rotation;
   }
   return robot;

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "description/expression.h"
+#include "math/arrays.h"
 #include "reading/study/study_values.h"
 
 namespace codesign {
@@ -15,7 +16,7 @@ std::size_t read_count(const YamlValue& coefficients) {
   constexpr int kMost = 10000;
   const YamlValue count = coefficients.at("count");
   if (count.integer() < 2 || count.integer() > kMost) count.fail("number of coefficients out of range", "2 to " + std::to_string(kMost));
-  return static_cast<std::size_t>(count.integer());
+  return to_index(count.integer());
 }
 
 /// The start of each coefficient: `initial` is one number for all or a list with one for each; 0 if it is missing.
@@ -80,7 +81,7 @@ BasisDescription read_basis(const std::string& controller, const YamlValue& valu
   if (coefficients.is_map()) {
     for (std::size_t k = 0; k < read_count(coefficients); ++k) {
       const std::string name = coefficient_name(controller, k);
-      basis.coefficients.emplace_back(table.values[static_cast<std::size_t>(table.index.at(name))], table.parse(name));
+      basis.coefficients.emplace_back(table.values[to_index(table.index.at(name))], table.parse(name));
     }
   } else {
     for (const YamlValue& item : coefficients.items()) basis.coefficients.push_back(read_quantity(item, table));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "reading/study/study_options.h"
 
 namespace codesign {
@@ -59,7 +60,7 @@ MultistartOptions read_multistart(const YamlValue& study_value, const Study& stu
   options.where = multistart.where();
   visit_options(OptionReader{multistart}, &options);
   if (!multistart.find("screen")) options.screen = 4 * options.starts;
-  for (int index : study.tuned) require_bounds(study_value, study.parameters[static_cast<std::size_t>(index)]);
+  for (int index : study.tuned) require_bounds(study_value, study.parameters[to_index(index)]);
   return options;
 }
 

@@ -9,6 +9,7 @@
 
 #include "description/expression.h"
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "math/conditional_normal.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -96,13 +97,13 @@ Eigen::MatrixXd read_covariance(const IdentifiedFile& file) {
   const std::string size = std::to_string(file.names.size());
   if (rows.size() != file.names.size())
     covariance.fail("there are " + std::to_string(rows.size()) + " rows", "one for each of the " + size + " names");
-  const auto used = static_cast<Eigen::Index>(file.used.size());
+  const auto used = to_signed(file.used.size());
   Eigen::MatrixXd result(used, used);
   for (Eigen::Index i = 0; i < used; ++i) {
-    const YamlValue& row = rows[file.used[static_cast<std::size_t>(i)]];
+    const YamlValue& row = rows[file.used[to_index(i)]];
     const std::vector<YamlValue> items = row.items();
     if (items.size() != rows.size()) row.fail("there are " + std::to_string(items.size()) + " numbers in the row", size);
-    for (Eigen::Index j = 0; j < used; ++j) result(i, j) = items[file.used[static_cast<std::size_t>(j)]].number();
+    for (Eigen::Index j = 0; j < used; ++j) result(i, j) = items[file.used[to_index(j)]].number();
   }
   const Eigen::VectorXd deviations = result.diagonal().cwiseMax(0.0).cwiseSqrt();
   if (((result - result.transpose()).array().abs() > kAsymmetry * (deviations * deviations.transpose()).array()).any())
@@ -112,7 +113,7 @@ Eigen::MatrixXd read_covariance(const IdentifiedFile& file) {
 
 int index_of(const std::string& name, const Study& study, const YamlValue& from) {
   for (int index : study.tuned)
-    if (study.parameters[static_cast<std::size_t>(index)].name == name)
+    if (study.parameters[to_index(index)].name == name)
       from.fail("the study tunes " + name + ", so its value is the search's", "except: [" + name + "]");
   return untuned_parameter(name, study, from);
 }
@@ -124,7 +125,7 @@ UncertainQuantity read_number(const IdentifiedFile& file, std::size_t number, co
   quantity.where = file.from.where();
   quantity.is_identified = true;
   quantity.parameter = index_of(name, study, file.from);
-  const Parameter& parameter = study.parameters[static_cast<std::size_t>(quantity.parameter)];
+  const Parameter& parameter = study.parameters[to_index(quantity.parameter)];
   Distribution& distribution = quantity.distribution;
   distribution.kind = DistributionKind::kNormal;
   distribution.mean = read_within_bounds(file.root.at("identified").at(name).at("value"), parameter);
@@ -143,12 +144,12 @@ std::vector<UncertainQuantity> read_identified(const YamlValue& from, const Stud
   if (!normal) file.root.at("covariance").fail("no distribution has this covariance", "a positive semidefinite matrix");
   std::vector<UncertainQuantity> quantities;
   for (std::size_t k = 0; k < file.used.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
+    const auto i = to_signed(k);
     UncertainQuantity quantity = read_number(file, file.used[k], study);
     quantity.distribution.deviation = normal->deviations[i];
     quantity.spread = std::sqrt(covariance(i, i));
     for (Eigen::Index j = 0; j < i; ++j)
-      if (normal->slopes(i, j) != 0.0) quantity.slopes.push_back({first + static_cast<std::size_t>(j), normal->slopes(i, j)});
+      if (normal->slopes(i, j) != 0.0) quantity.slopes.push_back({first + to_index(j), normal->slopes(i, j)});
     quantities.push_back(std::move(quantity));
   }
   return quantities;

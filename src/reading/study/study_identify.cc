@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "math/arrays.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -69,15 +70,15 @@ IntervalOptions read_intervals(const YamlValue& intervals) {
 /// `prior: {payload: 0.3, mass: 0.5}`: relative deviations of tuned parameters, and of what a free inertia is made of.
 std::vector<PriorDescription> read_priors(const YamlValue& prior, const Study& study) {
   std::vector<std::string> known(kFreeInertiaParts.begin(), kFreeInertiaParts.end());
-  for (const int index : study.tuned) known.push_back(study.parameters[static_cast<std::size_t>(index)].name);
+  for (const int index : study.tuned) known.push_back(study.parameters[to_index(index)].name);
   std::vector<PriorDescription> priors;
   for (const auto& [name, value] : prior.entries()) {
     const auto place = std::find(known.begin(), known.end(), name) - known.begin();
-    if (place == static_cast<std::ptrdiff_t>(known.size())) throw unknown_name(value.where(), value.path(), "tuned parameter", name, known);
+    if (place == to_signed(known.size())) throw unknown_name(value.where(), value.path(), "tuned parameter", name, known);
     const double deviation = read_above_zero(value, ", relative to the start of the fit");
-    const std::size_t tuned = static_cast<std::size_t>(place) - std::min(static_cast<std::size_t>(place), kFreeInertiaParts.size());
-    const bool is_named = place >= static_cast<std::ptrdiff_t>(kFreeInertiaParts.size());
-    if (is_named && study.parameters[static_cast<std::size_t>(study.tuned[tuned])].value == 0.0)
+    const std::size_t tuned = to_index(place) - std::min(to_index(place), kFreeInertiaParts.size());
+    const bool is_named = place >= to_signed(kFreeInertiaParts.size());
+    if (is_named && study.parameters[to_index(study.tuned[tuned])].value == 0.0)
       value.fail("a deviation relative to a start of zero is zero", "a parameter whose start is not 0, or bounds instead");
     priors.push_back({name, deviation, value.where()});
   }

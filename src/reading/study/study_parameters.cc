@@ -5,6 +5,7 @@
 
 #include "description/expression.h"
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -53,7 +54,7 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
     const auto [found, is_new] = indices.emplace(name, static_cast<int>(study->parameters.size()));
     const int index = found->second;
     if (is_new) study->parameters.push_back(new_parameter(name, value, robot.parameters));
-    Parameter& parameter = study->parameters[static_cast<std::size_t>(index)];
+    Parameter& parameter = study->parameters[to_index(index)];
     if (const auto initial = value.find("initial")) parameter.value = initial->number();
     read_bounds(value, &parameter);
     const auto tune = value.find("tune");

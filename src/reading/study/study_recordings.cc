@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "math/arrays.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -102,7 +103,7 @@ std::vector<RecordedSetting> read_settings(const YamlValue& set, const Study& st
   std::vector<RecordedSetting> settings;
   for (const auto& [name, value] : set.entries()) {
     const int index = untuned_parameter(name, study, value);
-    settings.push_back({index, read_within_bounds(value, study.parameters[static_cast<std::size_t>(index)])});
+    settings.push_back({index, read_within_bounds(value, study.parameters[to_index(index)])});
   }
   return settings;
 }

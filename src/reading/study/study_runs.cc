@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "math/arrays.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 
@@ -25,7 +26,7 @@ std::vector<std::pair<std::string, double>> read_set(const YamlValue& set, const
   std::vector<std::pair<std::string, double>> values;
   for (const auto& [name, value] : set.entries()) {
     const int index = untuned_parameter(name, study, value);
-    values.emplace_back(name, read_within_bounds(value, study.parameters[static_cast<std::size_t>(index)]));
+    values.emplace_back(name, read_within_bounds(value, study.parameters[to_index(index)]));
   }
   return values;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "description/robot.h"
+#include "math/arrays.h"
 #include "reading/study/study_values.h"
 #include "text/number_text.h"
 
@@ -112,7 +113,7 @@ UncertainQuantity read_quantity_entry(const std::string& name, const YamlValue& 
     return quantity;
   }
   quantity.parameter = untuned_parameter(name, study, value, {kFrictionLaw, kFrom});
-  read_distribution(value, all[static_cast<std::size_t>(quantity.parameter)], &quantity.distribution);
+  read_distribution(value, all[to_index(quantity.parameter)], &quantity.distribution);
   return quantity;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "text/nearest_name.h"
 
@@ -22,7 +23,7 @@ int untuned_parameter(const std::string& name, const Study& study, const YamlVal
   std::vector<std::string> allowed = others;
   const std::set<int> tuned(study.tuned.begin(), study.tuned.end());
   for (int index = 0; index < static_cast<int>(study.parameters.size()); ++index) {
-    const std::string& known = study.parameters[static_cast<std::size_t>(index)].name;
+    const std::string& known = study.parameters[to_index(index)].name;
     const bool is_tuned = tuned.count(index) > 0;
     if (known == name && !is_tuned) return index;
     if (known == name) throw tuned_error(at.where(), at.path(), name);

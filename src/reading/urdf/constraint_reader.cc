@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "math/arrays.h"
 #include "mechanism/pose.h"
 #include "reading/urdf/joint_reader.h"
 #include "reading/urdf/quantity_reader.h"
@@ -71,7 +72,7 @@ CouplingDescription read_rolling(const XmlElement& element, const ReadContext& c
 }  // namespace
 
 bool has_loop_between(const RobotDescription& robot, const std::string& a, const std::string& b) {
-  const auto name = [&robot](int link) { return robot.links[static_cast<std::size_t>(link)].name; };
+  const auto name = [&robot](int link) { return robot.links[to_index(link)].name; };
   return std::any_of(robot.joints.begin(), robot.joints.end(), [&](const JointDescription& joint) {
     return joint.is_loop && ((name(joint.parent) == a && name(joint.child) == b) || (name(joint.parent) == b && name(joint.child) == a));
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "mechanism/pose.h"
 #include "text/number_text.h"
@@ -218,10 +219,10 @@ class Finder {
   Suggestion of_equality(const XmlElement& element) const {
     Suggestion s{element.find("name").value_or(""), element.tag() == "weld" ? "fixed" : "codesign:spherical", {}, {}, ""};
     s.predecessor.link = element.find("body1").value_or("...");
-    s.successor.link = element.find("body2").value_or(robot_.links[static_cast<std::size_t>(robot_.root)].name);
+    s.successor.link = element.find("body2").value_or(robot_.links[to_index(robot_.root)].name);
     Pose<double> X_1F;
     const std::vector<std::string> anchor = split_words(element.find("anchor").value_or("0 0 0"));
-    for (std::size_t k = 0; k < anchor.size() && k < 3; ++k) X_1F.t[static_cast<Eigen::Index>(k)] = parse_number(anchor[k]).value_or(0.0);
+    for (std::size_t k = 0; k < anchor.size() && k < 3; ++k) X_1F.t[to_signed(k)] = parse_number(anchor[k]).value_or(0.0);
     place(X_1F, &s.predecessor);
     if (const auto X_21 = relative_at_zero(s.successor.link, s.predecessor.link)) place(*X_21 * X_1F, &s.successor);
     if (element.tag() != "weld") s.predecessor.rpy = s.successor.rpy = "";

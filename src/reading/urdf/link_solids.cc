@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -23,7 +24,7 @@ Eigen::Vector3d plain_vector(const tinyxml2::XMLElement* element, const char* at
   const std::vector<std::string> words = split_words(text);
   for (std::size_t k = 0; k < words.size() && k < 3; ++k) {
     const double value = parse_number(words[k]).value_or(0.0);
-    if (std::isfinite(value)) result[static_cast<Eigen::Index>(k)] = value;
+    if (std::isfinite(value)) result[to_signed(k)] = value;
   }
   return result;
 }
@@ -76,7 +77,7 @@ LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& li
        link = link->NextSiblingElement("link")) {
     const char* name = link->Attribute("name");
     const auto found = std::find(links.begin(), links.end(), name != nullptr ? name : "");
-    if (found != links.end()) boxes[static_cast<std::size_t>(found - links.begin())] = boxes_of(link);
+    if (found != links.end()) boxes[to_index(found - links.begin())] = boxes_of(link);
   }
   return boxes;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "description/tuned_parameters.h"
+#include "math/arrays.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/urdf_reader.h"
 #include "reading/xml/xml_element.h"
@@ -141,7 +142,7 @@ using tinyxml2::XMLElement;
 std::size_t index_of(const XmlElement& set, const std::vector<Parameter>& parameters) {
   const std::string name = set.text("name");
   const auto found = std::find_if(parameters.begin(), parameters.end(), [&name](const Parameter& known) { return known.name == name; });
-  if (found != parameters.end()) return static_cast<std::size_t>(found - parameters.begin());
+  if (found != parameters.end()) return to_index(found - parameters.begin());
   std::vector<std::string> known;
   for (const Parameter& parameter : parameters) known.push_back(parameter.name);
   throw unknown_name(set.where("name"), set.label(), "parameter of the model", name, known);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "math/arrays.h"
 #include "mechanism/pair_geometry.h"
 #include "text/nearest_name.h"
 
@@ -23,8 +24,8 @@ std::vector<const JointDescription*> joints_above(const RobotDescription& robot)
   std::vector<const JointDescription*> above(robot.links.size(), nullptr);
   for (const JointDescription& joint : robot.joints) {
     if (joint.is_loop) continue;
-    const JointDescription*& slot = above[static_cast<std::size_t>(joint.child)];
-    const std::string& link = robot.links[static_cast<std::size_t>(joint.child)].name;
+    const JointDescription*& slot = above[to_index(joint.child)];
+    const std::string& link = robot.links[to_index(joint.child)].name;
     if (slot != nullptr)
       throw InputError({joint.where, joint.element(), "its child " + link + " is already the child of the joint " + slot->name, link,
                         "one joint above each link; close the ring with a <loop>"});
@@ -40,7 +41,7 @@ std::vector<bool> reached_first(const RobotDescription& robot, const std::vector
   for (bool progress = true; progress;) {
     progress = false;
     for (std::size_t k = 0; k < robot.joints.size(); ++k) {
-      const auto parent = static_cast<std::size_t>(robot.joints[k].parent), child = static_cast<std::size_t>(robot.joints[k].child);
+      const auto parent = to_index(robot.joints[k].parent), child = to_index(robot.joints[k].child);
       if (!reached[parent] || reached[child]) continue;
       first[k] = reached[child] = progress = true;
     }
@@ -75,13 +76,13 @@ void check_names(const RobotDescription& robot) {
 
 void close_with_second_parents(RobotDescription* robot) {
   std::vector<int> parents(robot->links.size(), 0);
-  for (const JointDescription& joint : robot->joints) ++parents[static_cast<std::size_t>(joint.child)];
+  for (const JointDescription& joint : robot->joints) ++parents[to_index(joint.child)];
   if (std::none_of(parents.begin(), parents.end(), [](int count) { return count > 1; })) return;
   const std::vector<bool> in_tree = reached_first(*robot, parents);
   for (std::size_t k = 0; k < robot->joints.size(); ++k) {
     JointDescription& joint = robot->joints[k];
-    if (in_tree[k] || parents[static_cast<std::size_t>(joint.child)] < 2 || joint.where.file != robot->file) continue;
-    const std::string& child = robot->links[static_cast<std::size_t>(joint.child)].name;
+    if (in_tree[k] || parents[to_index(joint.child)] < 2 || joint.where.file != robot->file) continue;
+    const std::string& child = robot->links[to_index(joint.child)].name;
     robot->warnings.push_back(warn("second_parent", {joint.where, joint.element(),
                                                      "its child is already the child of another joint, so this one is read as a loop; to "
                                                      "silence this: write a <loop> with predecessor and successor",
@@ -100,7 +101,7 @@ int find_root(const RobotDescription& robot) {
     if (above[k] != nullptr) continue;
     if (root >= 0)
       throw InputError({robot.links[k].where, element_of(robot.links[k]), "a second root: no joint has this link as its child",
-                        robot.links[static_cast<std::size_t>(root)].name + ", " + robot.links[k].name, "one root link"});
+                        robot.links[to_index(root)].name + ", " + robot.links[k].name, "one root link"});
     root = static_cast<int>(k);
   }
   // Each link is passed twice at most: a walk ends at a link from which the root has been reached.
@@ -108,8 +109,8 @@ int find_root(const RobotDescription& robot) {
   for (std::size_t k = 0; k < robot.links.size(); ++k) {
     std::size_t link = k, steps = 0;
     const auto goes_on = [&](std::size_t at) { return above[at] != nullptr && !reaches_root[at]; };
-    while (goes_on(link) && steps++ <= robot.links.size()) link = static_cast<std::size_t>(above[link]->parent);
-    for (std::size_t at = k; !goes_on(link) && goes_on(at); at = static_cast<std::size_t>(above[at]->parent)) reaches_root[at] = true;
+    while (goes_on(link) && steps++ <= robot.links.size()) link = to_index(above[link]->parent);
+    for (std::size_t at = k; !goes_on(link) && goes_on(at); at = to_index(above[at]->parent)) reaches_root[at] = true;
     if (goes_on(link))
       throw InputError({above[k]->where, above[k]->element(), "the joints form a ring that is not connected to the root",
                         robot.links[k].name, "a tree from one root link; close rings with <loop>"});
@@ -138,7 +139,7 @@ void check_mimics(RobotDescription* robot) {
 }
 
 void check_friction(const RobotDescription& robot) {
-  const auto is_body = [&](int link) { return link == robot.root || robot.links[static_cast<std::size_t>(link)].inertial.has_value(); };
+  const auto is_body = [&](int link) { return link == robot.root || robot.links[to_index(link)].inertial.has_value(); };
   for (const JointDescription& joint : robot.joints) {
     if (!joint.friction) continue;
     const bool ordinary = joint.is_loop || (is_body(joint.parent) && is_body(joint.child));

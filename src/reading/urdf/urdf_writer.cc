@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/arrays.h"
 #include "mechanism/mass_properties.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/vocabulary.h"
@@ -121,7 +122,7 @@ std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceTex
                       "too few parameter values for the model",
                       std::to_string(parameters.size()),
                       std::to_string(count) + " or more"});
-  const std::vector<double> values(parameters.begin(), parameters.begin() + static_cast<std::ptrdiff_t>(count));
+  const std::vector<double> values(parameters.begin(), parameters.begin() + to_signed(count));
   write_design(robot, values, &document);
   if (law) write_friction_law(document.robot(), **law);
   return document.text();

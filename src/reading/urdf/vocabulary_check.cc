@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "math/arrays.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
@@ -190,7 +191,7 @@ Warnings cut_trailing_text(SourceText* source) {
   const std::string rest = source->text.substr(at);
   const std::size_t first = rest.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || rest.find_first_of("<>") != std::string::npos) return {};
-  const auto lines = std::count(source->text.begin(), source->text.begin() + static_cast<std::ptrdiff_t>(at + first), '\n');
+  const auto lines = std::count(source->text.begin(), source->text.begin() + to_signed(at + first), '\n');
   source->text.resize(at);
   return {after_robot({source->name, static_cast<int>(lines) + 1}, "text", rest.substr(first, 40))};
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "math/arrays.h"
+
 namespace codesign {
 namespace {
 
@@ -50,7 +52,7 @@ int blank_late_declaration(std::string* text) {
   if (end == std::string::npos) return 0;
   for (std::size_t k = at; k < end + 2; ++k)
     if ((*text)[k] != '\n') (*text)[k] = ' ';
-  return 1 + static_cast<int>(std::count(text->begin(), text->begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  return 1 + static_cast<int>(std::count(text->begin(), text->begin() + to_signed(at), '\n'));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "math/arrays.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -133,7 +134,7 @@ std::string BagContents::read(std::uint64_t at, std::uint64_t count) {
   if (at > size_ || count > size_ - at)
     throw BagFault("a record of " + std::to_string(count) + " bytes at byte " + std::to_string(at) + " of a file of " +
                    std::to_string(size_) + " bytes");
-  std::string bytes(static_cast<std::size_t>(count), '\0');
+  std::string bytes(to_index(count), '\0');
   file_.seekg(static_cast<std::streamoff>(at));
   if (!file_.read(bytes.data(), static_cast<std::streamsize>(count)))
     throw BagFault("the file cannot be read at byte " + std::to_string(at) + ": " + std::strerror(errno));

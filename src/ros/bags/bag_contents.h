@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "math/arrays.h"
+
 namespace codesign {
 
 /// Thrown where the bytes of a bag contradict its format; what() names the place in the file.
@@ -36,8 +38,8 @@ class ByteReader {
   std::string_view bytes(std::uint64_t count, const char* what) {
     const std::size_t left = bytes_.size() - read_;
     if (count > left) fail(std::string(what) + " of " + std::to_string(count) + " bytes, with " + std::to_string(left) + " bytes left,");
-    read_ += static_cast<std::size_t>(count);
-    return bytes_.substr(read_ - static_cast<std::size_t>(count), static_cast<std::size_t>(count));
+    read_ += to_index(count);
+    return bytes_.substr(read_ - to_index(count), to_index(count));
   }
 
   template <class T>
@@ -61,7 +63,7 @@ class ByteReader {
   std::vector<double> doubles(const char* what) {
     const std::uint64_t count = number<std::uint32_t>(what);
     const std::string_view all = bytes(count * sizeof(double), what);
-    std::vector<double> values(static_cast<std::size_t>(count));
+    std::vector<double> values(to_index(count));
     if (count > 0) std::memcpy(values.data(), all.data(), all.size());
     return values;
   }

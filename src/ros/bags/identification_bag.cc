@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "math/arrays.h"
 #include "reading/urdf/pictures.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/scene/markers.h"
@@ -134,8 +135,8 @@ class ShowWriter {
     const FittedSeries& series = *part.series;
     const Eigen::Index rows = show_.data.recorded.rows() + show_.holdout.recorded.rows();
     for (Eigen::Index row = part.begin; row < part.end; row += 1 + rows / kMostResiduals) {
-      const double clock = series.times[static_cast<std::size_t>(row)];
-      const double time = begin + clock - series.times[static_cast<std::size_t>(part.begin)];
+      const double clock = series.times[to_index(row)];
+      const double time = begin + clock - series.times[to_index(part.begin)];
       mechanism_codesign::Residuals message;
       message.header.stamp = BagWriter::stamp(time);
       message.recording = recording;

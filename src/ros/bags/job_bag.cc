@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "math/arrays.h"
 #include "reading/urdf/pictures.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/scene/scene_layout.h"
@@ -179,7 +180,7 @@ mechanism_codesign::OptimizationProgress optimization_progress(const Trial& tria
 }
 
 void set_progress(const Progress& progress, mechanism_codesign::OptimizationProgress* message) {
-  message->stage = kStageNames[static_cast<std::size_t>(progress.stage)];
+  message->stage = kStageNames[to_index(progress.stage)];
   message->done = static_cast<std::uint64_t>(progress.done);
   message->of = static_cast<std::uint64_t>(progress.of);
   message->runs = static_cast<std::uint64_t>(progress.runs);

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "math/arrays.h"
 #include "ros/bags/bag_contents.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -168,12 +169,12 @@ class RecordingBag {
                                                                                    : message.effort;
       if (array.empty() != column.empty() && k != group.messages.front())
         fail_at(k,
-                "the array of " + std::string(kMeasuredQuantityNames[static_cast<std::size_t>(quantity)]) + "s is " +
+                "the array of " + std::string(kMeasuredQuantityNames[to_index(quantity)]) + "s is " +
                     (array.empty() ? "empty, but was not in the messages before" : "not empty, but was in the messages before"),
                 "the same arrays in all messages");
       if (array.empty()) continue;
       const auto place = std::find(message.name.begin(), message.name.end(), joint);
-      column.push_back(array[static_cast<std::size_t>(place - message.name.begin())]);
+      column.push_back(array[to_index(place - message.name.begin())]);
     }
     return column;
   }
@@ -183,7 +184,7 @@ class RecordingBag {
     if (std::all_of(column.begin(), column.end(), is_nan)) return false;
     if (quantity != MeasuredQuantity::kPosition && std::all_of(column.begin(), column.end(), [](double value) { return value == 0.0; }))
       warn_of("recording_all_zero",
-              "the " + std::string(kMeasuredQuantityNames[static_cast<std::size_t>(quantity)]) + " of " + joint +
+              "the " + std::string(kMeasuredQuantityNames[to_index(quantity)]) + " of " + joint +
                   " is zero throughout, as drivers write it that do not measure it",
               "an empty array for what is not measured");
     return true;

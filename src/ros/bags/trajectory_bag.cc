@@ -11,6 +11,7 @@
 
 #include "description/named_file.h"
 #include "jobs/files.h"
+#include "math/arrays.h"
 #include "ros/bags/bag_contents.h"
 #include "ros/bags/bag_files.h"
 #include "ros/bags/bag_writer.h"
@@ -54,7 +55,7 @@ Trajectory trajectory_of(ByteReader content) {
 }
 
 std::size_t index_of(const Trajectory& message, const std::string& joint) {
-  return static_cast<std::size_t>(std::find(message.joints.begin(), message.joints.end(), joint) - message.joints.begin());
+  return to_index(std::find(message.joints.begin(), message.joints.end(), joint) - message.joints.begin());
 }
 
 Trajectory find_message(const TrajectoryAddress& address, const std::string& path) {
@@ -123,7 +124,7 @@ void write_joint_trajectory_bag(const std::string& path, const TrajectoryPoints&
   trajectory_msgs::JointTrajectory message;
   message.joint_names = points.joints;
   for (std::size_t k = 0; k < points.times.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
+    const auto column = to_signed(k);
     trajectory_msgs::JointTrajectoryPoint point;
     point.positions = column_at(points.position, column);
     point.velocities = column_at(points.velocity, column);

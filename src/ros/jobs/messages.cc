@@ -6,6 +6,7 @@
 
 #include "jobs/optimization_records.h"
 #include "jobs/trial_lines.h"
+#include "math/arrays.h"
 #include "ros/bags/job_bag.h"
 #include "ros/common/replies.h"
 
@@ -191,7 +192,7 @@ mechanism_codesign::IdentifyResult identification_message(const Problem& problem
   message.message = result.status.cause;  // a fit has no time of its own
   const IntervalOptions& intervals = problem.study().identification->intervals;
   message.level = intervals.level;
-  message.noise = kNoiseNames[static_cast<std::size_t>(intervals.noise)];
+  message.noise = kNoiseNames[to_index(intervals.noise)];
   for (const IdentifiedNumber& number : result.numbers) message.numbers.push_back(to_message(number));
   for (Eigen::Index row = 0; row < result.covariance.rows(); ++row)
     for (Eigen::Index column = 0; column < result.covariance.cols(); ++column) message.covariance.push_back(result.covariance(row, column));

@@ -15,6 +15,7 @@
 #include "jobs/optimization_records.h"
 #include "jobs/result_folder.h"
 #include "jobs/trial_lines.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"
@@ -105,7 +106,7 @@ class Job {
     nominal.system = problem_.system();
     record_->nominal = run_both(problem_, result_, nominal, options_.rate, &patience);
     if (const int worst = worst_scenario(result_); worst >= 0)
-      record_->worst = run_both(problem_, result_, make_scenarios(problem_)[static_cast<std::size_t>(worst)], options_.rate, &patience);
+      record_->worst = run_both(problem_, result_, make_scenarios(problem_)[to_index(worst)], options_.rate, &patience);
     outcome_->tuned_urdf = record_->nominal.tuned.urdf;
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     record_->result = outcome_->result;

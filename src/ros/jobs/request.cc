@@ -7,6 +7,7 @@
 
 #include "description/tuned_parameters.h"
 #include "identification/identify.h"
+#include "math/arrays.h"
 #include "ros/common/parameters.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -45,7 +46,7 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
 std::size_t index_of(const std::string& name, const std::vector<std::string>& known) {
   const auto found = std::find(known.begin(), known.end(), name);
   if (found == known.end()) throw unknown_name({kRequest, 0}, "parameters", "parameter", name, known);
-  return static_cast<std::size_t>(found - known.begin());
+  return to_index(found - known.begin());
 }
 
 /// Pairs names with values. Both lists must have the same length, and no name may occur twice.
@@ -148,11 +149,11 @@ Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::Eval
   Eigen::VectorXd rho = problem.start();
   for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
     const std::size_t k = index_of(name, tuned);
-    const Parameter& parameter = problem.study().parameters[static_cast<std::size_t>(problem.study().tuned[k])];
+    const Parameter& parameter = problem.study().parameters[to_index(problem.study().tuned[k])];
     if (!(value >= parameter.lower && value <= parameter.upper))
       fail(name, "value outside the parameter's bounds", to_decimal(value),
            "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]");
-    rho[static_cast<Eigen::Index>(k)] = value;
+    rho[to_signed(k)] = value;
   }
   return rho;
 }

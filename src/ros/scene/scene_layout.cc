@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -138,7 +139,7 @@ Eigen::Vector3d place_of_name(const SceneLayout& layout, const std::vector<Eigen
 }
 
 void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
-  for (std::size_t k = 0; k < 3; ++k) (*numbers)[k] = point[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < 3; ++k) (*numbers)[k] = point[to_signed(k)];
 }
 
 visualization_msgs::Marker text_marker(const std::string& text, const Eigen::Vector3d& place, double letter) {

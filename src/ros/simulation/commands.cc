@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -36,7 +37,7 @@ void require_once(const std::string& topic, const std::vector<std::string>& join
 std::size_t index_of_joint(const CommandInputs& inputs, const std::string& topic, const std::string& joint) {
   const auto found = std::find(inputs.joints.begin(), inputs.joints.end(), joint);
   if (found == inputs.joints.end()) throw unknown_name({topic, 0}, joint, "joint that takes efforts", joint, inputs.joints);
-  return static_cast<std::size_t>(found - inputs.joints.begin());
+  return to_index(found - inputs.joints.begin());
 }
 
 JointCourse course_of(const CommandInputs& inputs, const std::string& topic, const std::string& joint) {
@@ -140,7 +141,7 @@ void CommandedRun::take(const TrajectoryCommand& command, const Frame& frame, co
 void CommandedRun::follow(const JointCourse& course, double begin, const Frame& frame) {
   const std::vector<std::string>& joints = run_->names().joints;
   const auto found = std::find(joints.begin(), joints.end(), course.joint);
-  const double position = found == joints.end() ? 0.0 : frame.joints[static_cast<std::size_t>(found - joints.begin())].position;
+  const double position = found == joints.end() ? 0.0 : frame.joints[to_index(found - joints.begin())].position;
   const auto [controller, by_rate] = course.follower;
   if (course.points.empty()) return run_->set_course(controller, held(by_rate ? 0.0 : position, frame.time));
   const double now = std::max(begin, frame.time);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "jobs/trial_lines.h"
+#include "math/arrays.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -41,7 +42,7 @@ void want(const std::vector<Parameter>& parameters, const std::string& name, dou
          {}});
     return;
   }
-  double& value = wanted->values[static_cast<std::size_t>(found - parameters.begin())];
+  double& value = wanted->values[to_index(found - parameters.begin())];
   value = std::clamp(number, found->lower, found->upper);
   if (value != number)
     wanted->warnings.push_back(

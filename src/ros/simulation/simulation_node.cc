@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <set>
 
+#include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "observation/observer.h"
@@ -148,7 +149,7 @@ void SimulationNode::tell_description() {
 }
 
 MessageContext SimulationNode::context(double time) const {
-  return {clock_.stamp(time), options_.frame_prefix + problem_->robot().links[static_cast<std::size_t>(problem_->robot().root)].name};
+  return {clock_.stamp(time), options_.frame_prefix + problem_->robot().links[to_index(problem_->robot().root)].name};
 }
 
 void SimulationNode::set_scene() {
