@@ -19,7 +19,8 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& x) {
 }
 
 Eigen::Matrix3d rotation(const std::array<double, 3>& rpy) {
-  return (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
+  return (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
 }
@@ -51,7 +52,8 @@ Eigen::VectorXd ArticulatedBody::start() const {
   return q;
 }
 
-// Pose and velocity from the parent's, the bias of the acceleration, and the load that the link needs for its velocity.
+// Pose and velocity from the parent's, the bias of the acceleration, and the load that the link
+// needs for its velocity.
 void ArticulatedBody::go_out(Link* link, double q, double v) const {
   Link& l = *link;
   l.turn = l.frame;
@@ -80,13 +82,15 @@ void ArticulatedBody::go_out(Link* link, double q, double v) const {
   l.I = l.inertia;
   l.H = cross(l.moment);
   l.M = l.mass * Matrix::Identity();
-  l.effort = -l.damping * v - (l.friction == 0.0 ? 0.0 : l.friction * std::tanh(4.0 * v / kTransitionVelocity));
+  l.effort = -l.damping * v -
+             (l.friction == 0.0 ? 0.0 : l.friction * std::tanh(4.0 * v / kTransitionVelocity));
 }
 
 // Articulated inertia and load without what the joint leaves free, added to the parent's.
 void ArticulatedBody::come_back(Link* link) {
   Link& l = *link;
-  l.push = l.slides ? Spatial{l.H.col(l.axis), l.M.col(l.axis)} : Spatial{l.I.col(l.axis), l.H.row(l.axis)};
+  l.push = l.slides ? Spatial{l.H.col(l.axis), l.M.col(l.axis)}
+                    : Spatial{l.I.col(l.axis), l.H.row(l.axis)};
   l.inverse = 1.0 / (l.slides ? l.push.shift : l.push.turn)[l.axis];
   l.effort -= (l.slides ? l.load.shift : l.load.turn)[l.axis];
   if (l.parent < 0) return;
@@ -95,12 +99,14 @@ void ArticulatedBody::come_back(Link* link) {
   l.H.noalias() -= turn * l.push.shift.transpose();
   l.M.noalias() -= shift * l.push.shift.transpose();
   const Vector moment = l.load.turn + l.I * l.bias.turn + l.H * l.bias.shift + l.effort * turn;
-  const Vector force = l.load.shift + l.H.transpose() * l.bias.turn + l.M * l.bias.shift + l.effort * shift;
+  const Vector force =
+      l.load.shift + l.H.transpose() * l.bias.turn + l.M * l.bias.shift + l.effort * shift;
   Link& parent = links_[static_cast<std::size_t>(l.parent)];
   const Vector turned = l.turn * force;
   parent.load.shift += turned;
   parent.load.turn += l.turn * moment + l.arm.cross(turned);
-  const Matrix r = cross(l.arm), M = l.turn * l.M * l.turn.transpose(), inner = l.turn * l.H * l.turn.transpose(), H = inner + r * M;
+  const Matrix r = cross(l.arm), M = l.turn * l.M * l.turn.transpose(),
+               inner = l.turn * l.H * l.turn.transpose(), H = inner + r * M;
   parent.M += M;
   parent.H += H;
   parent.I += l.turn * l.I * l.turn.transpose() - inner * r + r * H.transpose();
@@ -114,9 +120,11 @@ double ArticulatedBody::accelerate(Link* link) const {
   } else {
     const Spatial& parent = links_[static_cast<std::size_t>(l.parent)].acceleration;
     l.acceleration.turn = l.turn.transpose() * parent.turn + l.bias.turn;
-    l.acceleration.shift = l.turn.transpose() * (parent.shift + parent.turn.cross(l.arm)) + l.bias.shift;
+    l.acceleration.shift =
+        l.turn.transpose() * (parent.shift + parent.turn.cross(l.arm)) + l.bias.shift;
   }
-  const double a = l.inverse * (l.effort - l.push.turn.dot(l.acceleration.turn) - l.push.shift.dot(l.acceleration.shift));
+  const double a = l.inverse * (l.effort - l.push.turn.dot(l.acceleration.turn) -
+                                l.push.shift.dot(l.acceleration.shift));
   (l.slides ? l.acceleration.shift : l.acceleration.turn)[l.axis] += a;
   return a;
 }

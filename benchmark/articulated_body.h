@@ -8,9 +8,10 @@
 
 namespace codesign {
 
-/// The articulated-body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 7.3) as one would write it for one program:
-/// a reference that shares nothing with the library. Vectors of a link are in its own axes, moments about its origin. Allocates nothing
-/// after the constructor.
+/// The articulated-body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 2008, section 7.3)
+/// as one would write it for one program: a reference that shares nothing with the library. Vectors
+/// of a link are in its own axes, moments about its origin. Allocates nothing after the
+/// constructor.
 class ArticulatedBody {
  public:
   explicit ArticulatedBody(const Robot& robot);
@@ -18,7 +19,8 @@ class ArticulatedBody {
   int joints() const { return static_cast<int>(links_.size()); }
   Eigen::VectorXd start() const;  ///< positions at the start
 
-  /// The accelerations at positions q and rates v, under gravity along -z and friction as in URDF's <dynamics>.
+  /// The accelerations at positions q and rates v, under gravity along -z and friction as in URDF's
+  /// <dynamics>.
   void accelerations(const double* q, const double* v, double* acceleration);
 
  private:
@@ -43,7 +45,8 @@ class ArticulatedBody {
     Matrix turn;  ///< link axes to parent axes
     Vector arm;   ///< the link's origin in the parent
     Spatial motion, bias, load, push, acceleration;
-    Matrix I, H, M;  ///< articulated inertia: moment = I angular + H linear, force = H^T angular + M linear
+    Matrix I, H,
+        M;  ///< articulated inertia: moment = I angular + H linear, force = H^T angular + M linear
     double inverse, effort;
   };
 

@@ -13,11 +13,13 @@
 
 namespace codesign {
 
-/// The operations on constraints that the paper times in its Table 1, each as a function of its own, written by hand from the formulas of
-/// doc/theory.md (1)-(7). Only the benchmark uses them: the equations of motion evaluate all derivatives of a joint together.
+/// The operations on constraints that the paper times in its Table 1, each as a function of its
+/// own, written by hand from the formulas of doc/theory.md (1)-(7). Only the benchmark uses them:
+/// the equations of motion evaluate all derivatives of a joint together.
 ///
-/// A row between a body and the ground is c . r + p^T K p / 2 + constant with a constant matrix K, theory (3); its derivatives cost one
-/// product with K. T is double, or a number with derivatives to differentiate the same code automatically.
+/// A row between a body and the ground is c . r + p^T K p / 2 + constant with a constant matrix K,
+/// theory (3); its derivatives cost one product with K. T is double, or a number with derivatives
+/// to differentiate the same code automatically.
 template <class T>
 class ConstraintKernels {
  public:
@@ -28,7 +30,8 @@ class ConstraintKernels {
 
   /// Phi(q), m values.
   void values(const T* q, T* Phi);
-  /// The entries of Phi_q that can differ from zero, in the fixed order of entries(). Values for the same row and column add up.
+  /// The entries of Phi_q that can differ from zero, in the fixed order of entries(). Values for
+  /// the same row and column add up.
   void jacobian(const T* q, T* Phi_q);
   /// Phi_q v, m values.
   void jacobian_times(const T* q, const T* v, T* product);
@@ -44,7 +47,8 @@ class ConstraintKernels {
   std::vector<Entry> entries() const;
 
  private:
-  /// One body's part of three rows of coincident points, theory (5): sign (r + A s). Without an arm s is zero.
+  /// One body's part of three rows of coincident points, theory (5): sign (r + A s). Without an arm
+  /// s is zero.
   struct Coincidence {
     int row;
     std::size_t body;
@@ -70,8 +74,8 @@ class ConstraintKernels {
   };
 
   void add_joint(const Pair& pair, const PairConstants<double>& constants, int row);
-  /// Adds a product row as Grounded if one of its bodies is the ground and its vector there is a constant direction; returns whether it
-  /// did.
+  /// Adds a product row as Grounded if one of its bodies is the ground and its vector there is a
+  /// constant direction; returns whether it did.
   bool add_grounded(const ProductRow<double>& product, std::size_t i, std::size_t j, int row);
   static ProductRow<T> converted(const ProductRow<double>& product);
 
@@ -103,43 +107,54 @@ T dot4(const Vector4<T>& a, const Vector4<T>& b) {
 template <class T>
 Vector4<T> gradient_on_p(const Vector4<T>& p, const Vector3<T>& s, const Vector3<T>& y) {
   const Vector3<T> e(p[1], p[2], p[3]), normal = cross(s, y);
-  const T sy = T(2.0) * dot(s, y), es = T(2.0) * dot(e, s), ey = T(2.0) * dot(e, y), e0 = T(2.0) * p[0];
-  return Vector4<T>(p[0] * sy + T(2.0) * dot(e, normal), es * y[0] + ey * s[0] - sy * e[0] + e0 * normal[0],
-                    es * y[1] + ey * s[1] - sy * e[1] + e0 * normal[1], es * y[2] + ey * s[2] - sy * e[2] + e0 * normal[2]);
+  const T sy = T(2.0) * dot(s, y), es = T(2.0) * dot(e, s), ey = T(2.0) * dot(e, y),
+          e0 = T(2.0) * p[0];
+  return Vector4<T>(p[0] * sy + T(2.0) * dot(e, normal),
+                    es * y[0] + ey * s[0] - sy * e[0] + e0 * normal[0],
+                    es * y[1] + ey * s[1] - sy * e[1] + e0 * normal[1],
+                    es * y[2] + ey * s[2] - sy * e[2] + e0 * normal[2]);
 }
 
 }  // namespace internal
 
 template <class T>
-ConstraintKernels<T>::ConstraintKernels(const CompiledSystem& system, const Constants<double>& constants) : layout_(system.layout()) {
+ConstraintKernels<T>::ConstraintKernels(const CompiledSystem& system,
+                                        const Constants<double>& constants)
+    : layout_(system.layout()) {
   bodies_.resize(static_cast<std::size_t>(layout_.bodies) + 1);
   loads_.resize(bodies_.size());
-  for (std::size_t k = 0; k < constants.pairs.size(); ++k) add_joint(system.topology().pairs[k], constants.pairs[k], layout_.pair_row[k]);
+  for (std::size_t k = 0; k < constants.pairs.size(); ++k)
+    add_joint(system.topology().pairs[k], constants.pairs[k], layout_.pair_row[k]);
 }
 
 template <class T>
-void ConstraintKernels<T>::add_joint(const Pair& pair, const PairConstants<double>& constants, int row) {
+void ConstraintKernels<T>::add_joint(const Pair& pair, const PairConstants<double>& constants,
+                                     int row) {
   const std::size_t ground = bodies_.size() - 1;
   const std::size_t i = pair.body_i < 0 ? ground : static_cast<std::size_t>(pair.body_i),
                     j = pair.body_j < 0 ? ground : static_cast<std::size_t>(pair.body_j);
   const PairRows<double> rows = pair_rows(pair.kind, constants);
   if (rows.coincident) {
-    coincidences_.push_back({row, i, -1.0, true, !rows.point(Side::kI).isZero(0.0), -rows.point(Side::kI).template cast<T>()});
-    coincidences_.push_back({row, j, 1.0, false, !rows.point(Side::kJ).isZero(0.0), rows.point(Side::kJ).template cast<T>()});
+    coincidences_.push_back({row, i, -1.0, true, !rows.point(Side::kI).isZero(0.0),
+                             -rows.point(Side::kI).template cast<T>()});
+    coincidences_.push_back({row, j, 1.0, false, !rows.point(Side::kJ).isZero(0.0),
+                             rows.point(Side::kJ).template cast<T>()});
     row += 3;
   }
   for (const ProductRow<double>& product : rows.products) {
     if (!add_grounded(product, i, j, row)) {
       general_.push_back({row, i, j, converted(product)});
       for (const std::size_t body : {i, j})
-        if (!is_ground(body) && std::find(turned_.begin(), turned_.end(), body) == turned_.end()) turned_.push_back(body);
+        if (!is_ground(body) && std::find(turned_.begin(), turned_.end(), body) == turned_.end())
+          turned_.push_back(body);
     }
     ++row;
   }
 }
 
 template <class T>
-bool ConstraintKernels<T>::add_grounded(const ProductRow<double>& product, std::size_t i, std::size_t j, int row) {
+bool ConstraintKernels<T>::add_grounded(const ProductRow<double>& product, std::size_t i,
+                                        std::size_t j, int row) {
   if (!is_ground(i) && !is_ground(j)) return false;
   const Side fixed = is_ground(i) ? Side::kI : Side::kJ;
   const PairVector<double>*c = &product.X, *moving = &product.Y;
@@ -173,7 +188,8 @@ ProductRow<T> ConstraintKernels<T>::converted(const ProductRow<double>& product)
   const auto vector = [](const PairVector<double>& x) {
     PairVector<T> y;
     y.terms = x.terms;
-    for (int k = 0; k < x.terms; ++k) y.term[k] = {x.term[k].side, x.term[k].point, x.term[k].sign, x.term[k].s.template cast<T>()};
+    for (int k = 0; k < x.terms; ++k)
+      y.term[k] = {x.term[k].side, x.term[k].point, x.term[k].sign, x.term[k].s.template cast<T>()};
     return y;
   };
   return {vector(product.X), vector(product.Y), T(product.offset), product.scale};
@@ -189,8 +205,8 @@ void ConstraintKernels<T>::load_positions(const T* q) {
   for (const std::size_t b : turned_) bodies_[b].A = rotation(bodies_[b].p);
 }
 
-/// Evaluates the rows of coincident points, or one of their time derivatives. @param point, turn give r and A of a body, or their
-/// derivatives.
+/// Evaluates the rows of coincident points, or one of their time derivatives. @param point, turn
+/// give r and A of a body, or their derivatives.
 template <class T>
 template <class Point, class Turn>
 void ConstraintKernels<T>::add_points(const Point& point, const Turn& turn, T* out) {
@@ -214,22 +230,27 @@ void ConstraintKernels<T>::load_velocities(const T* v) {
 template <class T>
 Vector4<T> ConstraintKernels<T>::product(const Eigen::Matrix4d& K, const Vector4<T>& p) {
   Vector4<T> y;
-  for (int r = 0; r < 4; ++r) y[r] = p[0] * K(r, 0) + p[1] * K(r, 1) + p[2] * K(r, 2) + p[3] * K(r, 3);
+  for (int r = 0; r < 4; ++r)
+    y[r] = p[0] * K(r, 0) + p[1] * K(r, 1) + p[2] * K(r, 2) + p[3] * K(r, 3);
   return y;
 }
 
 template <class T>
 void ConstraintKernels<T>::values(const T* q, T* Phi) {
   load_positions(q);
-  add_points([](const BodyKinematics<T>& body) { return body.r; }, [](const BodyKinematics<T>& body) { return rotation(body.p); }, Phi);
+  add_points([](const BodyKinematics<T>& body) { return body.r; },
+             [](const BodyKinematics<T>& body) { return rotation(body.p); }, Phi);
   for (const Grounded& row : grounded_) {
     const BodyKinematics<T>& body = bodies_[row.body];
     Phi[row.row] = T(0.5) * internal::dot4(body.p, product(row.K, body.p)) + T(row.constant);
-    if (row.moves_r) Phi[row.row] += body.r[0] * row.c[0] + body.r[1] * row.c[1] + body.r[2] * row.c[2];
+    if (row.moves_r)
+      Phi[row.row] += body.r[0] * row.c[0] + body.r[1] * row.c[1] + body.r[2] * row.c[2];
   }
   for (const General& row : general_) {
     const BodyKinematics<T>&i = bodies_[row.i], &j = bodies_[row.j];
-    Phi[row.row] = T(row.product.scale) * (dot(motion_of(row.product.X, i, j).x, motion_of(row.product.Y, i, j).x) - row.product.offset);
+    Phi[row.row] = T(row.product.scale) *
+                   (dot(motion_of(row.product.X, i, j).x, motion_of(row.product.Y, i, j).x) -
+                    row.product.offset);
   }
   for (int b = 0; b < layout_.bodies; ++b) {
     const Vector4<T>& p = bodies_[static_cast<std::size_t>(b)].p;
@@ -237,9 +258,11 @@ void ConstraintKernels<T>::values(const T* q, T* Phi) {
   }
 }
 
-/// Writes the part of (X . Y)_q from the terms of X. @param y the value of Y. @param out where it starts; returns where it ends.
+/// Writes the part of (X . Y)_q from the terms of X. @param y the value of Y. @param out where it
+/// starts; returns where it ends.
 template <class T>
-T* ConstraintKernels<T>::add_gradient(const PairVector<T>& X, const Vector3<T>& y, const General& row, T* out) const {
+T* ConstraintKernels<T>::add_gradient(const PairVector<T>& X, const Vector3<T>& y,
+                                      const General& row, T* out) const {
   for (int k = 0; k < X.terms; ++k) {
     const VectorTerm<T>& term = X.term[k];
     const std::size_t body = term.side == Side::kI ? row.i : row.j;
@@ -285,11 +308,13 @@ template <class T>
 std::vector<typename ConstraintKernels<T>::Entry> ConstraintKernels<T>::entries() const {
   std::vector<Entry> list;
   const auto add = [&list](int row, std::size_t body, int first) {
-    for (int c = first; c < kBodySize; ++c) list.push_back({row, kBodySize * static_cast<int>(body) + c});
+    for (int c = first; c < kBodySize; ++c)
+      list.push_back({row, kBodySize * static_cast<int>(body) + c});
   };
   for (const Coincidence& side : coincidences_) {
     if (is_ground(side.body)) continue;
-    for (int r = 0; r < 3; ++r) list.push_back({side.row + r, kBodySize * static_cast<int>(side.body) + r});
+    for (int r = 0; r < 3; ++r)
+      list.push_back({side.row + r, kBodySize * static_cast<int>(side.body) + r});
     for (int r = 0; r < 3 && side.has_arm; ++r) add(side.row + r, side.body, 3);
   }
   for (const Grounded& row : grounded_) add(row.row, row.body, row.moves_r ? 0 : 3);
@@ -307,17 +332,20 @@ template <class T>
 void ConstraintKernels<T>::jacobian_times(const T* q, const T* v, T* out) {
   load_positions(q);
   load_velocities(v);
-  for (const std::size_t b : turned_) bodies_[b].Ad = rotation_derivative(bodies_[b].p, bodies_[b].pd);
+  for (const std::size_t b : turned_)
+    bodies_[b].Ad = rotation_derivative(bodies_[b].p, bodies_[b].pd);
   for (int b = 0; b < layout_.bodies; ++b) {
     const BodyKinematics<T>& body = bodies_[static_cast<std::size_t>(b)];
     out[layout_.norm_row(b)] = internal::dot4(body.p, body.pd);
   }
   add_points([](const BodyKinematics<T>& body) { return body.rd; },
-             [](const BodyKinematics<T>& body) { return rotation_derivative(body.p, body.pd); }, out);
+             [](const BodyKinematics<T>& body) { return rotation_derivative(body.p, body.pd); },
+             out);
   for (const Grounded& row : grounded_) {
     const BodyKinematics<T>& body = bodies_[row.body];
     out[row.row] = internal::dot4(body.pd, product(row.K, body.p));
-    if (row.moves_r) out[row.row] += body.rd[0] * row.c[0] + body.rd[1] * row.c[1] + body.rd[2] * row.c[2];
+    if (row.moves_r)
+      out[row.row] += body.rd[0] * row.c[0] + body.rd[1] * row.c[1] + body.rd[2] * row.c[2];
   }
   for (const General& row : general_) {
     const BodyKinematics<T>&i = bodies_[row.i], &j = bodies_[row.j];
@@ -347,12 +375,13 @@ void ConstraintKernels<T>::transposed_times(const T* q, const T* lambda, T* out)
   for (const General& row : general_) {
     const BodyKinematics<T>&i = bodies_[row.i], &j = bodies_[row.j];
     const T weight = T(row.product.scale) * lambda[row.row];
-    add_product_load(row.product.X, row.product.Y, motion_of(row.product.X, i, j), motion_of(row.product.Y, i, j), weight, &loads_[row.i],
-                     &loads_[row.j]);
+    add_product_load(row.product.X, row.product.Y, motion_of(row.product.X, i, j),
+                     motion_of(row.product.Y, i, j), weight, &loads_[row.i], &loads_[row.j]);
   }
   for (int b = 0; b < layout_.bodies; ++b, out += kBodySize) {
     const auto k = static_cast<std::size_t>(b);
-    const Vector4<T> on_p = rotation_hessian(loads_[k].W) * bodies_[k].p + lambda[layout_.norm_row(b)] * bodies_[k].p;
+    const Vector4<T> on_p =
+        rotation_hessian(loads_[k].W) * bodies_[k].p + lambda[layout_.norm_row(b)] * bodies_[k].p;
     for (int c = 0; c < 3; ++c) out[c] = loads_[k].force[c];
     for (int c = 0; c < 4; ++c) out[3 + c] = on_p[c];
   }
@@ -371,11 +400,15 @@ void ConstraintKernels<T>::curvature(const T* q, const T* v, T* out) {
     out[layout_.norm_row(b)] = internal::dot4(pd, pd);
   }
   add_points([](const BodyKinematics<T>&) { return Vector3<T>(Vector3<T>::Zero()); },
-             [](const BodyKinematics<T>& body) { return Matrix3<T>(T(2.0) * rotation(body.pd)); }, out);
-  for (const Grounded& row : grounded_) out[row.row] = internal::dot4(bodies_[row.body].pd, product(row.K, bodies_[row.body].pd));
+             [](const BodyKinematics<T>& body) { return Matrix3<T>(T(2.0) * rotation(body.pd)); },
+             out);
+  for (const Grounded& row : grounded_)
+    out[row.row] = internal::dot4(bodies_[row.body].pd, product(row.K, bodies_[row.body].pd));
   for (const General& row : general_) {
     const BodyKinematics<T>&i = bodies_[row.i], &j = bodies_[row.j];
-    out[row.row] = T(row.product.scale) * product_motion(motion_of(row.product.X, i, j), motion_of(row.product.Y, i, j)).phidd;
+    out[row.row] =
+        T(row.product.scale) *
+        product_motion(motion_of(row.product.X, i, j), motion_of(row.product.Y, i, j)).phidd;
   }
 }
 

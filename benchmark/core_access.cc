@@ -34,7 +34,8 @@ StepProbe::StepProbe(std::shared_ptr<const CompiledSystem> system, double time, 
     : parts_(std::make_unique<Parts>(std::move(system), h)) {
   Parts& p = *parts_;
   p.status = p.integrator.start(p.system->parameters());
-  while (p.status.ok() && p.integrator.step().state().t < time) p.status = p.integrator.advance(time);
+  while (p.status.ok() && p.integrator.step().state().t < time)
+    p.status = p.integrator.advance(time);
   if (!p.status.ok()) return;
   p.state = p.integrator.step().state();
   p.derivatives.resize(p.system->patterns());
@@ -53,10 +54,16 @@ const State<double>& StepProbe::state() const { return parts_->state; }
 int StepProbe::matrix_size() const { return parts_->system->layout().columns(); }
 int StepProbe::stages() const { return parts_->step.tableau().stages; }
 
-void StepProbe::residual() { parts_->equations.residual(parts_->state, &parts_->residual, &parts_->g); }
+void StepProbe::residual() {
+  parts_->equations.residual(parts_->state, &parts_->residual, &parts_->g);
+}
 void StepProbe::linearize() { parts_->equations.linearize(parts_->state, &parts_->derivatives); }
-void StepProbe::interpret_residual() { parts_->interpreted.residual(parts_->state, &parts_->residual, &parts_->g); }
-void StepProbe::interpret_linearize() { parts_->interpreted.linearize(parts_->state, &parts_->derivatives); }
+void StepProbe::interpret_residual() {
+  parts_->interpreted.residual(parts_->state, &parts_->residual, &parts_->g);
+}
+void StepProbe::interpret_linearize() {
+  parts_->interpreted.linearize(parts_->state, &parts_->derivatives);
+}
 void StepProbe::factor() {
   const double hg = parts_->h * parts_->step.tableau().gamma;
   parts_->matrix.factor(parts_->derivatives, hg, hg * hg, hg);

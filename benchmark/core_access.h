@@ -1,7 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Access of the benchmarks to the derivatives and to the parts of a step. No other file of benchmark/ depends on how the core stores them.
+// Access of the benchmarks to the derivatives and to the parts of a step. No other file of
+// benchmark/ depends on how the core stores them.
 
 #include <memory>
 #include <vector>
@@ -15,11 +16,13 @@ namespace codesign {
 /// The variables of a derivative of the equations: (q, s), v or z.
 enum class Variable { kPosition, kVelocity, kRate };
 
-/// Calls visit(variable, row, column, value) for every stored derivative of the equations; the integrand g is the row below them. Columns
-/// are those of (q, s), of v, or of z.
+/// Calls visit(variable, row, column, value) for every stored derivative of the equations; the
+/// integrand g is the row below them. Columns are those of (q, s), of v, or of z.
 template <class Visit>
-void for_each_derivative(const CompiledSystem& system, const Linearization<double>& derivatives, const Visit& visit) {
-  const auto matrix = [&visit](Variable variable, const Sparsity& pattern, const std::vector<double>& values) {
+void for_each_derivative(const CompiledSystem& system, const Linearization<double>& derivatives,
+                         const Visit& visit) {
+  const auto matrix = [&visit](Variable variable, const Sparsity& pattern,
+                               const std::vector<double>& values) {
     for (int row = 0; row < pattern.rows; ++row)
       for (int k = pattern.first(row); k < pattern.first(row + 1); ++k)
         visit(variable, row, pattern.column(k), values[static_cast<std::size_t>(k)]);
@@ -32,9 +35,13 @@ void for_each_derivative(const CompiledSystem& system, const Linearization<doubl
 /// A workspace for the derivatives of a system's equations.
 class LinearizedSystem {
  public:
-  explicit LinearizedSystem(const CompiledSystem& system) : system_(system) { values_.resize(system.patterns()); }
+  explicit LinearizedSystem(const CompiledSystem& system) : system_(system) {
+    values_.resize(system.patterns());
+  }
 
-  void evaluate(Equations<double>* equations, const State<double>& state) { equations->linearize(state, &values_); }
+  void evaluate(Equations<double>* equations, const State<double>& state) {
+    equations->linearize(state, &values_);
+  }
   template <class Visit>
   void for_each(const Visit& visit) const {
     for_each_derivative(system_, values_, visit);
@@ -45,7 +52,8 @@ class LinearizedSystem {
   Linearization<double> values_;
 };
 
-/// The parts of a Rosenbrock step, each of which can be called repeatedly at one state of a run, to be timed.
+/// The parts of a Rosenbrock step, each of which can be called repeatedly at one state of a run, to
+/// be timed.
 class StepProbe {
  public:
   /// Runs `system` at its start values up to `time` [s].

@@ -9,18 +9,23 @@
 
 namespace codesign {
 
-/// The operations of ConstraintKernels that the paper times, in its order: Phi_q, Phi_q v, Phi_q^T lambda, (Phi_q v)_q v.
+/// The operations of ConstraintKernels that the paper times, in its order: Phi_q, Phi_q v, Phi_q^T
+/// lambda, (Phi_q v)_q v.
 enum class KernelOperation { kJacobian, kProduct, kTransposedProduct, kCurvature };
 constexpr int kKernelOperations = 4;
 
-/// One of these operations on one mechanism's constraints as a program without loops, in machine code where the processor can run it.
-/// Its results are those of ConstraintKernels, in the same order; those that are always zero are not written.
+/// One of these operations on one mechanism's constraints as a program without loops, in machine
+/// code where the processor can run it. Its results are those of ConstraintKernels, in the same
+/// order; those that are always zero are not written.
 class KernelProgram {
  public:
   /// The function of ConstraintKernels that was written by hand, recorded.
-  static KernelProgram recorded(KernelOperation operation, const CompiledSystem& system, const Constants<double>& constants);
-  /// Derived from a recording of the constraints' values alone, as the library derives its equations.
-  static KernelProgram derived(KernelOperation operation, const CompiledSystem& system, const Constants<double>& constants);
+  static KernelProgram recorded(KernelOperation operation, const CompiledSystem& system,
+                                const Constants<double>& constants);
+  /// Derived from a recording of the constraints' values alone, as the library derives its
+  /// equations.
+  static KernelProgram derived(KernelOperation operation, const CompiledSystem& system,
+                               const Constants<double>& constants);
 
   KernelProgram(KernelProgram&& other) noexcept;
   ~KernelProgram();
@@ -37,6 +42,7 @@ class KernelProgram {
 };
 
 /// The derived programs of all operations.
-std::vector<KernelProgram> derived_kernels(const CompiledSystem& system, const Constants<double>& constants);
+std::vector<KernelProgram> derived_kernels(const CompiledSystem& system,
+                                           const Constants<double>& constants);
 
 }  // namespace codesign

@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// The pair of orders 5 and 4 of Dormand and Prince with the usual step control, for y' = f(y): Hairer, Norsett and Wanner, Solving ODE I,
-/// II.4 and II.5. Steps allocate nothing.
+/// The pair of orders 5 and 4 of Dormand and Prince with the usual step control, for y' = f(y):
+/// Hairer, Norsett and Wanner, Solving ODE I, II.4 and II.5. Steps allocate nothing.
 /// @tparam Rates `void rates(const VectorXd& y, VectorXd* y_rate)`.
 template <class Rates>
 class DormandPrince {
@@ -41,15 +41,18 @@ class DormandPrince {
   }
 
  private:
-  static constexpr double kA[6][6] = {{1.0 / 5},
-                                      {3.0 / 40, 9.0 / 40},
-                                      {44.0 / 45, -56.0 / 15, 32.0 / 9},
-                                      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-                                      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-                                      {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-  static constexpr double kE[7] = {71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+  static constexpr double kA[6][6] = {
+      {1.0 / 5},
+      {3.0 / 40, 9.0 / 40},
+      {44.0 / 45, -56.0 / 15, 32.0 / 9},
+      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+      {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+  static constexpr double kE[7] = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
+                                   -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 
-  /// The last stage is the end of the step and the first stage of the next one. @return the scaled error.
+  /// The last stage is the end of the step and the first stage of the next one. @return the scaled
+  /// error.
   double attempt(double h) {
     for (std::size_t stage = 0; stage < 6; ++stage) {
       next_ = y_;
@@ -61,7 +64,8 @@ class DormandPrince {
     for (std::size_t j = 0; j < 7; ++j) error_.noalias() += (h * kE[j]) * k_[j];
     double largest = 0.0;
     for (Eigen::Index i = 0; i < y_.size(); ++i)
-      largest = std::max(largest, std::abs(error_[i]) / (0.1 + std::max(std::abs(y_[i]), std::abs(next_[i]))));
+      largest = std::max(
+          largest, std::abs(error_[i]) / (0.1 + std::max(std::abs(y_[i]), std::abs(next_[i]))));
     return largest / tolerance_;
   }
 

@@ -5,13 +5,15 @@
 
 namespace codesign {
 
-/// A value with one directional derivative: forward automatic differentiation as in textbooks, with the operations that constraints need.
+/// A value with one directional derivative: forward automatic differentiation as in textbooks, with
+/// the operations that constraints need.
 struct Dual {
   double a = 0.0;  ///< value
   double d = 0.0;  ///< derivative
 
   Dual() = default;
-  Dual(double value, double derivative = 0.0) : a(value), d(derivative) {}  // NOLINT(google-explicit-constructor): mixes with numbers
+  Dual(double value, double derivative = 0.0)
+      : a(value), d(derivative) {}  // NOLINT(google-explicit-constructor): mixes with numbers
 
   Dual& operator+=(const Dual& y) { return *this = *this + y; }
   Dual& operator-=(const Dual& y) { return *this = *this - y; }
@@ -33,7 +35,15 @@ struct NumTraits<codesign::Dual> : GenericNumTraits<double> {
   using NonInteger = codesign::Dual;
   using Nested = codesign::Dual;
   using Literal = codesign::Dual;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };
 
 }  // namespace Eigen

@@ -32,18 +32,21 @@ struct ForwardMode {
         v(q.size()),
         Phi(static_cast<std::size_t>(kernels.rows())) {}
 
-  /// Evaluates Phi along the columns of the identity, as many at a time as T carries; calls take(column, row, derivative).
+  /// Evaluates Phi along the columns of the identity, as many at a time as T carries; calls
+  /// take(column, row, derivative).
   template <class Take>
   void for_each_derivative(const std::vector<double>& at, const Take& take) {
     const int width = width_of(q.data()), columns = kernels.columns();
     for (std::size_t k = 0; k < q.size(); ++k) q[k] = T(at[k]);
     for (int first = 0; first < columns; first += width) {
       const int count = std::min(width, columns - first);
-      for (int lane = 0; lane < count; ++lane) derivative(&q[static_cast<std::size_t>(first + lane)], lane) = 1.0;
+      for (int lane = 0; lane < count; ++lane)
+        derivative(&q[static_cast<std::size_t>(first + lane)], lane) = 1.0;
       kernels.values(q.data(), Phi.data());
       for (int lane = 0; lane < count; ++lane) {
         derivative(&q[static_cast<std::size_t>(first + lane)], lane) = 0.0;
-        for (std::size_t row = 0; row < Phi.size(); ++row) take(first + lane, row, derivative(&Phi[row], lane));
+        for (std::size_t row = 0; row < Phi.size(); ++row)
+          take(first + lane, row, derivative(&Phi[row], lane));
       }
     }
   }
@@ -52,8 +55,8 @@ struct ForwardMode {
   std::vector<T> q, v, Phi;
 };
 
-/// One state of the slider-crank on its way, and the four operations at it in five ways. All results are lists of m, n or entries()
-/// numbers.
+/// One state of the slider-crank on its way, and the four operations at it in five ways. All
+/// results are lists of m, n or entries() numbers.
 class KernelBench {
  public:
   KernelBench(const CompiledSystem& system, const State<double>& state)
@@ -84,20 +87,23 @@ class KernelBench {
 
   template <KernelOperation operation>
   void derived() {
-    derived_[static_cast<std::size_t>(operation)].run(q_.data(), v_.data(), lambda_.data(), out_.data());
+    derived_[static_cast<std::size_t>(operation)].run(q_.data(), v_.data(), lambda_.data(),
+                                                      out_.data());
   }
 
   template <class T>
   void jacobian_forward() {
-    forward<T>().for_each_derivative(
-        q_, [this](int column, std::size_t row, double value) { jacobian_[index(static_cast<int>(row), column)] = value; });
+    forward<T>().for_each_derivative(q_, [this](int column, std::size_t row, double value) {
+      jacobian_[index(static_cast<int>(row), column)] = value;
+    });
     gather();
   }
   template <class T>
   void transposed_forward() {
     std::fill(out_.begin(), out_.begin() + n_, 0.0);
-    forward<T>().for_each_derivative(
-        q_, [this](int column, std::size_t row, double value) { out_[static_cast<std::size_t>(column)] += lambda_[row] * value; });
+    forward<T>().for_each_derivative(q_, [this](int column, std::size_t row, double value) {
+      out_[static_cast<std::size_t>(column)] += lambda_[row] * value;
+    });
   }
   void product_forward() {
     seed_along_v();
@@ -120,7 +126,8 @@ class KernelBench {
   void transposed_by_differences() {
     for_each_difference([this](int column) {
       double sum = 0.0;
-      for (int row = 0; row < m_; ++row) sum += lambda_[static_cast<std::size_t>(row)] * difference(row);
+      for (int row = 0; row < m_; ++row)
+        sum += lambda_[static_cast<std::size_t>(row)] * difference(row);
       out_[static_cast<std::size_t>(column)] = sum;
     });
   }
@@ -143,12 +150,16 @@ class KernelBench {
   static Constants<double> constants(const CompiledSystem& system) {
     return evaluate_constants(system.robot(), system.topology(), system.parameters());
   }
-  std::size_t index(int row, int column) const { return static_cast<std::size_t>(row * n_ + column); }
+  std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row * n_ + column);
+  }
   double difference(int row) const {
-    return (upper_[static_cast<std::size_t>(row)] - lower_[static_cast<std::size_t>(row)]) / (2.0 * kStep);
+    return (upper_[static_cast<std::size_t>(row)] - lower_[static_cast<std::size_t>(row)]) /
+           (2.0 * kStep);
   }
   void gather() {
-    for (std::size_t k = 0; k < entries_.size(); ++k) out_[k] = jacobian_[index(entries_[k].row, entries_[k].column)];
+    for (std::size_t k = 0; k < entries_.size(); ++k)
+      out_[k] = jacobian_[index(entries_[k].row, entries_[k].column)];
   }
 
   template <class T>
@@ -198,17 +209,23 @@ struct Kernel {
 };
 
 constexpr Kernel kKernels[] = {
-    {"Phi_q", 22.0, 178.0, 1042.0, &KernelBench::jacobian_by_hand, &KernelBench::derived<KernelOperation::kJacobian>,
-     &KernelBench::jacobian_forward<Wide>, &KernelBench::jacobian_forward<Dual>, &KernelBench::jacobian_by_differences},
-    {"Phi_q v", 16.6, 152.0, 858.0, &KernelBench::product_by_hand, &KernelBench::derived<KernelOperation::kProduct>, nullptr,
-     &KernelBench::product_forward, &KernelBench::product_by_differences},
-    {"Phi_q^T lambda", 30.3, 178.0, 996.0, &KernelBench::transposed_by_hand, &KernelBench::derived<KernelOperation::kTransposedProduct>,
-     &KernelBench::transposed_forward<Wide>, &KernelBench::transposed_forward<Dual>, &KernelBench::transposed_by_differences},
-    {"(Phi_q v)_q v", 18.2, 159.0, 938.0, &KernelBench::curvature_by_hand, &KernelBench::derived<KernelOperation::kCurvature>, nullptr,
-     &KernelBench::curvature_forward, &KernelBench::curvature_by_differences}};
+    {"Phi_q", 22.0, 178.0, 1042.0, &KernelBench::jacobian_by_hand,
+     &KernelBench::derived<KernelOperation::kJacobian>, &KernelBench::jacobian_forward<Wide>,
+     &KernelBench::jacobian_forward<Dual>, &KernelBench::jacobian_by_differences},
+    {"Phi_q v", 16.6, 152.0, 858.0, &KernelBench::product_by_hand,
+     &KernelBench::derived<KernelOperation::kProduct>, nullptr, &KernelBench::product_forward,
+     &KernelBench::product_by_differences},
+    {"Phi_q^T lambda", 30.3, 178.0, 996.0, &KernelBench::transposed_by_hand,
+     &KernelBench::derived<KernelOperation::kTransposedProduct>,
+     &KernelBench::transposed_forward<Wide>, &KernelBench::transposed_forward<Dual>,
+     &KernelBench::transposed_by_differences},
+    {"(Phi_q v)_q v", 18.2, 159.0, 938.0, &KernelBench::curvature_by_hand,
+     &KernelBench::derived<KernelOperation::kCurvature>, nullptr, &KernelBench::curvature_forward,
+     &KernelBench::curvature_by_differences}};
 
 /// What is fast must also be right.
-void require_same(KernelBench* bench, const Kernel& kernel, void (KernelBench::*other)(), double tolerance) {
+void require_same(KernelBench* bench, const Kernel& kernel, void (KernelBench::*other)(),
+                  double tolerance) {
   bench->clear_out();
   (bench->*kernel.by_hand)();
   const std::vector<double> expected = bench->out();
@@ -238,28 +255,31 @@ void measure_kernels(Report* report) {
     const std::string name = kernel.name;
     jobs.push_back(kernel_job(name + ": by hand", &bench, kernel.by_hand));
     for (const auto& [way, operation, tolerance] :
-         {std::make_tuple("derived", kernel.derived, 1e-12), std::make_tuple("lanes", kernel.wide, 1e-12),
-          std::make_tuple("dual", kernel.dual, 1e-12), std::make_tuple("differences", kernel.differences, 1e-5)}) {
+         {std::make_tuple("derived", kernel.derived, 1e-12),
+          std::make_tuple("lanes", kernel.wide, 1e-12), std::make_tuple("dual", kernel.dual, 1e-12),
+          std::make_tuple("differences", kernel.differences, 1e-5)}) {
       if (!operation) continue;
       require_same(&bench, kernel, operation, tolerance);
       jobs.push_back(kernel_job(name + ": " + way, &bench, operation));
     }
   }
   const std::vector<double> seconds = median_cpu_seconds(jobs);
-  Table table{"kernels",
-              "Kernels of the slider-crank, microseconds",
-              {"operation", "by hand", "derived", "8 lanes", "dual", "differences", "derived / by hand", "dual / by hand", "paper: manual",
-               "automatic", "symbolic", "paper's manual / by hand"},
-              {}};
+  Table table{
+      "kernels",
+      "Kernels of the slider-crank, microseconds",
+      {"operation", "by hand", "derived", "8 lanes", "dual", "differences", "derived / by hand",
+       "dual / by hand", "paper: manual", "automatic", "symbolic", "paper's manual / by hand"},
+      {}};
   std::size_t next = 0;
   for (const Kernel& kernel : kKernels) {
     const double by_hand = 1e6 * seconds[next++], derived = 1e6 * seconds[next++],
-                 wide = kernel.wide ? 1e6 * seconds[next++] : std::nan(""), dual = 1e6 * seconds[next++],
-                 differences = 1e6 * seconds[next++];
-    table.rows.push_back({kernel.name, three_digits(by_hand), three_digits(derived), three_digits(wide), three_digits(dual),
-                          three_digits(differences), three_digits(derived / by_hand), three_digits(dual / by_hand),
-                          three_digits(kernel.manual), three_digits(kernel.automatic), three_digits(kernel.symbolic),
-                          three_digits(kernel.manual / by_hand)});
+                 wide = kernel.wide ? 1e6 * seconds[next++] : std::nan(""),
+                 dual = 1e6 * seconds[next++], differences = 1e6 * seconds[next++];
+    table.rows.push_back({kernel.name, three_digits(by_hand), three_digits(derived),
+                          three_digits(wide), three_digits(dual), three_digits(differences),
+                          three_digits(derived / by_hand), three_digits(dual / by_hand),
+                          three_digits(kernel.manual), three_digits(kernel.automatic),
+                          three_digits(kernel.symbolic), three_digits(kernel.manual / by_hand)});
     report->findings.push_back({std::string("kernel ") + kernel.name, "us", by_hand, 0.2, false});
   }
   report->tables.push_back(table);

@@ -32,15 +32,20 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
 
 constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
-    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, optimization, stops, scaling, setup, "
+    "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, "
+    "optimization, stops, scaling, setup, "
     "ensembles, identification, ranks, robots, simbody; all by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {
-  Table table{"summary", "What the package sets out to reach, and what was measured", {"figure", "measured", "target", "reached"}, {}};
+  Table table{"summary",
+              "What the package sets out to reach, and what was measured",
+              {"figure", "measured", "target", "reached"},
+              {}};
   for (const Finding& f : findings) {
     const std::string unit = f.unit.empty() ? "" : " " + f.unit;
     const bool reached = f.at_least ? f.measured >= f.target : f.measured <= f.target;
-    table.rows.push_back({f.what, three_digits(f.measured) + unit, (f.at_least ? "at least " : "at most ") + three_digits(f.target) + unit,
+    table.rows.push_back({f.what, three_digits(f.measured) + unit,
+                          (f.at_least ? "at least " : "at most ") + three_digits(f.target) + unit,
                           reached ? "yes" : "no"});
   }
   return table;

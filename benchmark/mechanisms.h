@@ -10,25 +10,31 @@ struct GeneratedCase {
   SourceText urdf, study;
 };
 
-/// An open chain of `links` slender bars under gravity, hinged about y and x in turn, with friction that depends on the reactions: as many
-/// degrees of freedom as links.
+/// An open chain of `links` slender bars under gravity, hinged about y and x in turn, with friction
+/// that depends on the reactions: as many degrees of freedom as links.
 GeneratedCase open_chain(int links);
 
-/// The same chain with four parameters per link: length, mass, the hinge's pin radius and its friction coefficient.
-/// @param tuned how many of the 4 * links parameters are tuned: the first ones of length_0, mass_0, radius_0, friction_0, length_1, ...
+/// The same chain with four parameters per link: length, mass, the hinge's pin radius and its
+/// friction coefficient.
+/// @param tuned how many of the 4 * links parameters are tuned: the first ones of length_0, mass_0,
+/// radius_0, friction_0, length_1, ...
 GeneratedCase parametric_chain(int links, int tuned);
 
-/// A ladder of `loops` closed loops: loops + 1 posts hang on hinges with friction from the ground, and each two neighbours are joined by a
-/// coupler, with a ball joint to the one and a universal joint to the other. One degree of freedom, no redundant constraint.
+/// A ladder of `loops` closed loops: loops + 1 posts hang on hinges with friction from the ground,
+/// and each two neighbours are joined by a coupler, with a ball joint to the one and a universal
+/// joint to the other. One degree of freedom, no redundant constraint.
 GeneratedCase ladder(int loops);
 
-/// `loops` four-bar linkages, each of which stands on the coupler of the one before: 3 * loops links, `loops` degrees of freedom, and three
-/// redundant constraints in each loop, since all its axes are parallel.
-/// @param with_friction whether the cranks' hinges have friction; it depends on undetermined reactions, theory (23).
+/// `loops` four-bar linkages, each of which stands on the coupler of the one before: 3 * loops
+/// links, `loops` degrees of freedom, and three redundant constraints in each loop, since all its
+/// axes are parallel.
+/// @param with_friction whether the cranks' hinges have friction; it depends on undetermined
+/// reactions, theory (23).
 GeneratedCase stacked_four_bars(int loops, bool with_friction);
 
-/// Bricard's threefold symmetric ring: six bars, one of which is the ground, and six hinges, each at right angles to the next. One degree
-/// of freedom, though counting says none: one constraint is redundant.
+/// Bricard's threefold symmetric ring: six bars, one of which is the ground, and six hinges, each
+/// at right angles to the next. One degree of freedom, though counting says none: one constraint is
+/// redundant.
 GeneratedCase bricard_ring();
 
 }  // namespace codesign

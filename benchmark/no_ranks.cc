@@ -8,7 +8,9 @@
 namespace codesign {
 
 void measure_ranks(Report*) {
-  std::fprintf(stderr, "benchmarks: no MPI (libopenmpi-dev, openmpi-bin), so the tables of ranks are left out\n");
+  std::fprintf(
+      stderr,
+      "benchmarks: no MPI (libopenmpi-dev, openmpi-bin), so the tables of ranks are left out\n");
 }
 
 int run_rank_program(const std::string&) { return 2; }

@@ -6,7 +6,10 @@
 
 namespace codesign {
 
-void measure_simbody(Report*) { std::fprintf(stderr, "Simbody is not installed (tools/setup --benchmark): its table is left out\n"); }
+void measure_simbody(Report*) {
+  std::fprintf(stderr,
+               "Simbody is not installed (tools/setup --benchmark): its table is left out\n");
+}
 
 std::optional<RobotMotion> run_simbody_robot(const Robot&, double) { return std::nullopt; }
 

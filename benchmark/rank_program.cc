@@ -22,7 +22,9 @@ namespace {
 constexpr int kSamples = 32;
 using RankClock = std::chrono::steady_clock;
 
-double seconds_since(RankClock::time_point begin) { return std::chrono::duration<double>(RankClock::now() - begin).count(); }
+double seconds_since(RankClock::time_point begin) {
+  return std::chrono::duration<double>(RankClock::now() - begin).count();
+}
 
 double seconds_of(clockid_t clock) {
   timespec now{};
@@ -80,7 +82,8 @@ class MessageBench {
     RankBatch batch{tasks, std::vector<std::uint32_t>(count, 0), problem_, nullptr};
     std::size_t answered = 0;
     dispatcher_.run(&batch, [&answered](std::size_t, const Evaluation&) { ++answered; });
-    if (answered != count) throw std::runtime_error("not every task was answered: " + batch.ended.cause);
+    if (answered != count)
+      throw std::runtime_error("not every task was answered: " + batch.ended.cause);
   }
 
  private:
@@ -89,14 +92,17 @@ class MessageBench {
   const std::uint32_t problem_;
 };
 
-void measure_messages(MpiTransport* transport, const Problem& problem, const Evaluation& evaluation) {
+void measure_messages(MpiTransport* transport, const Problem& problem,
+                      const Evaluation& evaluation) {
   constexpr int kTasks = 50000, kAlone = 2000;
   Dispatcher dispatcher(transport);
   MessageBench bench(&dispatcher, problem);
   bench.run(1000);
-  const double before = seconds_of(CLOCK_PROCESS_CPUTIME_ID), caller_before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+  const double before = seconds_of(CLOCK_PROCESS_CPUTIME_ID),
+               caller_before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
   bench.run(kTasks);
-  const double caller = seconds_of(CLOCK_THREAD_CPUTIME_ID) - caller_before, all = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - before;
+  const double caller = seconds_of(CLOCK_THREAD_CPUTIME_ID) - caller_before,
+               all = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - before;
   std::vector<double> alone;
   for (int k = 0; k < kAlone; ++k) {
     const RankClock::time_point begin = RankClock::now();
@@ -105,9 +111,10 @@ void measure_messages(MpiTransport* transport, const Problem& problem, const Eva
   }
   std::nth_element(alone.begin(), alone.begin() + kAlone / 2, alone.end());
   if (!dispatcher.finish()) throw std::runtime_error("a rank did not end");
-  std::printf("%.9g %.9g %.9g %zu %zu %zu\n", (all - caller) / kTasks, caller / kTasks, alone[kAlone / 2],
-              write_task(1, 1, 0, Derivatives::kGradient, problem.parameters()).size(), write_result(1, evaluation).size(),
-              write_problem(1, make_portable(problem)).size());
+  std::printf("%.9g %.9g %.9g %zu %zu %zu\n", (all - caller) / kTasks, caller / kTasks,
+              alone[kAlone / 2],
+              write_task(1, 1, 0, Derivatives::kGradient, problem.parameters()).size(),
+              write_result(1, evaluation).size(), write_problem(1, make_portable(problem)).size());
 }
 
 int run_messages() {

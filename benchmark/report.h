@@ -23,10 +23,11 @@ struct Report {
   std::vector<Finding> findings;
 };
 
-// Each function measures one subject and adds its tables and findings. It throws std::runtime_error if a computation that must succeed
-// fails.
+// Each function measures one subject and adds its tables and findings. It throws std::runtime_error
+// if a computation that must succeed fails.
 void measure_kernels(Report* report);
-/// Part of the one before: the programs that are derived, beside programs of what was written by hand.
+/// Part of the one before: the programs that are derived, beside programs of what was written by
+/// hand.
 void measure_kernel_programs(Report* report);
 void measure_steps(Report* report);
 void measure_work_precision(Report* report);

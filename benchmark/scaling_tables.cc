@@ -12,7 +12,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kStep = 1e-3;  // [s]; held by the study, so that every size does the same work per step
+constexpr double kStep =
+    1e-3;  // [s]; held by the study, so that every size does the same work per step
 
 /// A simulation that takes one step per call.
 class Stepper {
@@ -33,7 +34,9 @@ class Stepper {
   double steps_per_call() {
     restart();
     for (int k = 0; k < 20; ++k) step();
-    return static_cast<double>(simulation_->statistics().steps + simulation_->statistics().rejected_steps) / 20.0;
+    return static_cast<double>(simulation_->statistics().steps +
+                               simulation_->statistics().rejected_steps) /
+           20.0;
   }
 
  private:
@@ -52,9 +55,12 @@ class Stepper {
   double time_ = 0.0;
 };
 
-double slope(double x0, double y0, double x1, double y1) { return std::log(y1 / y0) / std::log(x1 / x0); }
+double slope(double x0, double y0, double x1, double y1) {
+  return std::log(y1 / y0) / std::log(x1 / x0);
+}
 
-void add_table(const std::string& name, const std::string& title, GeneratedCase (*generate)(int), Report* report) {
+void add_table(const std::string& name, const std::string& title, GeneratedCase (*generate)(int),
+               Report* report) {
   const std::vector<int> sizes = {1, 2, 4, 8, 16, 32, 64};
   std::vector<std::unique_ptr<Stepper>> steppers;
   std::vector<Job> jobs;
@@ -68,14 +74,20 @@ void add_table(const std::string& name, const std::string& title, GeneratedCase 
   }
   std::vector<double> seconds = median_cpu_seconds(jobs, 5);
   for (std::size_t k = 0; k < sizes.size(); ++k) seconds[k] /= calls[k];
-  Table table{"scaling_" + name, title, {"N", "bodies", "us per step", "us per step and body", "log-log slope from the row above"}, {}};
+  Table table{
+      "scaling_" + name,
+      title,
+      {"N", "bodies", "us per step", "us per step and body", "log-log slope from the row above"},
+      {}};
   for (std::size_t k = 0; k < sizes.size(); ++k)
-    table.rows.push_back({std::to_string(sizes[k]), std::to_string(steppers[k]->bodies()), three_digits(1e6 * seconds[k]),
-                          three_digits(1e6 * seconds[k] / steppers[k]->bodies()),
-                          k == 0 ? "" : three_digits(slope(sizes[k - 1], seconds[k - 1], sizes[k], seconds[k]))});
+    table.rows.push_back(
+        {std::to_string(sizes[k]), std::to_string(steppers[k]->bodies()),
+         three_digits(1e6 * seconds[k]), three_digits(1e6 * seconds[k] / steppers[k]->bodies()),
+         k == 0 ? "" : three_digits(slope(sizes[k - 1], seconds[k - 1], sizes[k], seconds[k]))});
   const double total = slope(8, seconds[3], 64, seconds[6]);
   table.rows.push_back({"8 to 64", "", "", "", three_digits(total)});
-  report->findings.push_back({"log-log slope of the cost per step, " + name + ", N = 8 to 64", "", total, 1.15, false});
+  report->findings.push_back(
+      {"log-log slope of the cost per step, " + name + ", N = 8 to 64", "", total, 1.15, false});
   report->tables.push_back(table);
 }
 

@@ -52,17 +52,22 @@ void measure_setup(Report* report) {
               {}};
   const auto add = [&table](const std::string& name, const GeneratedCase& generated) {
     const SetupTime time = measure(generated);
-    table.rows.push_back({name, std::to_string(time.bodies), three_digits(time.setup), three_digits(time.first_step),
+    table.rows.push_back({name, std::to_string(time.bodies), three_digits(time.setup),
+                          three_digits(time.first_step),
                           three_digits(time.setup + time.first_step)});
     return time.setup + time.first_step;
   };
   double chain = 0.0, loops = 0.0;
   for (int links : {64, 256, 512, 1000}) chain = add("open chain", open_chain(links));
   for (int count : {32, 128, 256, 500}) loops = add("ladder", ladder(count));
-  for (int count : {21, 85, 171, 333}) add("stacked four-bars, redundant", stacked_four_bars(count, false));
-  for (int count : {21, 85, 171, 333}) add("the same with friction on what nothing determines", stacked_four_bars(count, true));
-  report->findings.push_back({"an open chain of 1,000 links, from its text to the first step", "s", chain, 5.0, false});
-  report->findings.push_back({"a ladder of 500 closed loops, from its text to the first step", "s", loops, 5.0, false});
+  for (int count : {21, 85, 171, 333})
+    add("stacked four-bars, redundant", stacked_four_bars(count, false));
+  for (int count : {21, 85, 171, 333})
+    add("the same with friction on what nothing determines", stacked_four_bars(count, true));
+  report->findings.push_back(
+      {"an open chain of 1,000 links, from its text to the first step", "s", chain, 5.0, false});
+  report->findings.push_back(
+      {"a ladder of 500 closed loops, from its text to the first step", "s", loops, 5.0, false});
   report->tables.push_back(table);
 }
 

@@ -8,8 +8,9 @@ struct SimbodyResult {
   int steps;
 };
 
-/// The problem of with_dry_friction(), built from Simbody's own joints (a pin, a ball, a slider) and constraints (a ball and a constant
-/// angle), run with Simbody's Runge-Kutta-Merson integrator and projection.
+/// The problem of with_dry_friction(), built from Simbody's own joints (a pin, a ball, a slider)
+/// and constraints (a ball and a constant angle), run with Simbody's Runge-Kutta-Merson integrator
+/// and projection.
 SimbodyResult run_simbody(double crank_length, double rod_length, double Kp, double accuracy);
 
 }  // namespace codesign

@@ -33,11 +33,13 @@ Eigen::VectorXd simbody_gradient(const Eigen::VectorXd& rho, double accuracy, lo
 }
 
 Contestant simbody(const Eigen::VectorXd& rho, const Reference& reference) {
-  return {"Simbody", [rho, reference](double accuracy, bool with_gradient) -> std::function<Outcome()> {
+  return {"Simbody",
+          [rho, reference](double accuracy, bool with_gradient) -> std::function<Outcome()> {
             return [rho, reference, accuracy, with_gradient] {
               const SimbodyResult run = run_simbody(rho[0], rho[1], rho[2], accuracy);
               long steps = run.steps;
-              const Eigen::VectorXd gradient = with_gradient ? simbody_gradient(rho, accuracy, &steps) : Eigen::VectorXd();
+              const Eigen::VectorXd gradient =
+                  with_gradient ? simbody_gradient(rho, accuracy, &steps) : Eigen::VectorXd();
               return outcome_of(reference, with_gradient, run.psi, gradient, steps);
             };
           }};
@@ -54,15 +56,20 @@ void measure_simbody(Report* report) {
   const Eigen::VectorXd rho = problem.start();
   if (!(std::abs(run_simbody(rho[0], rho[1], rho[2], 1e-9).psi / reference.psi - 1.0) < 1e-7))
     throw std::runtime_error("Simbody's slider-crank is not the same as ours");
-  const std::vector<Contestant> contestants = {own_solver(problem, "rodas4", reference), simbody(rho, reference)};
+  const std::vector<Contestant> contestants = {own_solver(problem, "rodas4", reference),
+                                               simbody(rho, reference)};
   const std::vector<Sweep> simulation =
-      race("simbody_simulation", "Simulation with friction that does not depend on reactions", false, contestants, kTolerances, report);
-  const std::vector<Sweep> gradient = race("simbody_gradient", "psi and its gradient by 3 parameters, Simbody's by central differences",
-                                           true, contestants, kTolerances, report);
-  report->findings.push_back(
-      {"Simbody, psi to 1e-6, in times of ours", "", seconds_to(1e-6, simulation[1]) / seconds_to(1e-6, simulation[0]), 1.0, true});
+      race("simbody_simulation", "Simulation with friction that does not depend on reactions",
+           false, contestants, kTolerances, report);
+  const std::vector<Sweep> gradient = race(
+      "simbody_gradient", "psi and its gradient by 3 parameters, Simbody's by central differences",
+      true, contestants, kTolerances, report);
+  report->findings.push_back({"Simbody, psi to 1e-6, in times of ours", "",
+                              seconds_to(1e-6, simulation[1]) / seconds_to(1e-6, simulation[0]),
+                              1.0, true});
   report->findings.push_back({"Simbody with differences, gradient to 1e-4, in times of ours", "",
-                              seconds_to(1e-4, gradient[1]) / seconds_to(1e-4, gradient[0]), 1.0, true});
+                              seconds_to(1e-4, gradient[1]) / seconds_to(1e-4, gradient[0]), 1.0,
+                              true});
 }
 
 }  // namespace codesign

@@ -16,8 +16,9 @@ namespace codesign {
 namespace {
 
 constexpr double kNear = 1e-4;  // of the best known objective
-constexpr const char* kAlgorithms[] = {"auto", "levenberg_marquardt", "slsqp",  "lbfgs", "var2", "tnewton", "mma", "ccsaq",
-                                       "var1", "auglag_lbfgs",        "cobyla", "bobyqa"};
+constexpr const char* kAlgorithms[] = {
+    "auto", "levenberg_marquardt", "slsqp",  "lbfgs", "var2", "tnewton", "mma", "ccsaq",
+    "var1", "auglag_lbfgs",        "cobyla", "bobyqa"};
 
 struct Subject {
   std::string model, study;
@@ -26,15 +27,21 @@ struct Subject {
 const std::vector<Subject>& subjects() {
   static const std::vector<Subject> list = [] {
     std::vector<Subject> all;
-    for (const char* shipped : {"slider_crank", "slider_crank_haug", "governor", "governor_multistart", "inverted_pendulum",
-                                "inverted_pendulum_frictionless", "pendulum_robust", "two_link_arm", "arm_limits", "gantry", "feed_axis"})
-      all.push_back({std::string("urdf/") + shipped + ".urdf", std::string("config/") + shipped + ".yaml"});
+    for (const char* shipped :
+         {"slider_crank", "slider_crank_haug", "governor", "governor_multistart",
+          "inverted_pendulum", "inverted_pendulum_frictionless", "pendulum_robust", "two_link_arm",
+          "arm_limits", "gantry", "feed_axis"})
+      all.push_back(
+          {std::string("urdf/") + shipped + ".urdf", std::string("config/") + shipped + ".yaml"});
     for (const auto& [model, study] :
-         {std::pair("arm", "pendulum_length"), std::pair("arm", "spring_balance"), std::pair("arm", "arm_pid"),
-          std::pair("arm", "arm_torque_bound"), std::pair("arm", "arm_peak"), std::pair("four_bar", "four_bar_path"),
-          std::pair("cart_pole", "cart_pole_feedback"), std::pair("cart_pole", "cart_pole_worst"), std::pair("cart_pole", "cart_pole_cvar"),
-          std::pair("cart_pole", "cart_pole_deviation"), std::pair("cart_pole", "cart_pole_shape")})
-      all.push_back({std::string("benchmark/stops/") + model + ".urdf", std::string("benchmark/stops/") + study + ".yaml"});
+         {std::pair("arm", "pendulum_length"), std::pair("arm", "spring_balance"),
+          std::pair("arm", "arm_pid"), std::pair("arm", "arm_torque_bound"),
+          std::pair("arm", "arm_peak"), std::pair("four_bar", "four_bar_path"),
+          std::pair("cart_pole", "cart_pole_feedback"), std::pair("cart_pole", "cart_pole_worst"),
+          std::pair("cart_pole", "cart_pole_cvar"), std::pair("cart_pole", "cart_pole_deviation"),
+          std::pair("cart_pole", "cart_pole_shape")})
+      all.push_back({std::string("benchmark/stops/") + model + ".urdf",
+                     std::string("benchmark/stops/") + study + ".yaml"});
     return all;
   }();
   return list;
@@ -47,8 +54,10 @@ struct Run {
 
   /// The evaluation after which the objective is near `known`; nothing if it never is.
   std::optional<std::size_t> first_near(double known, double size) const {
-    const auto found = std::find_if(best.begin(), best.end(), [&](double one) { return one <= known + kNear * size; });
-    return found == best.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - best.begin()) + 1);
+    const auto found = std::find_if(best.begin(), best.end(),
+                                    [&](double one) { return one <= known + kNear * size; });
+    return found == best.end() ? std::nullopt
+                               : std::optional(static_cast<std::size_t>(found - best.begin()) + 1);
   }
 };
 
@@ -70,17 +79,22 @@ std::optional<Run> run(const Problem& problem, const std::string& algorithm) {
   return run;
 }
 
-bool is_feasible(const Run& run) { return run.result.status.ok() && !run.best.empty() && std::isfinite(run.best.back()); }
+bool is_feasible(const Run& run) {
+  return run.result.status.ok() && !run.best.empty() && std::isfinite(run.best.back());
+}
 
-/// "21 of 25, 1e-06": near the best known objective after 21 of 25 evaluations, stationary to 1e-06; or how far above it the search ended.
+/// "21 of 25, 1e-06": near the best known objective after 21 of 25 evaluations, stationary to
+/// 1e-06; or how far above it the search ended.
 std::string cell(const std::optional<Run>& run, double known, double size) {
   if (!run) return "";
   const std::string evaluations = std::to_string(run->result.evaluations);
   if (!is_feasible(*run)) return "failed, " + evaluations;
   const std::optional<std::size_t> near = run->first_near(known, size);
-  const std::string where = near ? std::to_string(*near) + " of " + evaluations
-                                 : "+" + one_digit((run->result.objective - known) / size) + " after " + evaluations;
-  return where + ", " + one_digit(run->result.stationarity) + (run->result.termination == "stopped_early" ? " early" : "");
+  const std::string where =
+      near ? std::to_string(*near) + " of " + evaluations
+           : "+" + one_digit((run->result.objective - known) / size) + " after " + evaluations;
+  return where + ", " + one_digit(run->result.stationarity) +
+         (run->result.termination == "stopped_early" ? " early" : "");
 }
 
 }  // namespace
@@ -91,7 +105,8 @@ void measure_stops(Report* report) {
   for (const Subject& subject : subjects()) {
     const std::size_t slash = subject.study.rfind('/') + 1;
     const std::string name = subject.study.substr(slash, subject.study.rfind('.') - slash);
-    const Problem problem = load_problem(read_source(subject.model), {}, read_source(subject.study));
+    const Problem problem =
+        load_problem(read_source(subject.model), {}, read_source(subject.study));
     std::vector<std::optional<Run>> runs;
     for (const char* algorithm : kAlgorithms) runs.push_back(run(problem, algorithm));
     double known = std::numeric_limits<double>::infinity(), start = 0.0;

@@ -30,7 +30,13 @@ using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, void (*)(N_Vecto
 /// Where the parts of a state stand among the unknowns (q, v, s, z, psi).
 struct Places {
   explicit Places(const Layout& layout)
-      : n(layout.n), states(layout.states), columns(layout.columns()), v(n), s(2 * n), z(s + states), psi(z + columns) {}
+      : n(layout.n),
+        states(layout.states),
+        columns(layout.columns()),
+        v(n),
+        s(2 * n),
+        z(s + states),
+        psi(z + columns) {}
   int n, states, columns, v, s, z, psi;
   int size() const { return psi + 1; }
 };
@@ -75,12 +81,14 @@ class SundialsPeer::Implementation {
     IDASetUserData(ida, this);
     IDASetMaxNumSteps(ida, 1000000);
     IDASetStopTime(ida, system_->study().duration);
-    for (int k = 0; k < at_.size(); ++k) NV_Ith_S(id.get(), k) = k < at_.z || k == at_.psi ? 1.0 : 0.0;
+    for (int k = 0; k < at_.size(); ++k)
+      NV_Ith_S(id.get(), k) = k < at_.z || k == at_.psi ? 1.0 : 0.0;
     IDASetId(ida, id.get());
     IDASetSuppressAlg(ida, SUNTRUE);
-    const std::unique_ptr<std::remove_pointer_t<SUNMatrix>, void (*)(SUNMatrix)> matrix(new_matrix(), SUNMatDestroy);
-    const std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, int (*)(SUNLinearSolver)> solver(new_solver(y.get(), matrix.get()),
-                                                                                                   SUNLinSolFree);
+    const std::unique_ptr<std::remove_pointer_t<SUNMatrix>, void (*)(SUNMatrix)> matrix(
+        new_matrix(), SUNMatDestroy);
+    const std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, int (*)(SUNLinearSolver)> solver(
+        new_solver(y.get(), matrix.get()), SUNLinSolFree);
     IDASetLinearSolver(ida, solver.get(), matrix.get());
     if (kind_ == SundialsMatrix::kSparseExact) IDASetJacFn(ida, &Implementation::jacobian);
     std::vector<Vector> sensitivities;
@@ -97,11 +105,14 @@ class SundialsPeer::Implementation {
  private:
   Vector new_vector() const { return {N_VNew_Serial(at_.size(), context_), N_VDestroy}; }
   SUNMatrix new_matrix() const {
-    if (kind_ == SundialsMatrix::kDenseDifferences) return SUNDenseMatrix(at_.size(), at_.size(), context_);
-    return SUNSparseMatrix(at_.size(), at_.size(), static_cast<sunindextype>(rows_.size()), CSC_MAT, context_);
+    if (kind_ == SundialsMatrix::kDenseDifferences)
+      return SUNDenseMatrix(at_.size(), at_.size(), context_);
+    return SUNSparseMatrix(at_.size(), at_.size(), static_cast<sunindextype>(rows_.size()), CSC_MAT,
+                           context_);
   }
   SUNLinearSolver new_solver(N_Vector y, SUNMatrix matrix) const {
-    return kind_ == SundialsMatrix::kDenseDifferences ? SUNLinSol_Dense(y, matrix, context_) : SUNLinSol_KLU(y, matrix, context_);
+    return kind_ == SundialsMatrix::kDenseDifferences ? SUNLinSol_Dense(y, matrix, context_)
+                                                      : SUNLinSol_KLU(y, matrix, context_);
   }
 
   void fill_start(const State<double>& start, double* y, double* yp) {
@@ -132,7 +143,8 @@ class SundialsPeer::Implementation {
     std::copy(y + at_.z, y + at_.psi, state->z.data());
   }
 
-  /// F = (q' - v, v' - a, s' - sigma, G, psi' - g) from y, y', G and g, or the same of their sensitivities.
+  /// F = (q' - v, v' - a, s' - sigma, G, psi' - g) from y, y', G and g, or the same of their
+  /// sensitivities.
   void residual_rows(const double* y, const double* yp, double* F) const {
     for (int k = 0; k < at_.n; ++k) F[k] = yp[k] - y[at_.v + k];
     for (int k = 0; k < at_.n; ++k) F[at_.v + k] = yp[at_.v + k] - y[at_.z + k];
@@ -151,8 +163,9 @@ class SundialsPeer::Implementation {
     return std::isfinite(g) ? 0 : 1;
   }
 
-  static int sensitivity_residual(int count, sunrealtype, N_Vector y, N_Vector, N_Vector, N_Vector* S, N_Vector* Sp, N_Vector* out,
-                                  void* user, N_Vector, N_Vector, N_Vector) {
+  static int sensitivity_residual(int count, sunrealtype, N_Vector y, N_Vector, N_Vector,
+                                  N_Vector* S, N_Vector* Sp, N_Vector* out, void* user, N_Vector,
+                                  N_Vector, N_Vector) {
     auto& self = *static_cast<Implementation*>(user);
     self.load_wide(NV_DATA_S(y), count, S);
     Wide g(0.0);
@@ -221,7 +234,8 @@ class SundialsPeer::Implementation {
     });
   }
 
-  static int jacobian(sunrealtype, sunrealtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(sunrealtype, sunrealtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J,
+                      void* user, N_Vector, N_Vector, N_Vector) {
     auto& self = *static_cast<Implementation*>(user);
     self.load(NV_DATA_S(y), &self.state_);
     self.derivatives_.evaluate(&self.equations_, self.state_);
@@ -271,7 +285,8 @@ class SundialsPeer::Implementation {
       NV_Ith_S(Sp.back(), at_.psi) = g.v[static_cast<int>(p)];
     }
     void* ida = memory_.get();
-    IDASensInit(ida, static_cast<int>(tuned.size()), IDA_STAGGERED, &Implementation::sensitivity_residual, S.data(), Sp.data());
+    IDASensInit(ida, static_cast<int>(tuned.size()), IDA_STAGGERED,
+                &Implementation::sensitivity_residual, S.data(), Sp.data());
     IDASetSensParams(ida, nullptr, scales.data(), nullptr);
     IDASensEEtolerances(ida);
     IDASetSensErrCon(ida, SUNTRUE);
@@ -279,11 +294,13 @@ class SundialsPeer::Implementation {
 
   void take_gradient(std::vector<Vector>* sensitivities, SundialsResult* result) {
     std::vector<N_Vector> S;
-    for (std::size_t k = 0; k < sensitivities->size(); k += 2) S.push_back((*sensitivities)[k].get());
+    for (std::size_t k = 0; k < sensitivities->size(); k += 2)
+      S.push_back((*sensitivities)[k].get());
     double t = 0.0;
     IDAGetSens(memory_.get(), &t, S.data());
     result->gradient.resize(static_cast<Eigen::Index>(S.size()));
-    for (std::size_t p = 0; p < S.size(); ++p) result->gradient[static_cast<Eigen::Index>(p)] = NV_Ith_S(S[p], at_.psi);
+    for (std::size_t p = 0; p < S.size(); ++p)
+      result->gradient[static_cast<Eigen::Index>(p)] = NV_Ith_S(S[p], at_.psi);
   }
 
   std::shared_ptr<const CompiledSystem> system_;

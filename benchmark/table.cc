@@ -10,8 +10,9 @@ namespace {
 
 /// Characters, not bytes: text is UTF-8.
 std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
 }
 
 std::string printed(const char* format, double value) {
@@ -58,7 +59,12 @@ std::string three_digits(double value) {
   if (std::isnan(value)) return "-";
   const double size = std::abs(value);
   if (size >= 100.0 && size < 1e5) return printed("%.0f", value);
-  if (size >= 0.01 && size < 100.0) return printed(size < 0.1 ? "%.4f" : size < 1.0 ? "%.3f" : size < 10.0 ? "%.2f" : "%.1f", value);
+  if (size >= 0.01 && size < 100.0)
+    return printed(size < 0.1    ? "%.4f"
+                   : size < 1.0  ? "%.3f"
+                   : size < 10.0 ? "%.2f"
+                                 : "%.1f",
+                   value);
   return value == 0.0 ? "0" : printed("%.2e", value);
 }
 

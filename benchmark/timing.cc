@@ -14,7 +14,8 @@ class Collector : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs)
       if (run.run_type == Run::RT_Iteration)
-        seconds_[run.run_name.function_name].push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
+        seconds_[run.run_name.function_name].push_back(run.cpu_accumulated_time /
+                                                       static_cast<double>(run.iterations));
   }
 
   double median(const std::string& name) {
@@ -29,7 +30,8 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 void initialize() {
-  static std::string program = "benchmarks", interleaving = "--benchmark_enable_random_interleaving=true";
+  static std::string program = "benchmarks",
+                     interleaving = "--benchmark_enable_random_interleaving=true";
   char* arguments[] = {program.data(), interleaving.data()};
   int count = 2;
   benchmark::Initialize(&count, arguments);
@@ -37,10 +39,14 @@ void initialize() {
 
 }  // namespace
 
-std::vector<double> median_cpu_seconds(const std::vector<Job>& jobs, int repetitions, double shortest) {
+std::vector<double> median_cpu_seconds(const std::vector<Job>& jobs, int repetitions,
+                                       double shortest) {
   static const bool initialized = (initialize(), true);
   (void)initialized;
-  for (const Job& job : jobs) benchmark::RegisterBenchmark(job.name.c_str(), job.body)->Repetitions(repetitions)->MinTime(shortest);
+  for (const Job& job : jobs)
+    benchmark::RegisterBenchmark(job.name.c_str(), job.body)
+        ->Repetitions(repetitions)
+        ->MinTime(shortest);
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector, ".");
   benchmark::ClearRegisteredBenchmarks();

@@ -20,15 +20,19 @@ struct Reference {
 
 /// The accuracy and the steps of one run of a solver.
 struct Outcome {
-  /// Relative error of psi, or the largest relative error of a component of the gradient; NaN if the run failed.
+  /// Relative error of psi, or the largest relative error of a component of the gradient; NaN if
+  /// the run failed.
   double error = std::numeric_limits<double>::quiet_NaN();
   long steps = 0;
 };
 
-/// The outcome of a run that gave `psi` and `gradient`. @param with_gradient whether the error is that of the gradient.
-Outcome outcome_of(const Reference& reference, bool with_gradient, double psi, const Eigen::VectorXd& gradient, long steps);
+/// The outcome of a run that gave `psi` and `gradient`. @param with_gradient whether the error is
+/// that of the gradient.
+Outcome outcome_of(const Reference& reference, bool with_gradient, double psi,
+                   const Eigen::VectorXd& gradient, long steps);
 
-/// A solver in a comparison. prepare() sets it up for a tolerance, with or without the gradient, and returns a function that runs it once.
+/// A solver in a comparison. prepare() sets it up for a tolerance, with or without the gradient,
+/// and returns a function that runs it once.
 struct Contestant {
   std::string name;
   std::function<std::function<Outcome()>(double tolerance, bool with_gradient)> prepare;
@@ -45,25 +49,28 @@ struct Measured {
 };
 using Sweep = std::vector<Measured>;
 
-/// The processor time at which a solver reaches an accuracy [s]: the time at the loosest tolerance such that this and all tighter ones have
-/// an error of at most `error`. NaN if there is none.
+/// The processor time at which a solver reaches an accuracy [s]: the time at the loosest tolerance
+/// such that this and all tighter ones have an error of at most `error`. NaN if there is none.
 double seconds_to(double error, const Sweep& sweep);
 
-/// What a solver needs for an error, interpolated between two tolerances along straight lines between logarithms.
+/// What a solver needs for an error, interpolated between two tolerances along straight lines
+/// between logarithms.
 struct AtError {
   double seconds = std::numeric_limits<double>::quiet_NaN(), steps = seconds, tolerance = seconds;
 };
 
-/// At the loosest tolerance such that all tighter ones have an error of at most `error`, or between it and the next looser one; NaN if
-/// there is none.
+/// At the loosest tolerance such that all tighter ones have an error of at most `error`, or between
+/// it and the next looser one; NaN if there is none.
 AtError interpolate(double error, const Sweep& sweep);
 
 /// Runs all contestants at all tolerances, given from loose to tight, in random order.
-std::vector<Sweep> run_sweeps(const std::vector<Contestant>& contestants, const std::vector<double>& tolerances, bool with_gradient);
+std::vector<Sweep> run_sweeps(const std::vector<Contestant>& contestants,
+                              const std::vector<double>& tolerances, bool with_gradient);
 
 /// run_sweeps(). Adds a table `name` of all runs, and a table
 /// `name`_at_accuracy of the time that each contestant needs for a given accuracy.
-std::vector<Sweep> race(const std::string& name, const std::string& what, bool with_gradient, const std::vector<Contestant>& contestants,
+std::vector<Sweep> race(const std::string& name, const std::string& what, bool with_gradient,
+                        const std::vector<Contestant>& contestants,
                         const std::vector<double>& tolerances, Report* report);
 
 }  // namespace codesign

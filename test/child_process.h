@@ -16,12 +16,14 @@
 
 namespace codesign {
 
-/// A program that runs beside the test, with its output in files. Killed by the destructor if it still runs.
+/// A program that runs beside the test, with its output in files. Killed by the destructor if it
+/// still runs.
 class ChildProcess {
  public:
-  /// @param output, error paths; @param file_size largest file the program may write [bytes], as if the disk were full beyond; 0: no limit.
-  ChildProcess(std::vector<std::string> words, const std::string& output = "/dev/null", const std::string& error = "/dev/null",
-               rlim_t file_size = 0)
+  /// @param output, error paths; @param file_size largest file the program may write [bytes], as if
+  /// the disk were full beyond; 0: no limit.
+  ChildProcess(std::vector<std::string> words, const std::string& output = "/dev/null",
+               const std::string& error = "/dev/null", rlim_t file_size = 0)
       : pid_(fork()) {
     if (pid_ != 0) return;
     dup2(open(output.c_str(), O_WRONLY | O_CREAT, 0666), 1);

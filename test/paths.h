@@ -5,7 +5,8 @@
 
 namespace codesign {
 
-/// The root of the source tree. One translation unit alone knows the path, so that a compiler cache serves every checkout.
+/// The root of the source tree. One translation unit alone knows the path, so that a compiler cache
+/// serves every checkout.
 std::string source_dir();
 
 /// The command line program of this build.

@@ -21,10 +21,12 @@ struct InputFault {
   std::string allowed;  ///< the allowed values or range; may be empty
 };
 
-/// Invalid input, thrown by the function that reads it. Numerical failures never throw it; they return a Status (status.h).
+/// Invalid input, thrown by the function that reads it. Numerical failures never throw it; they
+/// return a Status (status.h).
 ///
-/// `what()` reads `file:line: element: message (value: ..., allowed: ...)` without the parts that are empty. Element and value are cut
-/// after 300 bytes, message and allowed values after 1000, there and in fault().
+/// `what()` reads `file:line: element: message (value: ..., allowed: ...)` without the parts that
+/// are empty. Element and value are cut after 300 bytes, message and allowed values after 1000,
+/// there and in fault().
 class InputError : public std::runtime_error {
  public:
   explicit InputError(InputFault fault);

@@ -8,31 +8,37 @@
 
 namespace codesign {
 
-/// A one-coordinate joint at one instant. The position is zero where URDF has its zero; turning joints count whole turns.
+/// A one-coordinate joint at one instant. The position is zero where URDF has its zero; turning
+/// joints count whole turns.
 struct JointSample {
   double position = 0.0;      ///< [rad or m]
   double velocity = 0.0;      ///< [rad/s or m/s]
   double acceleration = 0.0;  ///< [rad/s^2 or m/s^2]
-  double effort = 0.0;        ///< of all controllers, within the actuator's limit (13c), positive along the coordinate [N m or N]
+  double effort = 0.0;  ///< of all controllers, within the actuator's limit (13c), positive along
+                        ///< the coordinate [N m or N]
 };
 
 /// Friction in one joint or loop.
 struct FrictionSample {
-  /// Friction on the child along the joint axis, -L of doc/theory.md (13) [N or N m]: negative for positive velocity. For a contact that
-  /// slips in several directions (table, planar and spherical joints), minus the magnitude of (13a).
+  /// Friction on the child along the joint axis, -L of doc/theory.md (13) [N or N m]: negative for
+  /// positive velocity. For a contact that slips in several directions (table, planar and spherical
+  /// joints), minus the magnitude of (13a).
   double friction = 0.0;
   double normal_force = 0.0;      ///< N of theory (12) [N]
-  double sliding_velocity = 0.0;  ///< of the child relative to the parent along the joint axis, or the speed of slip [m/s or rad/s]
+  double sliding_velocity = 0.0;  ///< of the child relative to the parent along the joint axis, or
+                                  ///< the speed of slip [m/s or rad/s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the joint's point, in world axes [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the child link at `position`, in world axes [N]
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();    ///< on the child link, in world axes [N m]
+  Eigen::Vector3d force =
+      Eigen::Vector3d::Zero();  ///< on the child link at `position`, in world axes [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< on the child link, in world axes [N m]
 };
 
-/// A controller at one instant, doc/theory.md (C1)-(C8); setpoint, input and error in the unit of its input signal.
+/// A controller at one instant, doc/theory.md (C1)-(C8); setpoint, input and error in the unit of
+/// its input signal.
 struct ControllerSample {
   double setpoint = 0.0, input = 0.0, error = 0.0;  ///< r, x, e = r - x
-  double integral = 0.0;                            ///< integral of the error over time; 0 for a controller without one
-  double output = 0.0;                              ///< u [N or N m] along the driven joint, before the actuator's limit (13c)
+  double integral = 0.0;  ///< integral of the error over time; 0 for a controller without one
+  double output = 0.0;  ///< u [N or N m] along the driven joint, before the actuator's limit (13c)
 };
 
 /// Pose of a link frame in the world, which is the frame of the root link.
@@ -41,17 +47,21 @@ struct LinkSample {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< link axes to world axes
 };
 
-/// The names of the entries of a Frame's vectors, in the same order; the same for all frames of a run.
+/// The names of the entries of a Frame's vectors, in the same order; the same for all frames of a
+/// run.
 struct FrameNames {
-  std::vector<std::string> joints;       ///< every one-coordinate joint of the tree (passive and massless ones too), then of the loops
-  std::size_t tree_joints = 0;           ///< number of `joints` that belong to the URDF tree; they come first
+  std::vector<std::string> joints;  ///< every one-coordinate joint of the tree (passive and
+                                    ///< massless ones too), then of the loops
+  std::size_t tree_joints =
+      0;  ///< number of `joints` that belong to the URDF tree; they come first
   std::vector<std::string> frictions;    ///< joints and loops with friction
-  std::vector<bool> friction_is_torque;  ///< per entry of `frictions`: whether the friction is a torque [N m], else a force [N]
+  std::vector<bool> friction_is_torque;  ///< per entry of `frictions`: whether the friction is a
+                                         ///< torque [N m], else a force [N]
   std::vector<std::string> controllers;
   std::vector<std::string> loops;
   std::vector<std::string> links;  ///< every link of the URDF, the root first
-  /// Links that robot_state_publisher cannot place from joint positions, those below a planar or floating joint: (index in `links`, index
-  /// of the parent link).
+  /// Links that robot_state_publisher cannot place from joint positions, those below a planar or
+  /// floating joint: (index in `links`, index of the parent link).
   std::vector<std::pair<std::size_t, std::size_t>> free_links;
   std::vector<std::string> signals;  ///< the requested signals, as spelled in the request
 };

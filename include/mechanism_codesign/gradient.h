@@ -13,33 +13,40 @@
 
 namespace codesign {
 
-/// Extreme values of the signals that constraints (`path:`, `final:`) and peaks read; doc/theory.md (21a). For each signal in turn: its
-/// values at fixed instants, then its largest value in each window between two instants, then its smallest value in each window.
+/// Extreme values of the signals that constraints (`path:`, `final:`) and peaks read; doc/theory.md
+/// (21a). For each signal in turn: its values at fixed instants, then its largest value in each
+/// window between two instants, then its smallest value in each window.
 struct Extremes {
   Eigen::VectorXd values;     ///< signal minus reference, in the unit of the signal
   Eigen::VectorXd times;      ///< when the signal has this value [s]
   Eigen::MatrixXd gradients;  ///< one column per value; empty unless requested
 };
 
-/// The derivatives that an evaluation computes besides the objective. kGaussNewton: the gradient, and Evaluation::jacobian_root.
+/// The derivatives that an evaluation computes besides the objective. kGaussNewton: the gradient,
+/// and Evaluation::jacobian_root.
 enum class Derivatives { kNone, kGradient, kGaussNewton };
-inline Derivatives gradient_if(bool with_gradient) { return with_gradient ? Derivatives::kGradient : Derivatives::kNone; }
+inline Derivatives gradient_if(bool with_gradient) {
+  return with_gradient ? Derivatives::kGradient : Derivatives::kNone;
+}
 
-/// The objective psi and its gradient by the tuned parameters at one design; doc/theory.md (21), (22).
+/// The objective psi and its gradient by the tuned parameters at one design; doc/theory.md (21),
+/// (22).
 struct Evaluation {
   Status status;             ///< if not ok, objective and gradient are not valid
   double objective = 0.0;    ///< psi, in the units of the study's terms
   Eigen::VectorXd gradient;  ///< psi_rho, order of Problem::tuned_names(); empty unless requested
-  /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the Jacobian of the residuals whose squares
-  /// sum up to psi without its peaks, doc/theory.md (22a). Empty unless requested.
+  /// Upper triangular R, p x p, with R^T R = J^T J and a diagonal that is not negative; J is the
+  /// Jacobian of the residuals whose squares sum up to psi without its peaks, doc/theory.md (22a).
+  /// Empty unless requested.
   Eigen::MatrixXd jacobian_root;
   Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
 };
 
-/// Evaluates psi(rho) and its gradient. `solver.gradient` of the study selects direct sensitivities (18) or the adjoint (18a); kGaussNewton
-/// always uses direct sensitivities. Holds a workspace that is reused from call to call; not thread-safe, use one per thread.
+/// Evaluates psi(rho) and its gradient. `solver.gradient` of the study selects direct sensitivities
+/// (18) or the adjoint (18a); kGaussNewton always uses direct sensitivities. Holds a workspace that
+/// is reused from call to call; not thread-safe, use one per thread.
 class Evaluator {
  public:
   explicit Evaluator(const Problem& problem);
@@ -49,14 +56,20 @@ class Evaluator {
   Evaluator& operator=(Evaluator&&) noexcept;
 
   /// Runs the study at one design.
-  /// @param rho the tuned parameters, in the order of Problem::tuned_names(); all other parameters keep their start values.
-  /// @param cancel the evaluation ends with kCancelled soon after this is set, from any thread; null: never.
-  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr);
-  Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
-  /// Runs the study with values of all named parameters, in the order of Problem::all_parameters(); the gradient has one entry per tuned
-  /// parameter, as above.
-  Evaluation evaluate_design(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel = nullptr);
-  Evaluation evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel = nullptr);
+  /// @param rho the tuned parameters, in the order of Problem::tuned_names(); all other parameters
+  /// keep their start values.
+  /// @param cancel the evaluation ends with kCancelled soon after this is set, from any thread;
+  /// null: never.
+  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives,
+                      const std::atomic<bool>* cancel = nullptr);
+  Evaluation evaluate(const Eigen::VectorXd& rho, bool with_gradient,
+                      const std::atomic<bool>* cancel = nullptr);
+  /// Runs the study with values of all named parameters, in the order of Problem::all_parameters();
+  /// the gradient has one entry per tuned parameter, as above.
+  Evaluation evaluate_design(const std::vector<double>& parameters, Derivatives derivatives,
+                             const std::atomic<bool>* cancel = nullptr);
+  Evaluation evaluate_design(const std::vector<double>& parameters, bool with_gradient,
+                             const std::atomic<bool>* cancel = nullptr);
 
  private:
   class Implementation;
@@ -65,8 +78,10 @@ class Evaluator {
 
 /// The method that computes the reference of a gradient check.
 enum class CheckMethod {
-  kComplexStep,  ///< complex step through the same sequence of steps; exact to rounding; only for `rosenbrock`
-  kRidders,      ///< Ridders' extrapolated differences of runs with tight tolerances; independent of the steps
+  kComplexStep,  ///< complex step through the same sequence of steps; exact to rounding; only for
+                 ///< `rosenbrock`
+  kRidders,  ///< Ridders' extrapolated differences of runs with tight tolerances; independent of
+             ///< the steps
 };
 
 /// A gradient and an independently computed reference.
@@ -75,19 +90,24 @@ struct GradientCheck {
   CheckMethod method = CheckMethod::kComplexStep;  ///< the method that was used
   Evaluation evaluation;                           ///< objective and gradient g under check
   Eigen::VectorXd reference;                       ///< the reference gradient r
-  Eigen::VectorXd reference_error;                 ///< error estimate of the reference; zero for the complex step
-  Eigen::MatrixXd extreme_reference;               ///< reference for the gradients in Evaluation::extremes; only for kComplexStep
-  /// max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes. Along a direction d: |d^T g - r| / max_k |d_k g_k|.
+  Eigen::VectorXd reference_error;  ///< error estimate of the reference; zero for the complex step
+  Eigen::MatrixXd extreme_reference;  ///< reference for the gradients in Evaluation::extremes; only
+                                      ///< for kComplexStep
+  /// max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes. Along a direction d:
+  /// |d^T g - r| / max_k |d_k g_k|.
   double largest_relative_difference = 0;
-  /// If not empty, the reference has one entry per column: the derivative along this direction in the space of the tuned parameters.
+  /// If not empty, the reference has one entry per column: the derivative along this direction in
+  /// the space of the tuned parameters.
   Eigen::MatrixXd directions;
 };
 
-/// Computes the gradient at `rho` and a reference for it. With `idas` the method is always kRidders, and its differences come from runs
-/// with `rosenbrock`, so that the two integrators check each other.
+/// Computes the gradient at `rho` and a reference for it. With `idas` the method is always
+/// kRidders, and its differences come from runs with `rosenbrock`, so that the two integrators
+/// check each other.
 GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
-GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
+GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system,
+                             const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

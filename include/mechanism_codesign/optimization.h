@@ -13,44 +13,57 @@
 
 namespace codesign {
 
-/// One trial point of an optimization, theory (24). Vectors have one entry per tuned parameter, order of Problem::tuned_names().
+/// One trial point of an optimization, theory (24). Vectors have one entry per tuned parameter,
+/// order of Problem::tuned_names().
 struct Trial {
-  int evaluation = 0;           ///< number of the evaluation, from 1
-  int iteration = 0;            ///< how often the best point has improved so far
-  Status status;                ///< not ok: the point could not be assembled or integrated; the search turns back from it
-  double objective = 0.0;       ///< psi; not valid if the status is not ok
-  double gradient_norm = 0.0;   ///< norm of the gradient by the scaled variables x of (24)
-  Eigen::VectorXd gradient;     ///< psi_rho
-  Eigen::VectorXd rho;          ///< the trial point
-  int start = 0;                ///< number of the search in a study with several starts, from 1, in the order in which the searches began
-  double best_objective = 0.0;  ///< at the best point so far; a point that violates the constraints less is better
-  double best_violation = 0.0;  ///< largest violation of a constraint at that point, beyond its tolerance; 0 if all constraints are met
+  int evaluation = 0;  ///< number of the evaluation, from 1
+  int iteration = 0;   ///< how often the best point has improved so far
+  Status status;  ///< not ok: the point could not be assembled or integrated; the search turns back
+                  ///< from it
+  double objective = 0.0;      ///< psi; not valid if the status is not ok
+  double gradient_norm = 0.0;  ///< norm of the gradient by the scaled variables x of (24)
+  Eigen::VectorXd gradient;    ///< psi_rho
+  Eigen::VectorXd rho;         ///< the trial point
+  int start = 0;  ///< number of the search in a study with several starts, from 1, in the order in
+                  ///< which the searches began
+  double best_objective =
+      0.0;  ///< at the best point so far; a point that violates the constraints less is better
+  double best_violation = 0.0;  ///< largest violation of a constraint at that point, beyond its
+                                ///< tolerance; 0 if all constraints are met
 };
 
-/// Called after each trial point; returning false ends the search with kCancelled and the best point so far.
+/// Called after each trial point; returning false ends the search with kCancelled and the best
+/// point so far.
 using TrialObserver = std::function<bool(const Trial&)>;
 
-/// The objective of one run at one sample of the uncertain quantities, before and after the optimization.
+/// The objective of one run at one sample of the uncertain quantities, before and after the
+/// optimization.
 struct ScenarioResult {
-  std::string run;                                     ///< name of the run; empty if the study has none
-  int sample = -1;                                     ///< number of the sample from 0; -1: the nominal values
-  double weight = 1.0;                                 ///< w; the sum over all scenarios is 1
-  std::vector<std::pair<std::string, double>> values;  ///< the parameters that the run or the sample sets
-  double initial_objective = 0.0, objective = 0.0;     ///< psi at `initial_rho` and at `rho`
-  std::string friction_law{};                          ///< the law of all joints if the study varies it; empty: the laws of the model
-  /// Whether the run failed at `initial_rho` and at `rho`. A failed run counts with the largest objective of the runs that did not fail.
+  std::string run;      ///< name of the run; empty if the study has none
+  int sample = -1;      ///< number of the sample from 0; -1: the nominal values
+  double weight = 1.0;  ///< w; the sum over all scenarios is 1
+  std::vector<std::pair<std::string, double>>
+      values;  ///< the parameters that the run or the sample sets
+  double initial_objective = 0.0, objective = 0.0;  ///< psi at `initial_rho` and at `rho`
+  std::string friction_law{};  ///< the law of all joints if the study varies it; empty: the laws of
+                               ///< the model
+  /// Whether the run failed at `initial_rho` and at `rho`. A failed run counts with the largest
+  /// objective of the runs that did not fail.
   bool initial_failed = false, failed = false;
 };
 
 /// The best point on samples that the search has not seen.
 struct Validation {
-  int samples = 0;         ///< fresh samples of each run
-  int failed = 0;          ///< scenarios that could not be integrated; the members below leave them out, except `promised` and `within`
+  int samples = 0;  ///< fresh samples of each run
+  int failed = 0;   ///< scenarios that could not be integrated; the members below leave them out,
+                    ///< except `promised` and `within`
   double promised = 0.0;   ///< the measure on the samples of the search
   double objective = 0.0;  ///< the same measure on the fresh samples
   double mean = 0.0, worst = 0.0;
-  double value_at_risk = 0.0;  ///< for the measure cvar: the value that fresh samples exceed with a probability of at most 1 - level
-  double within = 0.0;         ///< for the measure cvar: share of all fresh samples that do not exceed OptimizationResult::value_at_risk
+  double value_at_risk = 0.0;  ///< for the measure cvar: the value that fresh samples exceed with a
+                               ///< probability of at most 1 - level
+  double within = 0.0;  ///< for the measure cvar: share of all fresh samples that do not exceed
+                        ///< OptimizationResult::value_at_risk
 };
 
 /// One local search of several.
@@ -72,36 +85,48 @@ struct Optimum {
 
 /// A signal that a constraint or a peak reads, over all scenarios; doc/theory.md (21a).
 struct WatchedResult {
-  std::string element, signal;                         ///< its place in the study, `path[0]`, and the signal as written
+  std::string element, signal;  ///< its place in the study, `path[0]`, and the signal as written
   double initial_smallest = 0.0, initial_largest = 0;  ///< signal minus reference at `initial_rho`
   double smallest = 0.0, largest = 0.0;                ///< at `rho`
   double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
-  double violation = 0.0;                              ///< largest violation of the bounds at `rho`; 0 if they are met, and for peaks
-  int smallest_scenario = 0, largest_scenario = 0;     ///< index of the scenario in OptimizationResult::scenarios
-  /// The bounds, computed at `rho` and the nominal values of the other parameters; infinite where the study gives none, and for peaks in
-  /// the objective.
-  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
-  double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for `final` the end of the run
-  /// The violation up to which the bounds count as met: the study's, or 1e-5 of the range of the signal and its bounds, at least 1e-8.
+  double violation =
+      0.0;  ///< largest violation of the bounds at `rho`; 0 if they are met, and for peaks
+  int smallest_scenario = 0,
+      largest_scenario = 0;  ///< index of the scenario in OptimizationResult::scenarios
+  /// The bounds, computed at `rho` and the nominal values of the other parameters; infinite where
+  /// the study gives none, and for peaks in the objective.
+  double lower = -std::numeric_limits<double>::infinity(),
+         upper = std::numeric_limits<double>::infinity();
+  double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for
+                                     ///< `final` the end of the run
+  /// The violation up to which the bounds count as met: the study's, or 1e-5 of the range of the
+  /// signal and its bounds, at least 1e-8.
   double tolerance = 1e-8;
 };
 
 /// The best point of an optimization and how the search ended.
 struct OptimizationResult {
-  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the constraints was found; or, if the start value could not be
-  /// evaluated, the status of that evaluation. Only in the last case the members below hold no point.
+  /// Ok; kCancelled; kAlgorithmFailed; kInfeasible if no point that meets the constraints was
+  /// found; or, if the start value could not be evaluated, the status of that evaluation. Only in
+  /// the last case the members below hold no point.
   Status status;
-  std::string termination;  ///< why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached", "cancelled",
-                            ///< ...; "stopped_early" if its algorithms ended at a point that is not stationary
-  std::string algorithm;    ///< that searched; of `auto` all that went on with the search, in their order, with commas
-  /// The residual of the optimality conditions, theory (24j), at `initial_rho` and `rho` in the unit of psi, and at `rho` relative to psi;
-  /// not a number without a point.
-  double initial_slope = std::numeric_limits<double>::quiet_NaN(), slope = std::numeric_limits<double>::quiet_NaN();
+  std::string termination;  ///< why the search ended, in snake case: "objective_tolerance_reached",
+                            ///< "max_evaluations_reached", "cancelled",
+                            ///< ...; "stopped_early" if its algorithms ended at a point that is not
+                            ///< stationary
+  std::string algorithm;    ///< that searched; of `auto` all that went on with the search, in their
+                            ///< order, with commas
+  /// The residual of the optimality conditions, theory (24j), at `initial_rho` and `rho` in the
+  /// unit of psi, and at `rho` relative to psi; not a number without a point.
+  double initial_slope = std::numeric_limits<double>::quiet_NaN(),
+         slope = std::numeric_limits<double>::quiet_NaN();
   double stationarity = std::numeric_limits<double>::quiet_NaN();
-  /// Per tuned parameter: by how much psi falls, to first order, if the bound on which it lies is moved outwards by the range of the
-  /// parameter; positive at the lower, negative at the upper bound, 0 off the bounds.
+  /// Per tuned parameter: by how much psi falls, to first order, if the bound on which it lies is
+  /// moved outwards by the range of the parameter; positive at the lower, negative at the upper
+  /// bound, 0 off the bounds.
   Eigen::VectorXd bound_multipliers;
-  Eigen::MatrixXd flat_directions;  ///< in which psi does not change at `rho`, by rho, one per column; theory (24i)
+  Eigen::MatrixXd flat_directions;  ///< in which psi does not change at `rho`, by rho, one per
+                                    ///< column; theory (24i)
   double initial_objective = 0.0;
   double objective = 0.0;  ///< at `rho`, the best feasible point seen
   Eigen::VectorXd initial_gradient;
@@ -111,32 +136,47 @@ struct OptimizationResult {
   int iterations = 0;
   int evaluations = 0;
   int failed_evaluations = 0;
-  Eigen::VectorXd margins;             ///< margins of the study's parameter constraints at `rho`; negative where violated
+  Eigen::VectorXd
+      margins;  ///< margins of the study's parameter constraints at `rho`; negative where violated
   std::vector<WatchedResult> watched;  ///< signals with constraints, then peaks; empty without any
-  Statistics statistics;               ///< sums over all evaluations; drift and energy error are the largest of any evaluation
-  Warnings warnings;                   ///< about the best point, and about the search: a parameter without influence or on its bound
-  std::vector<bool> influences;        ///< per tuned parameter: whether the objective or a watched signal depended on it at any trial point
-  // For a study with runs or uncertain parameters, else empty: psi of each scenario at `initial_rho` and `rho`, and the scenarios.
+  Statistics statistics;  ///< sums over all evaluations; drift and energy error are the largest of
+                          ///< any evaluation
+  Warnings warnings;  ///< about the best point, and about the search: a parameter without influence
+                      ///< or on its bound
+  std::vector<bool> influences;  ///< per tuned parameter: whether the objective or a watched signal
+                                 ///< depended on it at any trial point
+  // For a study with runs or uncertain parameters, else empty: psi of each scenario at
+  // `initial_rho` and `rho`, and the scenarios.
   Eigen::VectorXd initial_values, values;
   std::vector<ScenarioResult> scenarios;
-  std::vector<int> initial_failed, failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
-  std::optional<double> value_at_risk;      ///< for the measure cvar: the value at risk on the samples of the search
-  std::optional<Validation> validation;     ///< if `robust.validate` requests it
-  // For a study with several starts, else empty: the searches, best start first, and the optima, best first.
+  std::vector<int> initial_failed,
+      failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
+  std::optional<double>
+      value_at_risk;  ///< for the measure cvar: the value at risk on the samples of the search
+  std::optional<Validation> validation;  ///< if `robust.validate` requests it
+  // For a study with several starts, else empty: the searches, best start first, and the optima,
+  // best first.
   std::vector<StartResult> starts;
   std::vector<Optimum> optima;
-  int screened = 0, unusable = 0;  ///< number of points evaluated to choose the starts, and of these the number of failed points
+  int screened = 0, unusable = 0;  ///< number of points evaluated to choose the starts, and of
+                                   ///< these the number of failed points
 };
 
-/// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start values.
+/// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start
+/// values.
 /// @param options in place of Problem::optimizer_options().
-/// @param cancel the search ends with kCancelled and the best point so far soon after this is set, from any thread; null: never.
-/// @throws InputError for options that contradict each other, such as constraints with an algorithm that takes none.
-OptimizationResult optimize(const Problem& problem, const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
-OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer = {},
+/// @param cancel the search ends with kCancelled and the best point so far soon after this is set,
+/// from any thread; null: never.
+/// @throws InputError for options that contradict each other, such as constraints with an algorithm
+/// that takes none.
+OptimizationResult optimize(const Problem& problem, const TrialObserver& observer = {},
+                            const std::atomic<bool>* cancel = nullptr);
+OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options,
+                            const TrialObserver& observer = {},
                             const std::atomic<bool>* cancel = nullptr);
 /// For the library's own code: with a compiled system.
-OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
-                            const TrialObserver& observer = {}, const std::atomic<bool>* cancel = nullptr);
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
+                            const OptimizerOptions& options, const TrialObserver& observer = {},
+                            const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

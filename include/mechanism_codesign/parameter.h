@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// A design parameter: a named number on which numbers of model or study may depend. If the study tunes it, it is an entry of rho.
+/// A design parameter: a named number on which numbers of model or study may depend. If the study
+/// tunes it, it is an entry of rho.
 struct Parameter {
   std::string name;
   double value = 0.0;                                       ///< start value, in SI units

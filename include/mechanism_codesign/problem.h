@@ -14,39 +14,44 @@
 
 namespace codesign {
 
-// Types of the library's own code. A caller holds pointers or references to them but does not read them.
+// Types of the library's own code. A caller holds pointers or references to them but does not read
+// them.
 class CompiledSystem;
 struct RobotDescription;
 struct Study;
 
-/// Parameter values that replace the values in model and study, by name, such as ("crank_length", 0.07). If a name occurs twice, the last
-/// entry counts.
+/// Parameter values that replace the values in model and study, by name, such as ("crank_length",
+/// 0.07). If a name occurs twice, the last entry counts.
 using ParameterSettings = std::vector<std::pair<std::string, double>>;
 
-/// A mechanism and a study, read and compiled: the input of simulations, gradients and optimizations. Immutable, thread-safe, and cheap to
-/// copy: copies share their contents.
+/// A mechanism and a study, read and compiled: the input of simulations, gradients and
+/// optimizations. Immutable, thread-safe, and cheap to copy: copies share their contents.
 class Problem {
  public:
   struct Contents;
   /// For the library's own code; use load_problem().
   explicit Problem(std::shared_ptr<const Contents> contents) : contents_(std::move(contents)) {}
 
-  /// The model's URDF text, its overlays in the order of their application, and the study's text (empty without a study).
+  /// The model's URDF text, its overlays in the order of their application, and the study's text
+  /// (empty without a study).
   const SourceText& urdf() const;
   const std::vector<SourceText>& overlays() const;
   const SourceText& study_text() const;
-  /// Warnings about the files and about the mechanism at its start; doc/warnings.md lists the codes.
+  /// Warnings about the files and about the mechanism at its start; doc/warnings.md lists the
+  /// codes.
   const Warnings& warnings() const;
   /// Processor time from the texts to the compiled system [s].
   double setup_seconds() const;
 
   /// Duration of the study [s]; 0 without a study.
   double duration() const;
-  /// Every named parameter with its start value and bounds: the parameters of the model in their order, then the parameters of the study.
+  /// Every named parameter with its start value and bounds: the parameters of the model in their
+  /// order, then the parameters of the study.
   const std::vector<Parameter>& all_parameters() const;
   /// Start values of all named parameters, in the order of all_parameters().
   std::vector<double> parameters() const;
-  /// Values of all named parameters: the tuned ones from `rho` (order of tuned_names()), the others at their start values.
+  /// Values of all named parameters: the tuned ones from `rho` (order of tuned_names()), the others
+  /// at their start values.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
   /// Names of the tuned parameters, in the order of rho and of every gradient.
   std::vector<std::string> tuned_names() const;
@@ -65,21 +70,27 @@ class Problem {
   std::shared_ptr<const Contents> contents_;
 };
 
-/// Reads model, overlays and study, replaces parameter values by `settings` and compiles the equations of motion. The setting of a tuned
-/// parameter replaces its start value; the setting of any other parameter holds in every design.
-/// @throws InputError for bad input, a mechanism without equations of motion, a start that cannot be assembled, a setting of an unknown
-/// parameter, or a value that is not finite or outside the parameter's bounds.
-Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings = {});
+/// Reads model, overlays and study, replaces parameter values by `settings` and compiles the
+/// equations of motion. The setting of a tuned parameter replaces its start value; the setting of
+/// any other parameter holds in every design.
+/// @throws InputError for bad input, a mechanism without equations of motion, a start that cannot
+/// be assembled, a setting of an unknown parameter, or a value that is not finite or outside the
+/// parameter's bounds.
+Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                     const SourceText& study, const ParameterSettings& settings = {});
 
-/// Loads a mechanism without a study: no parameter is tuned, there are no controllers and no loads, and the duration is zero.
+/// Loads a mechanism without a study: no parameter is tuned, there are no controllers and no loads,
+/// and the duration is zero.
 /// @throws InputError as load_problem().
-Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings = {});
+Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                       const ParameterSettings& settings = {});
 
-/// The same problem with parameter values replaced by `settings`, compiled anew. @throws InputError as load_problem().
+/// The same problem with parameter values replaced by `settings`, compiled anew. @throws InputError
+/// as load_problem().
 Problem with_settings(const Problem& problem, const ParameterSettings& settings);
 
-/// Checks that the study has an objective, which evaluations, gradients and optimizations need. @throws InputError if it has none.
+/// Checks that the study has an objective, which evaluations, gradients and optimizations need.
+/// @throws InputError if it has none.
 void require_objective(const Problem& problem);
 
 }  // namespace codesign

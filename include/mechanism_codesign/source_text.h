@@ -11,7 +11,8 @@ struct SourceText {
   std::string text;  ///< the whole text
 };
 
-/// Reads a file of at most 32 MB. @throws InputError for a file that is missing, empty, too large or unreadable.
+/// Reads a file of at most 32 MB. @throws InputError for a file that is missing, empty, too large
+/// or unreadable.
 SourceText read_source(const std::string& path);
 
 }  // namespace codesign

@@ -10,12 +10,13 @@ namespace codesign {
 struct Statistics {
   std::int64_t steps = 0, rejected_steps = 0;  ///< accepted and rejected steps
   double cpu_seconds = 0.0;                    ///< processor time of the run
-  double constraint_drift =
-      0.0;  ///< largest drift of positions and velocities after a step, d of theory (17a), in the scale of the error test [-]
-  double energy_error = 0.0;        ///< largest error of the energy balance, e of theory (17a) [-]
+  double constraint_drift = 0.0;  ///< largest drift of positions and velocities after a step, d of
+                                  ///< theory (17a), in the scale of the error test [-]
+  double energy_error = 0.0;      ///< largest error of the energy balance, e of theory (17a) [-]
   std::int64_t explicit_steps = 0;  ///< those of the accepted steps that the explicit pair took
 
-  /// Adds another run: steps and processor time add up, drift and energy error are the largest of both.
+  /// Adds another run: steps and processor time add up, drift and energy error are the largest of
+  /// both.
   Statistics& operator+=(const Statistics& other) {
     steps += other.steps;
     rejected_steps += other.rejected_steps;

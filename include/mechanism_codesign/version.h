@@ -3,8 +3,8 @@
 
 namespace codesign {
 
-/// The version of this package, such as "0.1.0": `<version>` of package.xml at the time of the build. The text lives as long as the
-/// program.
+/// The version of this package, such as "0.1.0": `<version>` of package.xml at the time of the
+/// build. The text lives as long as the program.
 const char* version();
 
 }  // namespace codesign

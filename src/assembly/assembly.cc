@@ -15,13 +15,15 @@
 namespace codesign {
 namespace {
 
-// Relative rank tolerances of the scaled Jacobian of the loops. Parts below kRank come from rounded angles and lengths or from an almost
-// singular position and are ignored; if the loops do not close without them, kSingularRank is tried.
+// Relative rank tolerances of the scaled Jacobian of the loops. Parts below kRank come from rounded
+// angles and lengths or from an almost singular position and are ignored; if the loops do not close
+// without them, kSingularRank is tried.
 constexpr double kRank = 1e-3, kSingularRank = 1e-9;
-constexpr double kSamePlace = 0.05;  // [rad or m] two positions that differ by less are taken as the same
+constexpr double kSamePlace =
+    0.05;  // [rad or m] two positions that differ by less are taken as the same
 constexpr int kNewtonIterations = 200;
-constexpr double kLargestTurn =
-    0.5;  // [rad or m] limit of one Newton step per coordinate, so that the solution stays on the start's branch
+constexpr double kLargestTurn = 0.5;  // [rad or m] limit of one Newton step per coordinate, so that
+                                      // the solution stays on the start's branch
 
 double size_of(const LoopMiss& miss) { return std::max(miss.length, miss.angle); }
 
@@ -37,7 +39,8 @@ Assembly::Assembly(const CompiledSystem& system)
       matrix_(system) {
   const Topology& topology = system.topology();
   const std::vector<int>& dropped = system.dropped_rows();
-  for (int row : loops_.constraint_rows()) drops_.push_back(std::binary_search(dropped.begin(), dropped.end(), row));
+  for (int row : loops_.constraint_rows())
+    drops_.push_back(std::binary_search(dropped.begin(), dropped.end(), row));
   const auto size = to_index(tree_.size);
   follows_.assign(size, false);
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
@@ -69,7 +72,8 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
 }
 
-// A follower may itself lead another coupling: after as many passes as there are couplings every chain of followers is consistent.
+// A follower may itself lead another coupling: after as many passes as there are couplings every
+// chain of followers is consistent.
 void Assembly::follow_couplings(const Constants<double>& constants) {
   const std::vector<Coupling>& couplings = system_.topology().couplings;
   for (std::size_t pass = 0; pass < couplings.size(); ++pass) {
@@ -94,10 +98,12 @@ void Assembly::by_preference(const std::vector<bool>& given, ColumnPreferences* 
     if (const auto k = to_index(c); !given[k]) (*lists)[follows_[k] ? 0 : 1].push_back(c);
 }
 
-void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations,
+                     State<double>* state) {
   set_turns(system_, tree_, theta_, state);
   link_motions(system_.robot(), tree_, parameters, theta_, theta_rate_, &work_.motion.links);
-  state_coordinates(system_, tree_, equations->constants(), work_.motion.links, theta_, theta_rate_, &state->q, &state->v);
+  state_coordinates(system_, tree_, equations->constants(), work_.motion.links, theta_, theta_rate_,
+                    &state->q, &state->v);
   set_signs(system_, equations->constants(), work_.motion.links, state);
 }
 
@@ -107,7 +113,8 @@ void Assembly::take_loop_rows() {
     if (drops_[k] && !all_rows_count_) work_.rows(to_signed(k), 0) = 0.0;
 }
 
-void Assembly::scale_loops(const std::vector<double>& parameters, const Equations<double>& equations) {
+void Assembly::scale_loops(const std::vector<double>& parameters,
+                           const Equations<double>& equations) {
   ScaledLoops& loops = work_.loops;
   loops_.evaluate(parameters, theta_, equations, &work_.motion, &loops.unscaled);
   loops_.scales(loops.unscaled, equations, &work_.motion, &loops.scales);
@@ -119,7 +126,8 @@ void Assembly::scale_loops(const std::vector<double>& parameters, const Equation
       entry.valueRef() = loops.scales.rows[entry.row()] * entry.value() * loops.scales.columns[c];
 }
 
-void Assembly::factor(const std::vector<int>& columns, double rank_tolerance, Dependents* dependents) const {
+void Assembly::factor(const std::vector<int>& columns, double rank_tolerance,
+                      Dependents* dependents) const {
   dependents->columns = columns;
   dependents->scales = work_.loops.scales;
   dependents->inverse.factor(work_.loops.matrix, columns, rank_tolerance);
@@ -133,34 +141,41 @@ void Assembly::choose(const ColumnPreferences& preferences, Dependents* dependen
   factor(choose_columns(preferences), rank_tolerance_, dependents);
 }
 
-const Eigen::MatrixXd& Assembly::Dependents::solve(const Eigen::MatrixXd& rows, Eigen::MatrixXd* scaled,
+const Eigen::MatrixXd& Assembly::Dependents::solve(const Eigen::MatrixXd& rows,
+                                                   Eigen::MatrixXd* scaled,
                                                    LeastSquaresWorkspace* workspace) const {
   *scaled = scales.rows.asDiagonal() * rows;
   Eigen::MatrixXd& x = inverse.solve(*scaled, workspace);
-  for (std::size_t k = 0; k < columns.size(); ++k) x.row(to_signed(k)) *= scales.columns[columns[k]];
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    x.row(to_signed(k)) *= scales.columns[columns[k]];
   return x;
 }
 
-/// Sets work_.rows to the errors of the loops and couplings at theta_, and worst_miss_ from them. @returns the largest error.
+/// Sets work_.rows to the errors of the loops and couplings at theta_, and worst_miss_ from them.
+/// @returns the largest error.
 double Assembly::find_errors(const std::vector<double>& parameters, Equations<double>* equations) {
   work_.state.resize(system_.layout());
   place(parameters, equations, &work_.state);
   equations->constraint_errors(work_.state, &work_.errors, &work_.rates);
   take_loop_rows();
-  const double error = work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  const double error =
+      work_.rows.size() == 0 ? 0.0 : work_.rows.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   if (std::isfinite(error)) note_miss(work_.errors, *equations);
   return error;
 }
 
-/// Newton's change of the `free` coordinates for work_.rows at theta_, to be subtracted; valid until the next call.
-const Eigen::MatrixXd& Assembly::newton_step(const std::vector<double>& parameters, const Equations<double>& equations,
+/// Newton's change of the `free` coordinates for work_.rows at theta_, to be subtracted; valid
+/// until the next call.
+const Eigen::MatrixXd& Assembly::newton_step(const std::vector<double>& parameters,
+                                             const Equations<double>& equations,
                                              const std::vector<int>& free, double rank_tolerance) {
   scale_loops(parameters, equations);
   factor(free, rank_tolerance, &work_.newton);
   return work_.newton.solve(work_.rows, &work_.scaled, &work_.solution);
 }
 
-/// The largest change but those of followers of couplings: a coupling is linear and has no branches.
+/// The largest change but those of followers of couplings: a coupling is linear and has no
+/// branches.
 double Assembly::largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const {
   double largest = 0.0;
   for (std::size_t k = 0; k < free.size(); ++k)
@@ -168,8 +183,8 @@ double Assembly::largest_turn(const std::vector<int>& free, const Eigen::MatrixX
   return largest;
 }
 
-Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free,
-                                double rank_tolerance) {
+Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations,
+                                const std::vector<int>& free, double rank_tolerance) {
   double previous = std::numeric_limits<double>::infinity(), closed = kClosed;
   LoopMiss nearest{"", previous, previous};
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
@@ -183,8 +198,10 @@ Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations
     if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Rest::kClosed;
     previous = error;
     const Eigen::MatrixXd& step = newton_step(parameters, *equations, free, rank_tolerance);
-    const double largest = largest_turn(free, step), shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
-    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= shortened * step(to_signed(k), 0);
+    const double largest = largest_turn(free, step),
+                 shortened = largest > kLargestTurn ? kLargestTurn / largest : 1.0;
+    for (std::size_t k = 0; k < free.size(); ++k)
+      theta_[free[k]] -= shortened * step(to_signed(k), 0);
     if (step.size() == 0 || (error >= closed && step.cwiseAbs().maxCoeff() < kAtRest * size)) break;
   }
   if (previous < closed) return Rest::kClosed;
@@ -201,12 +218,15 @@ bool Assembly::is_near() const {
 void Assembly::note_miss(const VectorX<double>& errors, const Equations<double>& equations) {
   worst_miss_ = {};
   for (std::size_t k = 0; k < loops_.owners(); ++k)
-    if (const LoopMiss miss = loops_.miss(k, errors, equations); size_of(miss) > size_of(worst_miss_)) worst_miss_ = miss;
+    if (const LoopMiss miss = loops_.miss(k, errors, equations);
+        size_of(miss) > size_of(worst_miss_))
+      worst_miss_ = miss;
 }
 
-// If changing the dependent coordinates alone does not close the loops, the start may be singular (a stretched-out linkage): then all
-// coordinates without a given position are changed.
-Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance) {
+// If changing the dependent coordinates alone does not close the loops, the start may be singular
+// (a stretched-out linkage): then all coordinates without a given position are changed.
+Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations,
+                               double rank_tolerance) {
   const ColumnPreferences& preferences = work_.positions;
   by_preference(position_given_, &work_.positions);
   work_.open = preferences[0];
@@ -227,7 +247,8 @@ Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<
   return second;
 }
 
-// A position within the tolerance but not closed may be almost singular, with an exactly closed position nearby: it is taken if found.
+// A position within the tolerance but not closed may be almost singular, with an exactly closed
+// position nearby: it is taken if found.
 void Assembly::refine(const std::vector<double>& parameters, Equations<double>* equations) {
   work_.near = theta_;
   const LoopMiss miss = worst_miss_;
@@ -241,10 +262,12 @@ void Assembly::refine(const std::vector<double>& parameters, Equations<double>* 
 Status Assembly::closure_failed() const {
   if (cancelled()) return {StatusCode::kCancelled, 0.0, "cancelled"};
   return {StatusCode::kAssemblyFailed, 0.0,
-          "loop or coupling '" + std::string(worst_miss_.owner) + "' cannot be closed from the given initial state"};
+          "loop or coupling '" + std::string(worst_miss_.owner) +
+              "' cannot be closed from the given initial state"};
 }
 
-Assembly::Rest Assembly::close_from_start(const std::vector<double>& parameters, Equations<double>* equations) {
+Assembly::Rest Assembly::close_from_start(const std::vector<double>& parameters,
+                                          Equations<double>* equations) {
   work_.start = theta_;
   Rest rest = close(parameters, equations, kRank);
   if (rest == Rest::kNear) refine(parameters, equations);
@@ -256,7 +279,8 @@ Assembly::Rest Assembly::close_from_start(const std::vector<double>& parameters,
   return rest;
 }
 
-Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations) {
+Status Assembly::solve_positions(const std::vector<double>& parameters,
+                                 Equations<double>* equations) {
   all_rows_count_ = true;
   if (close_or_nudge(parameters, equations) == Rest::kApart) return closure_failed();
   all_rows_count_ = !system_.sharing().drops();
@@ -273,7 +297,8 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   return {};
 }
 
-Status Assembly::solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+Status Assembly::solve_positions(const std::vector<double>& parameters,
+                                 Equations<double>* equations, State<double>* state) {
   warnings_.clear();
   contradicting_.clear();
   state->resize(system_.layout());
@@ -291,7 +316,8 @@ Status Assembly::solve_positions(const std::vector<double>& parameters, Equation
   return status;
 }
 
-Status Assembly::solve_velocities(const std::vector<double>& parameters, Equations<double>* equations) {
+Status Assembly::solve_velocities(const std::vector<double>& parameters,
+                                  Equations<double>* equations) {
   ColumnPreferences& preferences = work_.velocities;
   preferences.resize(3);
   work_.not_open = velocity_given_;
@@ -299,7 +325,8 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
     if (position_given_[k]) work_.not_open[k] = true;
   by_preference(work_.not_open, &preferences);
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = to_index(c); position_given_[k] && !velocity_given_[k]) preferences[2].push_back(c);
+    if (const auto k = to_index(c); position_given_[k] && !velocity_given_[k])
+      preferences[2].push_back(c);
   scale_loops(parameters, *equations);
   by_preference(position_given_, &work_.positions);
   choose(work_.positions, &positions_);
@@ -310,26 +337,31 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters, Equatio
       if (drops_[to_index(entry.row())]) entry.valueRef() *= 0.0;
   work_.rows.noalias() = work_.enforced * theta_rate_;
   const Eigen::MatrixXd& step = velocities_.solve(work_.rows, &work_.scaled, &work_.solution);
-  for (std::size_t k = 0; k < velocities_.columns.size(); ++k) theta_rate_[velocities_.columns[k]] -= step(to_signed(k), 0);
+  for (std::size_t k = 0; k < velocities_.columns.size(); ++k)
+    theta_rate_[velocities_.columns[k]] -= step(to_signed(k), 0);
   work_.left.noalias() = work_.enforced * theta_rate_;
-  if (work_.left.size() > 0 && !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
+  if (work_.left.size() > 0 &&
+      !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
     return contradiction();
   return {};
 }
 
-Status Assembly::solve_velocities(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+Status Assembly::solve_velocities(const std::vector<double>& parameters,
+                                  Equations<double>* equations, State<double>* state) {
   if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
   const Status branch = choose_branch(parameters, equations);
   place(parameters, equations, state);
   return branch;
 }
 
-Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations,
+                              State<double>* state) {
   const Status status = solve_positions(parameters, equations, state);
   return status.ok() ? solve_velocities(parameters, equations, state) : status;
 }
 
-Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state) {
+Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations,
+                       State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
   if (system_.begins_controllers()) equations->begin_controllers(state);
   if (Status status = solve_rates(equations, state); !status.ok()) return status;
@@ -339,7 +371,8 @@ Status Assembly::solve(const std::vector<double>& parameters, Equations<double>*
 Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
   const char* const place = state->t > 0.0 ? "" : " at the start";
   double g = 0.0, previous = std::numeric_limits<double>::infinity();
-  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
+  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are
+  // not unique.
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   factor_ = nullptr;
   if (system_.begins_explicitly() && equations->mass_factor()) {
@@ -353,20 +386,27 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
   const bool apart = system_.has_rates_apart();
   for (int iteration = 0; iteration < 100; ++iteration) {
     if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
-    apart ? equations->rates(*state, &residual_, &g, &derivatives_) : equations->residual(*state, &residual_, &g);
+    apart ? equations->rates(*state, &residual_, &g, &derivatives_)
+          : equations->residual(*state, &residual_, &g);
     const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!std::isfinite(error)) return {StatusCode::kNonFinite, state->t, std::string("the equations of motion are not finite") + place};
+    if (!std::isfinite(error))
+      return {StatusCode::kNonFinite, state->t,
+              std::string("the equations of motion are not finite") + place};
     if (!apart) equations->linearize(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
-      return {StatusCode::kSingularMatrix, state->t, "the augmented matrix of the equations of motion is singular"};
+      return {StatusCode::kSingularMatrix, state->t,
+              "the augmented matrix of the equations of motion is singular"};
     matrix_.lu().solve(residual_);
-    const double size = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (1.0 + state->z.cwiseAbs().maxCoeff());
+    const double size = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+                        (1.0 + state->z.cwiseAbs().maxCoeff());
     state->z -= residual_;
     if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
     previous = size;
   }
-  return {StatusCode::kInitialReactionsFailed, state->t,
-          std::string("no accelerations and reactions satisfy the equations of motion with friction") + place};
+  return {
+      StatusCode::kInitialReactionsFailed, state->t,
+      std::string("no accelerations and reactions satisfy the equations of motion with friction") +
+          place};
 }
 
 void Assembly::solve_at_rates(Out<double> x) const {
@@ -376,9 +416,11 @@ void Assembly::solve_at_rates(Out<double> x) const {
     matrix_.lu().solve(x);
 }
 
-void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations, State<double>* rates) {
+void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations,
+                                   State<double>* rates) {
   VectorX<double> change;
-  // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are there already in the other case.
+  // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are
+  // there already in the other case.
   if (system_.has_rates_apart()) equations->linearize(at, &derivatives_);
   rates->z.setZero(system_.layout().columns());
   directional_derivative(system_, derivatives_, *rates, &change);

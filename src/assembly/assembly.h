@@ -22,7 +22,8 @@ class CompiledSystem;
 template <class T>
 class Equations;
 
-/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from design to design.
+/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from
+/// design to design.
 template <class T>
 struct ExtensionWorkspace {
   VectorX<T> theta, rate, Phi, Phi_rate, G;
@@ -32,55 +33,72 @@ struct ExtensionWorkspace {
 
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
-/// Positions: the tree's joint coordinates theta start from the study's positions, else from its guesses, else from zero. Coordinates with
-/// a given position are held. Of the others, Newton's method changes as many as the loops and couplings determine (the dependent
-/// coordinates); the rest keep their start values. The follower of a coupling starts at the value that the coupling implies and is chosen
-/// as a dependent coordinate first.
-/// If the loops do not close at the study's own design, and joints along them have neither position nor guess, small guesses are tried: a
+/// Positions: the tree's joint coordinates theta start from the study's positions, else from its
+/// guesses, else from zero. Coordinates with a given position are held. Of the others, Newton's
+/// method changes as many as the loops and couplings determine (the dependent coordinates); the
+/// rest keep their start values. The follower of a coupling starts at the value that the coupling
+/// implies and is chosen as a dependent coordinate first. If the loops do not close at the study's
+/// own design, and joints along them have neither position nor guess, small guesses are tried: a
 /// linkage that is stretched out in a line cannot bend by Newton's method alone.
-/// Branch: the solution at the study's own design is kept, and that of every other design is compared with its continuation along the
-/// straight line between the two designs, doc/theory.md (19b). Where they differ, the continuation counts, so that positions are
-/// continuous in the design and do not depend on the designs solved before.
-/// Velocities: the same choice of dependent coordinates for the rates, with one linear solve.
-/// Accelerations and multipliers: Newton's method on G(z) = 0 from z = 0, where the multipliers, and with them friction, are zero.
+/// Branch: the solution at the study's own design is kept, and that of every other design is
+/// compared with its continuation along the straight line between the two designs, doc/theory.md
+/// (19b). Where they differ, the continuation counts, so that positions are continuous in the
+/// design and do not depend on the designs solved before. Velocities: the same choice of dependent
+/// coordinates for the rates, with one linear solve. Accelerations and multipliers: Newton's method
+/// on G(z) = 0 from z = 0, where the multipliers, and with them friction, are zero.
 ///
-/// Statuses of the solve functions: kAssemblyFailed (a loop or coupling does not close within solver.closure_tolerance),
-/// kInitialVelocityFailed (given velocities contradict each other), kSingularConfiguration, kSingularMatrix, kNonFinite,
-/// kInitialReactionsFailed, kCancelled. Not thread-safe.
+/// Statuses of the solve functions: kAssemblyFailed (a loop or coupling does not close within
+/// solver.closure_tolerance), kInitialVelocityFailed (given velocities contradict each other),
+/// kSingularConfiguration, kSingularMatrix, kNonFinite, kInitialReactionsFailed, kCancelled. Not
+/// thread-safe.
 class Assembly {
  public:
   explicit Assembly(const CompiledSystem& system);
 
-  /// Later solutions start at `time` [s] in place of 0, with the coordinates `theta` (TreeLayout order) in place of the study's guesses.
+  /// Later solutions start at `time` [s] in place of 0, with the coordinates `theta` (TreeLayout
+  /// order) in place of the study's guesses.
   void begin_at(double time, const VectorX<double>& theta);
 
-  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t = 0, or as begin_at() says, and the
-  /// extra states as set_extra_states() says, except for controllers with another begin (Formulas::begin_controllers()).
+  /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t
+  /// = 0, or as begin_at() says, and the extra states as set_extra_states() says, except for
+  /// controllers with another begin (Formulas::begin_controllers()).
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
-  Status solve(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+  Status solve(const std::vector<double>& parameters, Equations<double>* equations,
+               State<double>* state);
 
   /// Finds positions and velocities only; the accelerations and multipliers in `state` are zero.
-  Status solve_motion(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
-  /// Finds positions only. First every row of the loops and couplings counts, dropped ones too; if the system drops rows, the enforced rows
-  /// are then solved to rounding. The rates in `state` are those given by the study, not solved for.
-  Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
-  /// Finds velocities at the positions that the last solve_positions() found, which `state` must hold.
-  Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+  Status solve_motion(const std::vector<double>& parameters, Equations<double>* equations,
+                      State<double>* state);
+  /// Finds positions only. First every row of the loops and couplings counts, dropped ones too; if
+  /// the system drops rows, the enforced rows are then solved to rounding. The rates in `state` are
+  /// those given by the study, not solved for.
+  Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations,
+                         State<double>* state);
+  /// Finds velocities at the positions that the last solve_positions() found, which `state` must
+  /// hold.
+  Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations,
+                          State<double>* state);
 
-  /// Finds positions and velocities near a state of a run whose design has changed, in place of the study's start: coordinates whose
-  /// positions the study gives keep their positions and rates if the loops allow it; the other coordinates follow. Extra states and
-  /// accelerations in `state` stay. @param from tree coordinates of the run. @param state of the run, overwritten unless this fails.
-  Status solve_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+  /// Finds positions and velocities near a state of a run whose design has changed, in place of the
+  /// study's start: coordinates whose positions the study gives keep their positions and rates if
+  /// the loops allow it; the other coordinates follow. Extra states and accelerations in `state`
+  /// stay. @param from tree coordinates of the run. @param state of the run, overwritten unless
+  /// this fails.
+  Status solve_from(const TreeCoordinates& from, const std::vector<double>& parameters,
+                    Equations<double>* equations, State<double>* state);
 
-  /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters` (complex step or lanes) through the
-  /// last solution of solve(). `state` receives that solution with its derivatives.
-  /// @param start the state that the last solve() found. @param equations must hold the design at `parameters`, derivatives included.
+  /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters`
+  /// (complex step or lanes) through the last solution of solve(). `state` receives that solution
+  /// with its derivatives.
+  /// @param start the state that the last solve() found. @param equations must hold the design at
+  /// `parameters`, derivatives included.
   template <class T>
-  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, ExtensionWorkspace<T>* workspace,
-              State<T>* state) const;
+  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations,
+              ExtensionWorkspace<T>* workspace, State<T>* state) const;
   template <class T>
-  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations, State<T>* state) const {
+  void extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations,
+              State<T>* state) const {
     ExtensionWorkspace<T> workspace;
     extend(parameters, start, equations, &workspace, state);
   }
@@ -93,46 +111,59 @@ class Assembly {
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.
   const VectorX<double>& theta() const { return theta_; }
   const TreeLayout& tree() const { return tree_; }
-  /// Warnings about the last start: `singular_start`, `branch_continued`, `branch_lost`, `guessed_start`, or none.
+  /// Warnings about the last start: `singular_start`, `branch_continued`, `branch_lost`,
+  /// `guessed_start`, or none.
   const Warnings& warnings() const { return warnings_; }
-  /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty unless kInitialVelocityFailed.
+  /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty
+  /// unless kInitialVelocityFailed.
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
-  /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states), starting from the present state->z.
+  /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states),
+  /// starting from the present state->z.
   Status solve_rates(Equations<double>* equations, State<double>* state);
-  /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts, which follow from the first-order parts of
-  /// the rest of `state`. @param z that solution; it must belong to the values of `state`. @param equations must hold the design,
-  /// derivatives included.
+  /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts,
+  /// which follow from the first-order parts of the rest of `state`. @param z that solution; it
+  /// must belong to the values of `state`. @param equations must hold the design, derivatives
+  /// included.
   template <class T>
-  void extend_rates(const VectorX<double>& z, Equations<T>* equations, ExtensionWorkspace<T>* workspace, State<T>* state) const;
+  void extend_rates(const VectorX<double>& z, Equations<T>* equations,
+                    ExtensionWorkspace<T>* workspace, State<T>* state) const;
   template <class T>
   void extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const {
     ExtensionWorkspace<T> workspace;
     extend_rates(z, equations, &workspace, state);
   }
-  /// The time derivative of z at the solution of the last solve_rates(), where q, v and s change as `rates` says [per s]; written to
-  /// rates->z. @param at that solution.
-  void differentiate_rates(const State<double>& at, Equations<double>* equations, State<double>* rates);
-  /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled. nullptr: no cancellation.
+  /// The time derivative of z at the solution of the last solve_rates(), where q, v and s change as
+  /// `rates` says [per s]; written to rates->z. @param at that solution.
+  void differentiate_rates(const State<double>& at, Equations<double>* equations,
+                           State<double>* rates);
+  /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled.
+  /// nullptr: no cancellation.
   void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
-  /// The largest closure error of a loop or coupling at the last positions; after a failure, at the nearest positions that were tried.
+  /// The largest closure error of a loop or coupling at the last positions; after a failure, at the
+  /// nearest positions that were tried.
   const LoopMiss& worst_miss() const { return worst_miss_; }
   const LoopJacobian& loops() const { return loops_; }
 
  private:
-  static constexpr double kClosed = 1e-12;  // a loop error below this times the mechanism's size counts as closed
-  static constexpr double kAtRest = 1e-13;  // a Newton step [rad or m] below this times the mechanism's size counts as zero
+  static constexpr double kClosed =
+      1e-12;  // a loop error below this times the mechanism's size counts as closed
+  static constexpr double kAtRest =
+      1e-13;  // a Newton step [rad or m] below this times the mechanism's size counts as zero
 
   struct ScaledLoops {
-    SparseMatrix matrix, unscaled;  ///< loops_.rows() x tree_.size; in `matrix` the rows that do not count are zero
+    SparseMatrix matrix,
+        unscaled;  ///< loops_.rows() x tree_.size; in `matrix` the rows that do not count are zero
     LoopScales scales;
   };
   struct Dependents {
     std::vector<int> columns;  ///< the dependent coordinates
     LeastSquares inverse;      ///< factorization of their columns of the scaled Jacobian
     LoopScales scales;
-    /// Least-squares changes of the dependent coordinates for given (unscaled) changes of the loops' rows, one column per case. @param
-    /// scaled, workspace overwritten; the result is in the workspace.
-    const Eigen::MatrixXd& solve(const Eigen::MatrixXd& rows, Eigen::MatrixXd* scaled, LeastSquaresWorkspace* workspace) const;
+    /// Least-squares changes of the dependent coordinates for given (unscaled) changes of the
+    /// loops' rows, one column per case. @param scaled, workspace overwritten; the result is in the
+    /// workspace.
+    const Eigen::MatrixXd& solve(const Eigen::MatrixXd& rows, Eigen::MatrixXd* scaled,
+                                 LeastSquaresWorkspace* workspace) const;
   };
   /// The memory that positions and velocities are solved for in.
   struct Workspace {
@@ -144,9 +175,11 @@ class Assembly {
     SparseMatrix enforced;  ///< the unscaled Jacobian, dropped rows zero
     State<double> state;
     VectorX<double> errors, rates, left;
-    VectorX<double> start, first, near;     ///< tree coordinates to return to, of solve_positions(), close() and refine()
-    VectorX<double> plain, followed, rate;  ///< tree coordinates and rates to return to, of keep_branch() and follow()
-    std::vector<double> between;            ///< a design on the way, of follow()
+    VectorX<double> start, first,
+        near;  ///< tree coordinates to return to, of solve_positions(), close() and refine()
+    VectorX<double> plain, followed,
+        rate;  ///< tree coordinates and rates to return to, of keep_branch() and follow()
+    std::vector<double> between;  ///< a design on the way, of follow()
     Eigen::MatrixXd rows, scaled;
     ColumnPreferences positions, velocities;
     std::vector<int> free, open, moved;  ///< `moved`: the coordinates that the last close() changed
@@ -165,23 +198,30 @@ class Assembly {
 
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations);
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations);
-  Status close_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations);
-  Rest close(const std::vector<double>& parameters, Equations<double>* equations, double rank_tolerance);
-  Rest newton(const std::vector<double>& parameters, Equations<double>* equations, const std::vector<int>& free, double rank_tolerance);
+  Status close_from(const TreeCoordinates& from, const std::vector<double>& parameters,
+                    Equations<double>* equations);
+  Rest close(const std::vector<double>& parameters, Equations<double>* equations,
+             double rank_tolerance);
+  Rest newton(const std::vector<double>& parameters, Equations<double>* equations,
+              const std::vector<int>& free, double rank_tolerance);
   double find_errors(const std::vector<double>& parameters, Equations<double>* equations);
-  const Eigen::MatrixXd& newton_step(const std::vector<double>& parameters, const Equations<double>& equations,
+  const Eigen::MatrixXd& newton_step(const std::vector<double>& parameters,
+                                     const Equations<double>& equations,
                                      const std::vector<int>& free, double rank_tolerance);
   double largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const;
   Rest close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations);
   Rest close_from_start(const std::vector<double>& parameters, Equations<double>* equations);
-  Status keep_branch(const Status& plain, const std::vector<double>& parameters, Equations<double>* equations);
+  Status keep_branch(const Status& plain, const std::vector<double>& parameters,
+                     Equations<double>* equations);
   bool follow(const std::vector<double>& parameters, Equations<double>* equations);
   bool converges_at_once(const std::vector<double>& parameters, Equations<double>* equations);
   void note_origin();
   std::string guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const;
-  void warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta, const VectorX<double>& other,
-                      const std::vector<double>& parameters);
-  bool is_own_design(const std::vector<double>& parameters) const { return guess_.size() == 0 && parameters == own_design_; }
+  void warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta,
+                      const VectorX<double>& other, const std::vector<double>& parameters);
+  bool is_own_design(const std::vector<double>& parameters) const {
+    return guess_.size() == 0 && parameters == own_design_;
+  }
   void refine(const std::vector<double>& parameters, Equations<double>* equations);
   bool cancelled() const { return is_set(cancel_); }
   Status closure_failed() const;
@@ -191,14 +231,17 @@ class Assembly {
   Status choose_branch(const std::vector<double>& parameters, Equations<double>* equations);
   Status check_rest(const State<double>& state);
   Status contradiction();
-  void place(const std::vector<double>& parameters, Equations<double>* equations, State<double>* state);
+  void place(const std::vector<double>& parameters, Equations<double>* equations,
+             State<double>* state);
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Constants<double>& constants);
-  /// The first two lists of column preferences: followers, then the other coordinates that are not given.
+  /// The first two lists of column preferences: followers, then the other coordinates that are not
+  /// given.
   void by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const;
   /// Sets work_.loops.
   void scale_loops(const std::vector<double>& parameters, const Equations<double>& equations);
-  /// Sets work_.rows to the rows of the loops and couplings of work_.errors; dropped rows are zero unless all_rows_count_.
+  /// Sets work_.rows to the rows of the loops and couplings of work_.errors; dropped rows are zero
+  /// unless all_rows_count_.
   void take_loop_rows();
   /// The dependent coordinates at work_.loops, valid until the next call.
   const std::vector<int>& choose_columns(const ColumnPreferences& preferences);
@@ -207,14 +250,15 @@ class Assembly {
   /// Overwrites x with the solution of G_z y = x at the last solution of solve_rates().
   void solve_at_rates(Out<double> x) const;
   template <class T>
-  void correct(const Dependents& dependents, const VectorX<T>& rows, ExtensionWorkspace<T>* workspace, VectorX<T>* coordinates) const;
+  void correct(const Dependents& dependents, const VectorX<T>& rows,
+               ExtensionWorkspace<T>* workspace, VectorX<T>* coordinates) const;
 
   const CompiledSystem& system_;
   TreeLayout tree_;
   LoopJacobian loops_;
   std::vector<bool> drops_;     ///< per row of loops_: whether the system does not enforce it
   bool all_rows_count_ = true;  ///< whether dropped rows take part in the solution
-  double rank_tolerance_;       ///< relative; the tolerance with which the last positions were found
+  double rank_tolerance_;  ///< relative; the tolerance with which the last positions were found
   SingularStart singular_start_;
   Warnings warnings_;
   std::vector<std::size_t> contradicting_;
@@ -228,8 +272,10 @@ class Assembly {
   Origin origin_;
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
-  IterationMatrix matrix_;              ///< factored at the last solution of solve_rates() unless that has mass factors
-  const MassFactor* factor_ = nullptr;  ///< of that solution, if an expression gave it, with these values
+  IterationMatrix
+      matrix_;  ///< factored at the last solution of solve_rates() unless that has mass factors
+  const MassFactor* factor_ =
+      nullptr;  ///< of that solution, if an expression gave it, with these values
   std::vector<double> factor_values_;
   VectorX<double> residual_;  ///< workspace of solve_rates()
   LoopMiss worst_miss_;
@@ -237,13 +283,15 @@ class Assembly {
   const std::atomic<bool>* cancel_ = nullptr;
 };
 
-/// The workspace of one analysis at t = 0: a design, its equations, an Assembly and the state that the Assembly computes. Not thread-safe.
+/// The workspace of one analysis at t = 0: a design, its equations, an Assembly and the state that
+/// the Assembly computes. Not thread-safe.
 struct StartWorkspace {
   /// @param system must outlive the workspace.
   /// @param design all named parameters (Study::parameters order).
   StartWorkspace(const CompiledSystem& system, std::vector<double> design)
       : parameters(std::move(design)), equations(system), assembly(system) {
-    equations.compiled().allow(false);  // recording and compiling takes longer than the few evaluations at t = 0
+    equations.compiled().allow(
+        false);  // recording and compiling takes longer than the few evaluations at t = 0
     equations.set_design(parameters);
   }
 

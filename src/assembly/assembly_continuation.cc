@@ -14,9 +14,12 @@
 namespace codesign {
 namespace {
 
-constexpr double kSameBranch = 1e-6;   // relative; tree coordinates that differ by less belong to one branch
-constexpr double kFirstTurn = 0.5;     // [rad or m] limit of the first Newton step per coordinate on the way between two designs
-constexpr double kContraction = 0.25;  // of Newton steps; with less, the solution nearest to the start of the iteration is found
+constexpr double kSameBranch =
+    1e-6;  // relative; tree coordinates that differ by less belong to one branch
+constexpr double kFirstTurn =
+    0.5;  // [rad or m] limit of the first Newton step per coordinate on the way between two designs
+constexpr double kContraction = 0.25;  // of Newton steps; with less, the solution nearest to the
+                                       // start of the iteration is found
 constexpr int kMostCorrections = 12;
 constexpr double kShortest = 1.0 / 1024;  // part of the way between two designs
 
@@ -28,7 +31,8 @@ std::string design_text(const MotionStudy& study, const std::vector<double>& par
   std::string text;
   for (std::size_t k = 0; k < std::min(kMost, study.tuned.size()); ++k) {
     const auto index = to_index(study.tuned[k]);
-    text += (k > 0 ? ", " : "") + study.parameters[index].name + " = " + readable(parameters[index], 6);
+    text +=
+        (k > 0 ? ", " : "") + study.parameters[index].name + " = " + readable(parameters[index], 6);
   }
   return text + (study.tuned.size() > kMost ? ", ..." : "");
 }
@@ -37,7 +41,8 @@ constexpr double kTakesPart = 1e-9;  // smaller entries of the loops' Jacobian c
 
 }  // namespace
 
-Status Assembly::close_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations) {
+Status Assembly::close_from(const TreeCoordinates& from, const std::vector<double>& parameters,
+                            Equations<double>* equations) {
   warnings_.clear();
   contradicting_.clear();
   matrix_.forget();
@@ -48,12 +53,13 @@ Status Assembly::close_from(const TreeCoordinates& from, const std::vector<doubl
   return status.ok() ? solve_velocities(parameters, equations) : status;
 }
 
-// A start may give more positions than the mechanism has freedoms, if they happen to fit. They fit no other dimensions, so that a second
-// attempt holds none.
-Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<double>& parameters, Equations<double>* equations,
-                            State<double>* state) {
+// A start may give more positions than the mechanism has freedoms, if they happen to fit. They fit
+// no other dimensions, so that a second attempt holds none.
+Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<double>& parameters,
+                            Equations<double>* equations, State<double>* state) {
   const VectorX<double> theta = theta_, rate = theta_rate_;
-  const std::vector<bool> positions = position_given_, guesses = guess_given_, velocities = velocity_given_;
+  const std::vector<bool> positions = position_given_, guesses = guess_given_,
+                          velocities = velocity_given_;
   const std::vector<bool> none(positions.size(), false);
   guess_given_ = velocity_given_ = none;
   Status status = close_from(from, parameters, equations);
@@ -83,17 +89,20 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
 }
 
 void Assembly::note_origin() {
-  // If all open coordinates had to move, the position has no dependent coordinates that other designs could share.
+  // If all open coordinates had to move, the position has no dependent coordinates that other
+  // designs could share.
   origin_.is_known = loops_.rows() > 0 && work_.moved.size() <= work_.free.size();
   origin_.theta = theta_;
   origin_.free = work_.moved;
   origin_.rank_tolerance = rank_tolerance_;
   work_.between = own_design_;
-  work_.plain = work_.followed = work_.rate = theta_;  // of their size already, so that later designs ask for no memory
+  work_.plain = work_.followed = work_.rate =
+      theta_;  // of their size already, so that later designs ask for no memory
 }
 
 // The solution from the study's guesses is kept to the last bit where it is the continued one.
-Status Assembly::keep_branch(const Status& plain, const std::vector<double>& parameters, Equations<double>* equations) {
+Status Assembly::keep_branch(const Status& plain, const std::vector<double>& parameters,
+                             Equations<double>* equations) {
   if (cancelled()) return plain;
   work_.plain = theta_;
   work_.rate = theta_rate_;
@@ -101,11 +110,14 @@ Status Assembly::keep_branch(const Status& plain, const std::vector<double>& par
   const double rank_tolerance = rank_tolerance_;
   const bool all_rows_count = all_rows_count_, reached = follow(parameters, equations);
   theta_rate_ = work_.rate;
-  const bool same = plain.ok() && (theta_ - work_.plain).cwiseAbs().maxCoeff() <= kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
+  const bool same = plain.ok() && (theta_ - work_.plain).cwiseAbs().maxCoeff() <=
+                                      kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
   if (reached && !same) {
     warn_of_branch("branch_continued",
-                   "the guesses of the study lead to another position of the loop than its position at the study's own values, "
-                   "continued to this design; the continued position is used, so that the objective does not jump; to find it where "
+                   "the guesses of the study lead to another position of the loop than its "
+                   "position at the study's own values, "
+                   "continued to this design; the continued position is used, so that the "
+                   "objective does not jump; to find it where "
                    "this design is simulated by itself",
                    theta_, work_.plain, parameters);
     return {};
@@ -116,16 +128,19 @@ Status Assembly::keep_branch(const Status& plain, const std::vector<double>& par
   all_rows_count_ = all_rows_count;
   if (!reached && plain.ok() && !cancelled())
     warn_of_branch("branch_lost",
-                   "the position of the loop at the study's own values cannot be continued to this design, since the loop cannot be closed "
-                   "or is in a singular position on the way; the position found from the study's guesses is used, and the objective may "
+                   "the position of the loop at the study's own values cannot be continued to this "
+                   "design, since the loop cannot be closed "
+                   "or is in a singular position on the way; the position found from the study's "
+                   "guesses is used, and the objective may "
                    "jump here; to stay near the position reached on the way",
                    work_.followed, theta_, parameters);
   return plain;
 }
 
-/// Continues the position at the study's own design along the straight line to `parameters`, which `equations` must hold, with steps that
-/// are halved where Newton's method does not converge at once. True if theta_ is the solution at `parameters`; else work_.followed is the
-/// last solution on the way.
+/// Continues the position at the study's own design along the straight line to `parameters`, which
+/// `equations` must hold, with steps that are halved where Newton's method does not converge at
+/// once. True if theta_ is the solution at `parameters`; else work_.followed is the last solution
+/// on the way.
 bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* equations) {
   rank_tolerance_ = origin_.rank_tolerance;
   all_rows_count_ = !system_.sharing().drops();
@@ -136,7 +151,8 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
     const double next = std::min(1.0, reached + step);
     work_.between = parameters;
     if (next < 1.0)
-      for (std::size_t k = 0; k < own_design_.size(); ++k) work_.between[k] = own_design_[k] + next * (parameters[k] - own_design_[k]);
+      for (std::size_t k = 0; k < own_design_.size(); ++k)
+        work_.between[k] = own_design_[k] + next * (parameters[k] - own_design_[k]);
     if (next < 1.0 || !is_held) equations->set_design(work_.between);
     is_held = next == 1.0;
     theta_ = work_.followed;
@@ -154,26 +170,34 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
   return reached == 1.0;
 }
 
-/// Newton's method for the dependent coordinates of the origin, from theta_. True if it converges with contracting steps from the first
-/// one on, as it does in the neighbourhood of a regular solution only.
-bool Assembly::converges_at_once(const std::vector<double>& parameters, Equations<double>* equations) {
+/// Newton's method for the dependent coordinates of the origin, from theta_. True if it converges
+/// with contracting steps from the first one on, as it does in the neighbourhood of a regular
+/// solution only.
+bool Assembly::converges_at_once(const std::vector<double>& parameters,
+                                 Equations<double>* equations) {
   double previous = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostCorrections && !cancelled(); ++iteration) {
-    const double error = find_errors(parameters, equations), size = 1.0 + theta_.cwiseAbs().maxCoeff();
+    const double error = find_errors(parameters, equations),
+                 size = 1.0 + theta_.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return false;
     if (error == 0.0) return true;
-    const Eigen::MatrixXd& step = newton_step(parameters, *equations, origin_.free, rank_tolerance_);
-    const double turn = largest_turn(origin_.free, step), change = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
+    const Eigen::MatrixXd& step =
+        newton_step(parameters, *equations, origin_.free, rank_tolerance_);
+    const double turn = largest_turn(origin_.free, step),
+                 change = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
     if (!(turn <= kFirstTurn)) return false;
     if (change <= kAtRest * size || change > kContraction * previous) return error < kClosed * size;
-    for (std::size_t k = 0; k < origin_.free.size(); ++k) theta_[origin_.free[k]] -= step(to_signed(k), 0);
+    for (std::size_t k = 0; k < origin_.free.size(); ++k)
+      theta_[origin_.free[k]] -= step(to_signed(k), 0);
     previous = change;
   }
   return false;
 }
 
-/// The study's own start is tried again with small guesses for the joints along the loops that have neither position nor guess.
-Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations) {
+/// The study's own start is tried again with small guesses for the joints along the loops that have
+/// neither position nor guess.
+Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters,
+                                        Equations<double>* equations) {
   const Rest plain = close_from_start(parameters, equations);
   if (plain != Rest::kApart || !is_own_design(parameters) || origin_.nudge.size() > 0) return plain;
   constexpr double kNudge = 0.01;  // [rad], or this part of the loop's longest lever
@@ -184,19 +208,23 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters, E
   const Eigen::VectorXd columns = work_.loops.scales.columns;
   std::vector<int> open;
   for (int c : loops_.coordinates())
-    if (const auto k = to_index(c); !position_given_[k] && !guess_given_[k] && !follows_[k]) open.push_back(c);
+    if (const auto k = to_index(c); !position_given_[k] && !guess_given_[k] && !follows_[k])
+      open.push_back(c);
   // All joints in one direction, every other one in the opposite direction, every other pair.
   for (unsigned period = 0; period < 3 && !open.empty() && !cancelled(); ++period) {
     VectorX<double> nudge = VectorX<double>::Zero(tree_.size);
-    for (std::size_t k = 0; k < open.size(); ++k) nudge[open[k]] = kNudge * columns[open[k]] * ((k * period / 2) % 2 == 0 ? 1.0 : -1.0);
+    for (std::size_t k = 0; k < open.size(); ++k)
+      nudge[open[k]] = kNudge * columns[open[k]] * ((k * period / 2) % 2 == 0 ? 1.0 : -1.0);
     theta_ = start + nudge;
     follow_couplings(equations->constants());
     const Rest rest = close_from_start(parameters, equations);
     if (rest == Rest::kApart) continue;
     warnings_.push_back(
         {"guessed_start",
-         "loop or coupling '" + std::string(miss.owner) + "' cannot be closed from the start values, where its joints may be stretched " +
-             "out in a line: small guesses were tried, and in which direction it bends is arbitrary; to choose it, write initial_state: {" +
+         "loop or coupling '" + std::string(miss.owner) +
+             "' cannot be closed from the start values, where its joints may be stretched " +
+             "out in a line: small guesses were tried, and in which direction it bends is "
+             "arbitrary; to choose it, write initial_state: {" +
              guesses_for(nudge, open) + "}, with other signs for another direction",
          {}});
     origin_.nudge = nudge;
@@ -207,21 +235,27 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters, E
   return plain;
 }
 
-/// Guesses for a study's initial_state, of joints with one coordinate: a: {guess: 0.1}, b: {guess: 0.2}.
-std::string Assembly::guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const {
+/// Guesses for a study's initial_state, of joints with one coordinate: a: {guess: 0.1}, b: {guess:
+/// 0.2}.
+std::string Assembly::guesses_for(const VectorX<double>& theta,
+                                  const std::vector<int>& coordinates) const {
   std::string text;
   for (int j : tree_.joint_order) {
     const JointDescription& joint = system_.robot().joints[to_index(j)];
     const int c = tree_.offset[to_index(j)];
-    if (coordinates_of(joint.type) == 1 && std::find(coordinates.begin(), coordinates.end(), c) != coordinates.end())
-      text += (text.empty() ? "" : ", ") + joint.name + ": {guess: " + to_decimal(to_four_digits(theta[c])) + "}";
+    if (coordinates_of(joint.type) == 1 &&
+        std::find(coordinates.begin(), coordinates.end(), c) != coordinates.end())
+      text += (text.empty() ? "" : ", ") + joint.name +
+              ": {guess: " + to_decimal(to_four_digits(theta[c])) + "}";
   }
   return text;
 }
 
-/// Warns of a start at a design whose position is not the one that the study leads to. @param message what was done, and why to write
-/// guesses. @param theta the guesses. @param other the coordinates that these are to replace.
-void Assembly::warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta, const VectorX<double>& other,
+/// Warns of a start at a design whose position is not the one that the study leads to. @param
+/// message what was done, and why to write guesses. @param theta the guesses. @param other the
+/// coordinates that these are to replace.
+void Assembly::warn_of_branch(const char* code, const std::string& message,
+                              const VectorX<double>& theta, const VectorX<double>& other,
                               const std::vector<double>& parameters) {
   const double most = (theta - other).cwiseAbs().maxCoeff();
   std::vector<int> moved;
@@ -234,8 +268,10 @@ void Assembly::warn_of_branch(const char* code, const std::string& message, cons
   }
   const std::vector<InitialJointState>& given = system_.study().initial_state;
   warnings_.push_back(
-      warn(code, {given.empty() ? SourceLocation{system_.study().file, 1} : given.front().where, "initial_state, loop '" + loop + "'",
-                  message + ", write initial_state: {" + guesses_for(theta, moved) + "}", design_text(system_.study(), parameters), ""}));
+      warn(code, {given.empty() ? SourceLocation{system_.study().file, 1} : given.front().where,
+                  "initial_state, loop '" + loop + "'",
+                  message + ", write initial_state: {" + guesses_for(theta, moved) + "}",
+                  design_text(system_.study(), parameters), ""}));
 }
 
 // The checks of Assembly on the velocities, and from rest the accelerations, of the start.
@@ -259,32 +295,45 @@ Status Assembly::contradiction() {
     }
   }
   return {StatusCode::kInitialVelocityFailed, 0.0,
-          "the given initial velocities of " + joints + " contradict each other: loop or coupling '" + loop + "' cannot follow them"};
+          "the given initial velocities of " + joints +
+              " contradict each other: loop or coupling '" + loop + "' cannot follow them"};
 }
 
-// At a singular position where several motions meet, rates can satisfy the loops to first order without belonging to any motion.
-Status Assembly::choose_branch(const std::vector<double>& parameters, Equations<double>* equations) {
+// At a singular position where several motions meet, rates can satisfy the loops to first order
+// without belonging to any motion.
+Status Assembly::choose_branch(const std::vector<double>& parameters,
+                               Equations<double>* equations) {
   singular_start_.load(parameters, theta_, equations);
   if (singular_start_.is_motion(theta_rate_)) return {};
   const std::string joints = singular_start_.joints();
-  const std::string where = "the start is a singular position, where several motions of " + joints + " meet";
+  const std::string where =
+      "the start is a singular position, where several motions of " + joints + " meet";
   if (!singular_start_.choose_motion(velocity_given_, &theta_rate_))
-    return {StatusCode::kSingularConfiguration, 0.0, where + ", and the given velocities belong to none of them"};
+    return {StatusCode::kSingularConfiguration, 0.0,
+            where + ", and the given velocities belong to none of them"};
   warnings_.push_back({"singular_start",
-                       where + ", and the given velocities do not determine which one begins: one was chosen, and gradients do not include "
-                               "this choice. Give the initial velocity of one more of these joints, or start from another position",
+                       where + ", and the given velocities do not determine which one begins: one "
+                               "was chosen, and gradients do not include "
+                               "this choice. Give the initial velocity of one more of these "
+                               "joints, or start from another position",
                        {}});
   return {};
 }
 
-// From rest, the accelerations take the place of the velocities in the check for a possible motion, doc/theory.md (19a).
+// From rest, the accelerations take the place of the velocities in the check for a possible motion,
+// doc/theory.md (19a).
 Status Assembly::check_rest(const State<double>& state) {
   if (!theta_rate_.isZero(0.0) || !singular_start_.is_singular()) return {};
-  const VectorX<double>& accelerations = singular_start_.tree_accelerations(In<double>(state.z).first(system_.layout().n));
-  if (accelerations.size() == 0 || accelerations.cwiseAbs().maxCoeff() < 1e-9 || singular_start_.is_motion(accelerations)) return {};
+  const VectorX<double>& accelerations =
+      singular_start_.tree_accelerations(In<double>(state.z).first(system_.layout().n));
+  if (accelerations.size() == 0 || accelerations.cwiseAbs().maxCoeff() < 1e-9 ||
+      singular_start_.is_motion(accelerations))
+    return {};
   return {StatusCode::kSingularConfiguration, 0.0,
-          "the start is at rest in a singular position, where several motions of " + singular_start_.joints() +
-              " meet, and the forces do not determine which one begins: give initial velocities, or start from another position"};
+          "the start is at rest in a singular position, where several motions of " +
+              singular_start_.joints() +
+              " meet, and the forces do not determine which one begins: give initial velocities, "
+              "or start from another position"};
 }
 
 }  // namespace codesign

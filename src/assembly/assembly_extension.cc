@@ -8,20 +8,22 @@
 namespace codesign {
 
 template <class T>
-void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows, ExtensionWorkspace<T>* workspace,
-                       VectorX<T>* coordinates) const {
+void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows,
+                       ExtensionWorkspace<T>* workspace, VectorX<T>* coordinates) const {
   ExtensionWorkspace<T>& w = *workspace;
   directions_of(rows, &w.errors);
   loops_.take_part(w.errors, &w.rows);
   const Eigen::MatrixXd& step = dependents.solve(w.rows, &w.scaled, &w.solution);
   w.changes.setZero(coordinates->size(), step.cols());
-  for (std::size_t k = 0; k < dependents.columns.size(); ++k) w.changes.row(dependents.columns[k]) = -step.row(to_signed(k));
+  for (std::size_t k = 0; k < dependents.columns.size(); ++k)
+    w.changes.row(dependents.columns[k]) = -step.row(to_signed(k));
   add_directions(w.changes, coordinates);
 }
 
 template <class T>
-void Assembly::extend(const std::vector<T>& parameters, const State<double>& start, Equations<T>* equations,
-                      ExtensionWorkspace<T>* workspace, State<T>* state) const {
+void Assembly::extend(const std::vector<T>& parameters, const State<double>& start,
+                      Equations<T>* equations, ExtensionWorkspace<T>* workspace,
+                      State<T>* state) const {
   ExtensionWorkspace<T>& w = *workspace;
   state->resize(system_.layout());
   state->t = start.t;
@@ -43,9 +45,11 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   extend_rates(start.z, equations, workspace, state);
 }
 
-// First-order solution of G(z) = 0 with the factorization of the last Newton iteration of solve_rates().
+// First-order solution of G(z) = 0 with the factorization of the last Newton iteration of
+// solve_rates().
 template <class T>
-void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations, ExtensionWorkspace<T>* workspace, State<T>* state) const {
+void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations,
+                            ExtensionWorkspace<T>* workspace, State<T>* state) const {
   T g(0.0);
   state->z = z.template cast<T>();
   equations->residual(*state, &workspace->G, &g);
@@ -56,9 +60,11 @@ void Assembly::extend_rates(const VectorX<double>& z, Equations<T>* equations, E
   add_directions(step, &state->z);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                           \
-  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, ExtensionWorkspace<T>*, State<T>*) const; \
-  template void Assembly::extend_rates<T>(const VectorX<double>&, Equations<T>*, ExtensionWorkspace<T>*, State<T>*) const;
+#define CODESIGN_INSTANTIATE(T)                                                                 \
+  template void Assembly::extend<T>(const std::vector<T>&, const State<double>&, Equations<T>*, \
+                                    ExtensionWorkspace<T>*, State<T>*) const;                   \
+  template void Assembly::extend_rates<T>(const VectorX<double>&, Equations<T>*,                \
+                                          ExtensionWorkspace<T>*, State<T>*) const;
 CODESIGN_INSTANTIATE(std::complex<double>)
 CODESIGN_INSTANTIATE(Lanes<4>)
 CODESIGN_INSTANTIATE(Lanes<8>)

@@ -13,27 +13,32 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfLoops = 1e-9;  // smaller singular values, relative to the largest, count as zero
-constexpr double kNothing = 1e-7;      // forms below this times the largest count as zero: the error of the differences
-constexpr double kStep = 1e-4;         // of central differences [rad or m]
-constexpr int kStarts = 16;            // random starts of the search for branches; fewer within a branch
+constexpr double kRankOfLoops =
+    1e-9;  // smaller singular values, relative to the largest, count as zero
+constexpr double kNothing =
+    1e-7;  // forms below this times the largest count as zero: the error of the differences
+constexpr double kStep = 1e-4;  // of central differences [rad or m]
+constexpr int kStarts = 16;     // random starts of the search for branches; fewer within a branch
 
 using Forms = std::vector<Eigen::MatrixXd>;
 
 double size_of(const Forms& forms) {
   double size = 0.0;
-  for (const Eigen::MatrixXd& form : forms) size = std::max(size, form.size() > 0 ? form.cwiseAbs().maxCoeff() : 0.0);
+  for (const Eigen::MatrixXd& form : forms)
+    size = std::max(size, form.size() > 0 ? form.cwiseAbs().maxCoeff() : 0.0);
   return size;
 }
 
 /// The rows 2 y^T H_k.
 Eigen::MatrixXd gradients(const Forms& forms, const Eigen::VectorXd& y) {
   Eigen::MatrixXd rows(to_signed(forms.size()), y.size());
-  for (std::size_t k = 0; k < forms.size(); ++k) rows.row(to_signed(k)) = 2.0 * (forms[k] * y).transpose();
+  for (std::size_t k = 0; k < forms.size(); ++k)
+    rows.row(to_signed(k)) = 2.0 * (forms[k] * y).transpose();
   return rows;
 }
 
-/// A unit vector that solves all equations, by the Gauss-Newton method from `y`; empty if it does not converge.
+/// A unit vector that solves all equations, by the Gauss-Newton method from `y`; empty if it does
+/// not converge.
 Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
   y.normalize();
   for (int iteration = 0; iteration < 100; ++iteration) {
@@ -48,7 +53,8 @@ Eigen::VectorXd root_from(const Forms& forms, Eigen::VectorXd y) {
 }
 
 /// Orthonormal basis of the vectors in the null space of `rows` that are normal to `y`.
-Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double threshold) {
+Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y,
+                                double threshold) {
   Eigen::MatrixXd stacked(rows.rows() + 1, rows.cols());
   stacked << rows, y.transpose();
   const SingularValues svd = singular_values(stacked, SingularVectors::kRight);
@@ -58,8 +64,8 @@ Eigen::MatrixXd tangents_beside(const Eigen::MatrixXd& rows, const Eigen::Vector
 
 int dimension(const Forms& forms, Eigen::Index size, int starts);
 
-/// Dimension of the solutions near the root y: one for its own direction, plus the dimension of the solutions, among the tangents normal
-/// to y, of the equations whose gradients vanish at y.
+/// Dimension of the solutions near the root y: one for its own direction, plus the dimension of the
+/// solutions, among the tangents normal to y, of the equations whose gradients vanish at y.
 int dimension_at(const Forms& forms, const Eigen::VectorXd& y, int starts) {
   constexpr double kVanishes = 1e-5;  // a double root is found to the square root of rounding
   const Eigen::MatrixXd rows = gradients(forms, y);
@@ -81,13 +87,15 @@ int dimension(const Forms& forms, Eigen::Index size, int starts) {
   std::normal_distribution<double> normal;
   int largest = 0;
   for (int start = 0; start < starts; ++start) {
-    const Eigen::VectorXd y = root_from(forms, Eigen::VectorXd::NullaryExpr(size, [&] { return normal(random); }));
+    const Eigen::VectorXd y =
+        root_from(forms, Eigen::VectorXd::NullaryExpr(size, [&] { return normal(random); }));
     if (y.size() > 0) largest = std::max(largest, dimension_at(forms, y, starts));
   }
   return largest;
 }
 
-Counts count_absolute(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
+Counts count_absolute(const CompiledSystem& system, const std::vector<double>& parameters,
+                      Status* status) {
   const Layout& layout = system.layout();
   Counts counts;
   counts.bodies = layout.bodies;
@@ -99,14 +107,16 @@ Counts count_absolute(const CompiledSystem& system, const std::vector<double>& p
   StartWorkspace start(system, parameters);
   *status = start.solve();
   if (status->code == StatusCode::kAssemblyFailed) return counts;
-  const Redundancy redundancy = analyse_redundancy(system, &start.equations, start.assembly, parameters, start.state);
+  const Redundancy redundancy =
+      analyse_redundancy(system, &start.equations, start.assembly, parameters, start.state);
   counts.redundant_rows = redundancy.rows;
   counts.undetermined_reactions = redundancy.undetermined;
   counts.chosen_friction = redundancy.friction_chosen;
   counts.redundant_constraints = static_cast<int>(counts.redundant_rows.size());
   counts.degrees_of_freedom = layout.n - (counts.constraints - counts.redundant_constraints);
   if (redundancy.rows.size() > redundancy.sharing.dropped.size())
-    counts.degrees_of_freedom -= motions_lost_to_curvature(parameters, start.assembly, start.equations);
+    counts.degrees_of_freedom -=
+        motions_lost_to_curvature(parameters, start.assembly, start.equations);
   counts.dynamic_equations = counts.first_order_equations + counts.constraints;
   counts.sensitivities = counts.parameters * counts.dynamic_equations;
   counts.total_equations = counts.dynamic_equations + counts.sensitivities;
@@ -120,14 +130,18 @@ int dimension_of_cone(const std::vector<Eigen::MatrixXd>& forms) {
   const double size = size_of(forms);
   Forms scaled;
   for (const Eigen::MatrixXd& form : forms)
-    if (form.cwiseAbs().maxCoeff() > kNothing * std::max(1.0, size)) scaled.emplace_back(form / size);
+    if (form.cwiseAbs().maxCoeff() > kNothing * std::max(1.0, size))
+      scaled.emplace_back(form / size);
   return dimension(scaled, forms.front().rows(), kStarts);
 }
 
-int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly, const Equations<double>& equations) {
+int motions_lost_to_curvature(const std::vector<double>& parameters, const Assembly& assembly,
+                              const Equations<double>& equations) {
   const LoopJacobian& loops = assembly.loops();
   if (loops.rows() == 0) return 0;
-  const auto jacobian = [&](const VectorX<double>& theta) { return Eigen::MatrixXd(loops.evaluate(parameters, theta, equations)); };
+  const auto jacobian = [&](const VectorX<double>& theta) {
+    return Eigen::MatrixXd(loops.evaluate(parameters, theta, equations));
+  };
   const VectorX<double> theta = assembly.theta();
   const Eigen::MatrixXd J = jacobian(theta);
   const SingularValues svd = singular_values(J, SingularVectors::kBoth);
@@ -138,7 +152,8 @@ int motions_lost_to_curvature(const std::vector<double>& parameters, const Assem
   Forms forms(to_index(U.cols()), Eigen::MatrixXd(N.cols(), N.cols()));
   for (Eigen::Index a = 0; a < N.cols(); ++a) {
     const VectorX<double> ahead = theta + kStep * N.col(a), behind = theta - kStep * N.col(a);
-    const Eigen::MatrixXd products = product(transposed_product(U, jacobian(ahead) - jacobian(behind)), N) / (2.0 * kStep);
+    const Eigen::MatrixXd products =
+        product(transposed_product(U, jacobian(ahead) - jacobian(behind)), N) / (2.0 * kStep);
     for (Eigen::Index u = 0; u < U.cols(); ++u) forms[to_index(u)].row(a) = products.row(u);
   }
   for (Eigen::MatrixXd& form : forms) form = Eigen::MatrixXd(0.5 * (form + form.transpose()));
@@ -146,7 +161,8 @@ int motions_lost_to_curvature(const std::vector<double>& parameters, const Assem
 }
 
 // The paper's counts are those of absolute coordinates.
-Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters, Status* status) {
+Counts count_equations(const CompiledSystem& system, const std::vector<double>& parameters,
+                       Status* status) {
   const Layout& layout = system.layout();
   Counts counts;
   if (layout.has_forest()) {

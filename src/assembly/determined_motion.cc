@@ -17,9 +17,10 @@ namespace codesign {
 namespace {
 
 constexpr double kRankOfMotions = 1e-9;
-constexpr double kSingular = 1e-12;  // smaller eigenvalues of M, relative to the largest, count as zero
-constexpr double kSmallestGyration =
-    1e-14;  // square of a radius of gyration [m^2]; smaller ones are rounding of the tool that wrote the file
+constexpr double kSingular =
+    1e-12;  // smaller eigenvalues of M, relative to the largest, count as zero
+constexpr double kSmallestGyration = 1e-14;  // square of a radius of gyration [m^2]; smaller ones
+                                             // are rounding of the tool that wrote the file
 
 bool lacks_inertia(const BodyConstants<double>& body) {
   if (!(body.mass > 0.0)) return true;
@@ -27,11 +28,17 @@ bool lacks_inertia(const BodyConstants<double>& body) {
   return !(moments[0] > kSingular * moments[2]) || !(moments[0] > kSmallestGyration * body.mass);
 }
 
-/// The mass matrix in the tree's joint coordinates and the joint rates that loops and couplings allow; doc/theory.md (14a).
+/// The mass matrix in the tree's joint coordinates and the joint rates that loops and couplings
+/// allow; doc/theory.md (14a).
 class Motions {
  public:
-  Motions(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly, Equations<double>* equations)
-      : system_(system), tree_(assembly.tree()), parameters_(parameters), theta_(assembly.theta()), equations_(equations) {
+  Motions(const CompiledSystem& system, const std::vector<double>& parameters,
+          const Assembly& assembly, Equations<double>* equations)
+      : system_(system),
+        tree_(assembly.tree()),
+        parameters_(parameters),
+        theta_(assembly.theta()),
+        equations_(equations) {
     find_independent();
     find_mass_matrix();
     find_allowed();
@@ -57,24 +64,28 @@ class Motions {
                  to_decimal(std::round(motion[k] / motion[largest] * 1e6) / 1e6);
     const int c = coordinates_[to_index(largest)];
     const LinkDescription& link = system_.robot().links[to_index(joint_of(c).child)];
-    throw InputError({link.inertial ? link.inertial->where : link.where, "<link name=\"" + link.name + "\">",
-                      "nothing with inertia resists the link " + direction(c) + ", so that this motion is not determined at the start",
-                      "rates of the joints that move: " + rates,
-                      "an <inertial> with mass, or with inertia in that direction; or a fixed joint"});
+    throw InputError(
+        {link.inertial ? link.inertial->where : link.where, "<link name=\"" + link.name + "\">",
+         "nothing with inertia resists the link " + direction(c) +
+             ", so that this motion is not determined at the start",
+         "rates of the joints that move: " + rates,
+         "an <inertial> with mass, or with inertia in that direction; or a fixed joint"});
   }
 
  private:
   const JointDescription& joint_of(int coordinate) const {
     for (int k : tree_.joint_order) {
       const int first = tree_.offset[to_index(k)];
-      if (coordinate >= first && coordinate < first + coordinates_of(system_.robot().joints[to_index(k)].type))
+      if (coordinate >= first &&
+          coordinate < first + coordinates_of(system_.robot().joints[to_index(k)].type))
         return system_.robot().joints[to_index(k)];
     }
     return system_.robot().joints.front();
   }
 
   std::vector<LinkMotion<double>> unit_motion(int c) const {
-    return link_motions(system_.robot(), tree_, parameters_, theta_, VectorX<double>(VectorX<double>::Unit(tree_.size, c)));
+    return link_motions(system_.robot(), tree_, parameters_, theta_,
+                        VectorX<double>(VectorX<double>::Unit(tree_.size, c)));
   }
 
   /// Sets state_.q, and v to the velocities for the unit rate of one coordinate.
@@ -83,14 +94,16 @@ class Motions {
                       VectorX<double>(VectorX<double>::Unit(tree_.size, c)), &state_.q, v);
   }
 
-  // Leaves out coordinates that move no body, and coordinates of folded joints that move the bodies as other coordinates do.
+  // Leaves out coordinates that move no body, and coordinates of folded joints that move the bodies
+  // as other coordinates do.
   void find_independent() {
     Eigen::MatrixXd all(system_.layout().n, tree_.size);
     VectorX<double> v;
     for (int c = 0; c < tree_.size; ++c) {
       place_unit_motion(c, &v);
       const double size = v.norm();
-      all.col(c) = size > 1e-12 ? Eigen::VectorXd(v / size) : Eigen::VectorXd(Eigen::VectorXd::Zero(v.size()));
+      all.col(c) = size > 1e-12 ? Eigen::VectorXd(v / size)
+                                : Eigen::VectorXd(Eigen::VectorXd::Zero(v.size()));
     }
     const PivotedColumns pivots = pivot_columns(all, kRankOfMotions);
     coordinates_.assign(pivots.order.begin(), pivots.order.begin() + pivots.rank);
@@ -102,21 +115,24 @@ class Motions {
     }
   }
 
-  // The block G_a of (14) in the independent coordinates: the bodies' M and every other term in a, such as rotors.
+  // The block G_a of (14) in the independent coordinates: the bodies' M and every other term in a,
+  // such as rotors.
   void find_mass_matrix() {
     const VectorX<double> q = state_.q;
     state_.resize(system_.layout());
     state_.q = q;
     state_.v.setZero();
     state_.z.setZero();
-    const std::vector<Eigen::Triplet<double>> entries = acceleration_block(system_, equations_, state_, 0, system_.layout().n);
+    const std::vector<Eigen::Triplet<double>> entries =
+        acceleration_block(system_, equations_, state_, 0, system_.layout().n);
     Eigen::SparseMatrix<double> M(system_.layout().n, system_.layout().n);
     M.setFromTriplets(entries.begin(), entries.end());
     M_ = transposed_product(V_, M * V_);
     choose_scale();
   }
 
-  // Scales M to a unit diagonal; a coordinate without inertia of its own gets the factor of the lightest other coordinate.
+  // Scales M to a unit diagonal; a coordinate without inertia of its own gets the factor of the
+  // lightest other coordinate.
   void choose_scale() {
     const Eigen::Index size = M_.rows();
     double lightest = std::numeric_limits<double>::infinity();
@@ -126,7 +142,9 @@ class Motions {
     }
     scale_.resize(size);
     for (Eigen::Index k = 0; k < size; ++k)
-      scale_[k] = 1.0 / std::sqrt(M_(k, k) != 0.0 ? std::abs(M_(k, k)) : std::isfinite(lightest) ? lightest : 1.0);
+      scale_[k] = 1.0 / std::sqrt(M_(k, k) != 0.0           ? std::abs(M_(k, k))
+                                  : std::isfinite(lightest) ? lightest
+                                                            : 1.0);
   }
 
   double moved_inertia(Eigen::Index k) const {
@@ -149,19 +167,23 @@ class Motions {
       forbidden.col(k) = rates * scale_[k];
     }
     const double rounding = 1e-12 * scale_.maxCoeff();
-    forbidden = forbidden.unaryExpr([rounding](double x) { return std::abs(x) < rounding ? 0.0 : x; });
+    forbidden =
+        forbidden.unaryExpr([rounding](double x) { return std::abs(x) < rounding ? 0.0 : x; });
     allowed_ = orthogonal_complement(forbidden.transpose(), kRankOfMotions);
   }
 
   std::string direction(int c) const {
     const JointDescription& joint = joint_of(c);
     const std::vector<LinkMotion<double>> motions = unit_motion(c);
-    const LinkMotion<double>&child = motions[to_index(joint.child)], &parent = motions[to_index(joint.parent)];
+    const LinkMotion<double>&child = motions[to_index(joint.child)],
+          &parent = motions[to_index(joint.parent)];
     const Vector3<double> turn = child.omega - parent.omega;
     const Vector3<double> axis = turn.norm() > 0.5 ? turn : child.velocity - parent.velocity;
     std::string text;
-    for (int k = 0; k < 3; ++k) text += (k > 0 ? " " : "") + to_decimal(std::round(axis[k] * 1e6) / 1e6 + 0.0);
-    return std::string(turn.norm() > 0.5 ? "turning about" : "sliding along") + " the axis (" + text + ") of joint '" + joint.name + "'";
+    for (int k = 0; k < 3; ++k)
+      text += (k > 0 ? " " : "") + to_decimal(std::round(axis[k] * 1e6) / 1e6 + 0.0);
+    return std::string(turn.norm() > 0.5 ? "turning about" : "sliding along") + " the axis (" +
+           text + ") of joint '" + joint.name + "'";
   }
 
   const CompiledSystem& system_;
@@ -179,8 +201,10 @@ class Motions {
 
 }  // namespace
 
-std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& system, Equations<double>* equations,
-                                                       const State<double>& state, int first, int count) {
+std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& system,
+                                                       Equations<double>* equations,
+                                                       const State<double>& state, int first,
+                                                       int count) {
   Linearization<double> d;
   d.resize(system.patterns());
   equations->linearize_rates(state, &d);
@@ -188,11 +212,13 @@ std::vector<Eigen::Triplet<double>> acceleration_block(const CompiledSystem& sys
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < count; ++row)
     for (int e = G_z.first(first + row); e < G_z.first(first + row + 1); ++e)
-      if (G_z.column(e) < system.layout().n) entries.emplace_back(row, G_z.column(e), d.rate[to_index(e)]);
+      if (G_z.column(e) < system.layout().n)
+        entries.emplace_back(row, G_z.column(e), d.rate[to_index(e)]);
   return entries;
 }
 
-SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations, const State<double>& state) {
+SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>* equations,
+                                 const State<double>& state) {
   const Layout& layout = system.layout();
   const std::vector<Eigen::Triplet<double>> entries =
       acceleration_block(system, equations, state, layout.lambda_column(0), layout.constraints());
@@ -201,8 +227,8 @@ SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>
   return Phi_q;
 }
 
-void require_determined_motion(const CompiledSystem& system, const std::vector<double>& parameters, const Assembly& assembly,
-                               Equations<double>* equations) {
+void require_determined_motion(const CompiledSystem& system, const std::vector<double>& parameters,
+                               const Assembly& assembly, Equations<double>* equations) {
   const std::vector<BodyConstants<double>>& bodies = equations->constants().bodies;
   if (std::none_of(bodies.begin(), bodies.end(), lacks_inertia)) return;
   const Motions motions(system, parameters, assembly, equations);

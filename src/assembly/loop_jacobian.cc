@@ -20,7 +20,8 @@ class Sets {
  public:
   explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
   int find(int k) {
-    while (parent_[to_index(k)] != k) k = parent_[to_index(k)] = parent_[to_index(parent_[to_index(k)])];
+    while (parent_[to_index(k)] != k)
+      k = parent_[to_index(k)] = parent_[to_index(parent_[to_index(k)])];
     return k;
   }
   void join(int a, int b) { parent_[to_index(find(a))] = find(b); }
@@ -49,11 +50,17 @@ BodyKinematics<double> standing(const VectorX<double>& q, int body) {
 }  // namespace
 
 LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
-    : system_(system), tree_(tree), joint_of_(to_index(tree.size), -1), slides_(to_index(tree.size), false) {
+    : system_(system),
+      tree_(tree),
+      joint_of_(to_index(tree.size), -1),
+      slides_(to_index(tree.size), false) {
   for (int joint : tree.joint_order) {
     const JointType type = system.robot().joints[to_index(joint)].type;
     const int first = tree.offset[to_index(joint)], count = coordinates_of(type);
-    const int sliding = type == JointType::kPrismatic ? 1 : type == JointType::kPlanar ? 2 : type == JointType::kFloating ? 3 : 0;
+    const int sliding = type == JointType::kPrismatic  ? 1
+                        : type == JointType::kPlanar   ? 2
+                        : type == JointType::kFloating ? 3
+                                                       : 0;
     for (int k = 0; k < count; ++k) {
       joint_of_[to_index(first + k)] = joint;
       slides_[to_index(first + k)] = k < sliding;
@@ -65,7 +72,8 @@ LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
   first_coupling_row_ = rows();
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     add_row(system.layout().coupling_row(static_cast<int>(k)), topology.couplings[k].name);
-    for (const CouplingTerm& term : topology.couplings[k].terms) coordinates_.push_back(tree.offset[to_index(term.joint)]);
+    for (const CouplingTerm& term : topology.couplings[k].terms)
+      coordinates_.push_back(tree.offset[to_index(term.joint)]);
   }
   std::sort(coordinates_.begin(), coordinates_.end());
   coordinates_.erase(std::unique(coordinates_.begin(), coordinates_.end()), coordinates_.end());
@@ -76,18 +84,21 @@ void LoopJacobian::find_pattern() {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Loop& loop : loops_)
     for (const Mover& mover : loop.movers)
-      for (int k = 0; k < rows_of(loop); ++k) entries.emplace_back(loop.first_row + k, mover.coordinate, 0.0);
+      for (int k = 0; k < rows_of(loop); ++k)
+        entries.emplace_back(loop.first_row + k, mover.coordinate, 0.0);
   const std::vector<Coupling>& couplings = system_.topology().couplings;
   for (std::size_t k = 0; k < couplings.size(); ++k)
     for (const CouplingTerm& term : couplings[k].terms)
-      entries.emplace_back(first_coupling_row_ + static_cast<int>(k), tree_.offset[to_index(term.joint)], 0.0);
+      entries.emplace_back(first_coupling_row_ + static_cast<int>(k),
+                           tree_.offset[to_index(term.joint)], 0.0);
   pattern_.resize(rows(), tree_.size);
   pattern_.setFromTriplets(entries.begin(), entries.end());
   std::vector<bool> seen(to_index(static_cast<int>(pattern_.nonZeros())), false);
   for (const Eigen::Triplet<double>& entry : entries) {
     const int* const begin = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[entry.col()];
     const int* const end = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[entry.col() + 1];
-    const auto slot = static_cast<int>(std::lower_bound(begin, end, entry.row()) - pattern_.innerIndexPtr());
+    const auto slot =
+        static_cast<int>(std::lower_bound(begin, end, entry.row()) - pattern_.innerIndexPtr());
     places_.push_back({slot, !seen[to_index(slot)]});
     seen[to_index(slot)] = true;
   }
@@ -98,15 +109,19 @@ void LoopJacobian::add_row(int row, const std::string& owner) {
   owners_.push_back(owner);
 }
 
-// Collects the joints from both bodies towards the root; joints on both ways move the loop as a whole and are left out.
+// Collects the joints from both bodies towards the root; joints on both ways move the loop as a
+// whole and are left out.
 void LoopJacobian::add_loop(int index) {
   const Topology& topology = system_.topology();
   const Pair& pair = topology.pairs[to_index(index)];
   const auto joints_above = [&](int body) {
     std::vector<int> joints;
     if (body < 0) return joints;
-    for (int joint = topology.link_parent_joint[to_index(topology.bodies[to_index(body)].base_link)]; joint >= 0;
-         joint = topology.link_parent_joint[to_index(system_.robot().joints[to_index(joint)].parent)])
+    for (int joint =
+             topology.link_parent_joint[to_index(topology.bodies[to_index(body)].base_link)];
+         joint >= 0;
+         joint =
+             topology.link_parent_joint[to_index(system_.robot().joints[to_index(joint)].parent)])
       joints.push_back(joint);
     return joints;
   };
@@ -125,11 +140,14 @@ void LoopJacobian::add_loop(int index) {
   };
   add(above_i, false);
   add(above_j, true);
-  for (int row = system_.layout().pair_row[to_index(index)]; row < system_.layout().pair_end(index); ++row) add_row(row, pair.name);
+  for (int row = system_.layout().pair_row[to_index(index)]; row < system_.layout().pair_end(index);
+       ++row)
+    add_row(row, pair.name);
   loops_.push_back(loop);
 }
 
-SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX<double>& theta,
+SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters,
+                                    const VectorX<double>& theta,
                                     const Equations<double>& equations) const {
   LoopWorkspace workspace;
   SparseMatrix jacobian;
@@ -137,8 +155,9 @@ SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters, const
   return jacobian;
 }
 
-void LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX<double>& theta, const Equations<double>& equations,
-                            LoopWorkspace* workspace, SparseMatrix* jacobian) const {
+void LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX<double>& theta,
+                            const Equations<double>& equations, LoopWorkspace* workspace,
+                            SparseMatrix* jacobian) const {
   *jacobian = pattern_;
   if (rows() == 0) return;
   LoopWorkspace& w = *workspace;
@@ -160,7 +179,8 @@ void LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX
     for (const Mover& mover : loop.movers) {
       BodyKinematics<double> moved = mover.moves_j ? j : i;
       move(w.twists[to_index(mover.coordinate)], &moved);
-      equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved, mover.moves_j ? moved : j, Out<double>(errors).first(size),
+      equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved,
+                                       mover.moves_j ? moved : j, Out<double>(errors).first(size),
                                        Out<double>(rates).first(size));
       for (int k = 0; k < size; ++k) add(rates[k]);
     }
@@ -176,22 +196,25 @@ int LoopJacobian::power(const Loop& loop, int within, const Equations<double>& e
   return (product.X.terms == 2 ? 1 : 0) + (product.Y.terms == 2 ? 1 : 0);
 }
 
-LoopScales LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>& equations) const {
+LoopScales LoopJacobian::scales(const SparseMatrix& jacobian,
+                                const Equations<double>& equations) const {
   LoopWorkspace workspace;
   LoopScales result;
   scales(jacobian, equations, &workspace, &result);
   return result;
 }
 
-void LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>& equations, LoopWorkspace* workspace,
-                          LoopScales* result) const {
+void LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>& equations,
+                          LoopWorkspace* workspace, LoopScales* result) const {
   LoopWorkspace& w = *workspace;
   w.largest.setZero(rows());
   w.largest_turn.setZero(rows());
   for (int c = 0; c < tree_.size; ++c)
     for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry) {
       w.largest[entry.row()] = std::max(w.largest[entry.row()], std::abs(entry.value()));
-      if (!slides(c)) w.largest_turn[entry.row()] = std::max(w.largest_turn[entry.row()], std::abs(entry.value()));
+      if (!slides(c))
+        w.largest_turn[entry.row()] =
+            std::max(w.largest_turn[entry.row()], std::abs(entry.value()));
     }
   const auto or_one = [](double value) { return value > 0.0 ? value : 1.0; };
   LoopScales& scales = *result;
@@ -200,7 +223,8 @@ void LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>&
   for (const Loop& loop : loops_) {
     double lever = 0.0;
     for (int k = 0; k < rows_of(loop); ++k)
-      if (power(loop, k, equations) == 1) lever = std::max(lever, or_one(w.largest_turn[loop.first_row + k]));
+      if (power(loop, k, equations) == 1)
+        lever = std::max(lever, or_one(w.largest_turn[loop.first_row + k]));
     for (int k = 0; k < rows_of(loop); ++k) {
       const int order = power(loop, k, equations), row = loop.first_row + k;
       if (order > 0) scales.rows[row] = 1.0 / (order == 1 ? lever : or_one(w.largest[row]));
@@ -216,7 +240,8 @@ void LoopJacobian::scales(const SparseMatrix& jacobian, const Equations<double>&
   }
 }
 
-LoopMiss LoopJacobian::miss(std::size_t owner, const VectorX<double>& errors, const Equations<double>& equations) const {
+LoopMiss LoopJacobian::miss(std::size_t owner, const VectorX<double>& errors,
+                            const Equations<double>& equations) const {
   const auto error = [&](int row) { return std::abs(errors[constraint_rows_[to_index(row)]]); };
   if (owner >= loops_.size()) {
     const int row = first_coupling_row_ + static_cast<int>(owner - loops_.size());
@@ -227,7 +252,8 @@ LoopMiss LoopJacobian::miss(std::size_t owner, const VectorX<double>& errors, co
   for (int k = 0; k < rows_of(loop); ++k) {
     const double size = error(loop.first_row + k);
     const int order = power(loop, k, equations);
-    const double length = order == 2 ? equations.constants().pairs[to_index(loop.pair)].distance : 1.0;
+    const double length =
+        order == 2 ? equations.constants().pairs[to_index(loop.pair)].distance : 1.0;
     double& part = order == 0 ? miss.angle : miss.length;
     part = std::max(part, length > 0.0 ? size / length : std::sqrt(2.0 * size));
   }
@@ -239,12 +265,14 @@ std::vector<LoopJacobian::Part> LoopJacobian::parts() const {
   Sets sets(to_index(tree_.size + rows()));  // coordinates, then rows
   for (const Loop& loop : loops_) {
     const int count = rows_of(loop);
-    for (int k = 0; k < count; ++k) sets.join(tree_.size + loop.first_row + k, tree_.size + loop.first_row);
+    for (int k = 0; k < count; ++k)
+      sets.join(tree_.size + loop.first_row + k, tree_.size + loop.first_row);
     for (const Mover& mover : loop.movers) sets.join(mover.coordinate, tree_.size + loop.first_row);
   }
   for (std::size_t k = 0; k < topology.couplings.size(); ++k)
     for (const CouplingTerm& term : topology.couplings[k].terms)
-      sets.join(tree_.offset[to_index(term.joint)], tree_.size + first_coupling_row_ + static_cast<int>(k));
+      sets.join(tree_.offset[to_index(term.joint)],
+                tree_.size + first_coupling_row_ + static_cast<int>(k));
   std::vector<Part> parts;
   std::vector<int> part_of(to_index(tree_.size + rows()), -1);
   for (int row = 0; row < rows(); ++row) {
@@ -254,17 +282,20 @@ std::vector<LoopJacobian::Part> LoopJacobian::parts() const {
       parts.emplace_back();
     }
     parts[to_index(part)].rows.push_back(row);
-    if (row >= first_coupling_row_) parts[to_index(part)].couplings.push_back(row - first_coupling_row_);
+    if (row >= first_coupling_row_)
+      parts[to_index(part)].couplings.push_back(row - first_coupling_row_);
   }
   std::vector<int> pair_part(topology.pairs.size(), -1);
   for (const Loop& loop : loops_)
-    if (rows_of(loop) > 0) pair_part[to_index(loop.pair)] = part_of[to_index(sets.find(tree_.size + loop.first_row))];
+    if (rows_of(loop) > 0)
+      pair_part[to_index(loop.pair)] = part_of[to_index(sets.find(tree_.size + loop.first_row))];
   for (int c : coordinates_) {
     const int pair = topology.joint_pair[to_index(joint_of_[to_index(c)])];
     if (pair >= 0) pair_part[to_index(pair)] = part_of[to_index(sets.find(c))];
   }
   for (std::size_t pair = 0; pair < pair_part.size(); ++pair)
-    if (pair_part[pair] >= 0) parts[to_index(pair_part[pair])].pairs.push_back(static_cast<int>(pair));
+    if (pair_part[pair] >= 0)
+      parts[to_index(pair_part[pair])].pairs.push_back(static_cast<int>(pair));
   return parts;
 }
 

@@ -18,16 +18,19 @@ namespace codesign {
 namespace {
 
 std::string miss_text(const LoopMiss& miss) {
-  return to_decimal(1e3 * miss.length) + " mm and " + to_decimal(miss.angle) + " rad at the closest position found";
+  return to_decimal(1e3 * miss.length) + " mm and " + to_decimal(miss.angle) +
+         " rad at the closest position found";
 }
 
-/// Where in the input a loop or coupling of this name stands; the root link's place if there is none.
+/// Where in the input a loop or coupling of this name stands; the root link's place if there is
+/// none.
 InputFault fault_of(const CompiledSystem& system, std::string_view name) {
   for (const Coupling& coupling : system.topology().couplings)
     if (coupling.name == name) return {coupling.where, coupling.element(), "", "", ""};
   for (const Pair& pair : system.topology().pairs)
     for (const ChainElement& element : pair.chain)
-      if (const JointDescription& loop = system.robot().joints[to_index(element.joint)]; pair.name == name && loop.is_loop)
+      if (const JointDescription& loop = system.robot().joints[to_index(element.joint)];
+          pair.name == name && loop.is_loop)
         return {loop.where, loop.element(), "", "", ""};
   const int root = system.robot().root;
   return {system.robot().links[to_index(root)].where, "initial_state", "", "", ""};
@@ -35,44 +38,58 @@ InputFault fault_of(const CompiledSystem& system, std::string_view name) {
 
 /// Throws for a start whose positions or velocities contradict a loop or coupling.
 void require_start(const CompiledSystem& system, const Assembly& assembly, const Status& status) {
-  if (status.code != StatusCode::kAssemblyFailed && status.code != StatusCode::kInitialVelocityFailed) return;
-  InputFault fault = fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner : std::string_view());
+  if (status.code != StatusCode::kAssemblyFailed &&
+      status.code != StatusCode::kInitialVelocityFailed)
+    return;
+  InputFault fault =
+      fault_of(system, status.code == StatusCode::kAssemblyFailed ? assembly.worst_miss().owner
+                                                                  : std::string_view());
   fault.message = status.cause;
   const std::vector<InitialJointState>& given = system.study().initial_state;
   const std::vector<std::size_t>& contradicting = assembly.contradicting();
-  if (!given.empty() && fault.element == "initial_state") fault.where = given[contradicting.empty() ? 0 : contradicting.front()].where;
+  if (!given.empty() && fault.element == "initial_state")
+    fault.where = given[contradicting.empty() ? 0 : contradicting.front()].where;
   if (status.code != StatusCode::kAssemblyFailed) throw InputError(fault);
   const std::string tolerance = to_decimal(system.study().solver.closure_tolerance);
-  fault.message = fault.element.rfind("<loop", 0) == 0 ? "the loop cannot be closed at the start values" : "the start values contradict it";
+  fault.message = fault.element.rfind("<loop", 0) == 0
+                      ? "the loop cannot be closed at the start values"
+                      : "the start values contradict it";
   fault.value = "misses by " + miss_text(assembly.worst_miss());
-  fault.allowed = to_decimal(1e3 * system.study().solver.closure_tolerance) + " mm and " + tolerance +
-                  " rad, solver.closure_tolerance; correct the origins and axes on the way around the loop, give joints another "
+  fault.allowed = to_decimal(1e3 * system.study().solver.closure_tolerance) + " mm and " +
+                  tolerance +
+                  " rad, solver.closure_tolerance; correct the origins and axes on the way around "
+                  "the loop, give joints another "
                   "initial_state guess or fewer positions, or allow a larger miss";
   const double tolerated = system.study().solver.closure_tolerance;
   if (assembly.worst_miss().length <= tolerated && assembly.worst_miss().angle <= tolerated) {
     // Redundant rows are dropped, and the others must close to rounding.
     fault.message = "the positions of initial_state leave no joint free to close the loop";
     fault.allowed =
-        "0, to rounding; of the joints around the loop give only as many a position as it has degrees of freedom, the others a guess";
+        "0, to rounding; of the joints around the loop give only as many a position as it has "
+        "degrees of freedom, the others a guess";
   }
   throw InputError(fault);
 }
 
-/// Warns of a loop that closes within the tolerance but not to rounding, as with rounded angles in the file.
+/// Warns of a loop that closes within the tolerance but not to rounding, as with rounded angles in
+/// the file.
 void warn_of_miss(const CompiledSystem& system, const LoopMiss& miss, Warnings* warnings) {
   constexpr double kRounding = 1e-9;
   if (!(std::max(miss.length, miss.angle) > kRounding)) return;
   InputFault fault = fault_of(system, miss.owner);
   fault.message =
-      "the origins and axes around the loop do not close it exactly; redundant constraints are not enforced and stay violated by about "
-      "this amount; to remove the warning, write lengths and angles with all their digits, a right angle as 1.5707963267948966";
+      "the origins and axes around the loop do not close it exactly; redundant constraints are not "
+      "enforced and stay violated by about "
+      "this amount; to remove the warning, write lengths and angles with all their digits, a right "
+      "angle as 1.5707963267948966";
   fault.value = miss_text(miss);
-  fault.allowed = "0, to rounding; solver.closure_tolerance " + to_decimal(system.study().solver.closure_tolerance);
+  fault.allowed = "0, to rounding; solver.closure_tolerance " +
+                  to_decimal(system.study().solver.closure_tolerance);
   append({warn("inexact_loop", fault)}, warnings);
 }
 
-/// Compliance epsilon of the redundant rows [1/kg], doc/theory.md (23): 1e-9 over the mean mass of the bodies. Far above rounding, and its
-/// effect on a motion is far below any tolerance.
+/// Compliance epsilon of the redundant rows [1/kg], doc/theory.md (23): 1e-9 over the mean mass of
+/// the bodies. Far above rounding, and its effect on a motion is far below any tolerance.
 double compliance_of(const Equations<double>& equations) {
   double mass = 0.0;
   for (const BodyConstants<double>& body : equations.constants().bodies) mass += body.mass;
@@ -80,77 +97,95 @@ double compliance_of(const Equations<double>& equations) {
   return 1e-9 * static_cast<double>(equations.constants().bodies.size()) / mass;
 }
 
-/// Whether redundant rows must be dropped: if they contradict each other by more than rounding, or if friction depends on reactions that
-/// are not unique, where rounding divided by the compliance would change the motion. Otherwise all rows stay enforced, which remains right
-/// at positions far from the start.
+/// Whether redundant rows must be dropped: if they contradict each other by more than rounding, or
+/// if friction depends on reactions that are not unique, where rounding divided by the compliance
+/// would change the motion. Otherwise all rows stay enforced, which remains right at positions far
+/// from the start.
 bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
-  constexpr double kExact = 1e-12;  // [m and rad] a smaller miss, divided by a compliance of 1e-9, gives a negligible load
+  constexpr double kExact = 1e-12;  // [m and rad] a smaller miss, divided by a compliance of 1e-9,
+                                    // gives a negligible load
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 
 std::string name_list(const RobotDescription& robot, const std::vector<int>& joints) {
   std::string text;
-  for (int joint : joints) text += (text.empty() ? "'" : ", '") + robot.joints[to_index(joint)].name + "'";
+  for (int joint : joints)
+    text += (text.empty() ? "'" : ", '") + robot.joints[to_index(joint)].name + "'";
   return text;
 }
 
 /// What removes the warning below, checked by the rank of the constraints that remain.
 std::string advice_text(const RobotDescription& robot, const std::vector<Release>& releases) {
   if (releases.empty())
-    return "no freedoms as codesign:spherical or codesign:cylindrical in place of hinges and slides determine all of it; give the loops "
+    return "no freedoms as codesign:spherical or codesign:cylindrical in place of hinges and "
+           "slides determine all of it; give the loops "
            "joints of other types";
   std::string text;
   bool in_tree = false;
   for (const Release& release : releases) {
     const JointDescription& joint = robot.joints[to_index(release.joint)];
     in_tree = in_tree || !joint.is_loop;
-    text += (text.empty() ? "'" : " and '") + joint.name +
-            "' as codesign:" + (release.type == JointType::kSpherical ? "spherical" : "cylindrical");
+    text += (text.empty() ? "'" : " and '") + joint.name + "' as codesign:" +
+            (release.type == JointType::kSpherical ? "spherical" : "cylindrical");
   }
   return "to remove the warning, give the freedom that bearings have in reality to " + text +
          ": this determines all of it, and none of them can be left out" +
-         (in_tree ? " (a joint of the tree gets it by massless links, doc/annotations.md, Compound joint)" : "");
+         (in_tree ? " (a joint of the tree gets it by massless links, doc/annotations.md, Compound "
+                    "joint)"
+                  : "");
 }
 
-/// Warns of friction that depends on reactions that rigid bodies do not determine. @param system with the sharing that was chosen.
+/// Warns of friction that depends on reactions that rigid bodies do not determine. @param system
+/// with the sharing that was chosen.
 Warning undetermined_friction(const CompiledSystem& system, const Redundancy& redundancy) {
   constexpr double kNoEffect = 1e-3;
   StartWorkspace start(system, system.parameters());
   const bool starts = start.solve().ok();
-  const double effect = starts ? effect_of_sharing(system, redundancy, start.state, &start.equations) : -1.0;
-  const std::vector<Release> releases = releases_for_friction(system, redundancy, start.state, &start.equations);
+  const double effect =
+      starts ? effect_of_sharing(system, redundancy, start.state, &start.equations) : -1.0;
+  const std::vector<Release> releases =
+      releases_for_friction(system, redundancy, start.state, &start.equations);
   const RobotDescription& robot = system.robot();
   const JointDescription& first = robot.joints[to_index(redundancy.chosen_joints.front())];
-  std::string message = "friction of " + name_list(robot, redundancy.chosen_joints) +
-                        " depends on reactions that are not unique, because their loops have redundant constraints; ";
+  std::string message =
+      "friction of " + name_list(robot, redundancy.chosen_joints) +
+      " depends on reactions that are not unique, because their loops have redundant constraints; ";
   message += effect >= 0.0 && effect < kNoEffect
-                 ? "under the loads at the start the part that is not unique changes friction by less than 1e-3 of the largest, however "
-                   "bearings share it, so that nothing needs to be done unless loads across the mechanism's plane come later; "
+                 ? "under the loads at the start the part that is not unique changes friction by "
+                   "less than 1e-3 of the largest, however "
+                   "bearings share it, so that nothing needs to be done unless loads across the "
+                   "mechanism's plane come later; "
                  : "the reactions of least norm are used; ";
-  return warn("undetermined_friction", {first.where, first.element(), message + advice_text(robot, releases), "", ""});
+  return warn("undetermined_friction",
+              {first.where, first.element(), message + advice_text(robot, releases), "", ""});
 }
 
-/// How redundant constraints are handled, Redundancy::sharing, doc/theory.md (23); nothing if there are none. @param start positions at
-/// which they are found.
-std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorkspace* start, Warnings* warnings) {
+/// How redundant constraints are handled, Redundancy::sharing, doc/theory.md (23); nothing if there
+/// are none. @param start positions at which they are found.
+std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorkspace* start,
+                                       Warnings* warnings) {
   const LoopMiss& miss = start->assembly.worst_miss();
   warn_of_miss(system, miss, warnings);
-  Redundancy redundancy = analyse_redundancy(system, &start->equations, start->assembly, start->parameters, start->state);
+  Redundancy redundancy = analyse_redundancy(system, &start->equations, start->assembly,
+                                             start->parameters, start->state);
   if (redundancy.rows.empty()) return std::nullopt;
-  append(warn_of_open_reactions(system, redundancy, start->state, signals_of(system.study()), &start->equations), warnings);
+  append(warn_of_open_reactions(system, redundancy, start->state, signals_of(system.study()),
+                                &start->equations),
+         warnings);
   if (!must_drop(miss, redundancy)) redundancy.sharing.dropped.clear();
   redundancy.sharing.compliance = compliance_of(start->equations);
   return redundancy;
 }
 
-/// The same study in absolute coordinates, for couplings that imply each other: the reactions of all joints between them are shared, (23).
+/// The same study in absolute coordinates, for couplings that imply each other: the reactions of
+/// all joints between them are shared, (23).
 /// @throws InputError if the study asks for joint coordinates.
 Study in_absolute_coordinates(const Study& study, bool is_chosen, const Redundancy& redundancy) {
   if (!is_chosen)
-    throw InputError(
-        {study.solver.coordinates_where, "solver.coordinates",
-         "couplings with redundant constraints, whose reactions are shared among all joints: not available in joint coordinates",
-         redundancy.rows.front().joint, "auto or absolute"});
+    throw InputError({study.solver.coordinates_where, "solver.coordinates",
+                      "couplings with redundant constraints, whose reactions are shared among all "
+                      "joints: not available in joint coordinates",
+                      redundancy.rows.front().joint, "auto or absolute"});
   Study absolute = study;
   absolute.solver.coordinates = CoordinatesKind::kAbsolute;
   return absolute;
@@ -158,8 +193,9 @@ Study in_absolute_coordinates(const Study& study, bool is_chosen, const Redundan
 
 /// @param is_chosen whether the coordinates were chosen for the study, which then may have others.
 /// @param known pairs whose reactions are shared, so that they have rows
-std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, bool is_chosen,
-                                                  const ReactionSharing& known, Warnings* warnings) {
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study,
+                                                  bool is_chosen, const ReactionSharing& known,
+                                                  Warnings* warnings) {
   Warnings found;
   const auto system = std::make_shared<const CompiledSystem>(robot, study, known);
   StartWorkspace start(*system, system->parameters());
@@ -167,17 +203,22 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   append(start.assembly.warnings(), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
   if (const Layout& layout = system->layout(); layout.has_forest()) {
-    const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly, start.parameters, start.state);
+    const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly,
+                                                   start.parameters, start.state);
     if (!in_loops.sharing.couplings.empty())
-      return make_system(robot, in_absolute_coordinates(study, is_chosen, in_loops), false, {}, warnings);
+      return make_system(robot, in_absolute_coordinates(study, is_chosen, in_loops), false, {},
+                         warnings);
     ReactionSharing loops;
     loops.pairs = in_loops.sharing.pairs;
-    if (!std::all_of(loops.pairs.begin(), loops.pairs.end(), [&](int pair) { return layout.is_cut(pair); }))
+    if (!std::all_of(loops.pairs.begin(), loops.pairs.end(),
+                     [&](int pair) { return layout.is_cut(pair); }))
       return make_system(robot, study, is_chosen, loops, warnings);
   }
   const std::optional<Redundancy> redundancy = find_sharing(*system, &start, &found);
   std::shared_ptr<const CompiledSystem> result = system;
-  if (redundancy) result = std::make_shared<const CompiledSystem>(system->robot(), system->whole_study(), redundancy->sharing);
+  if (redundancy)
+    result = std::make_shared<const CompiledSystem>(system->robot(), system->whole_study(),
+                                                    redundancy->sharing);
   if (result->sharing().drops()) {
     // With fewer rows enforced, other positions can start, and other velocities contradict.
     StartWorkspace enforced(*result, result->parameters());
@@ -185,15 +226,18 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   } else {
     require_start(*system, start.assembly, start.solve_velocities());
   }
-  if (redundancy && !redundancy->chosen_joints.empty()) append({undetermined_friction(*result, *redundancy)}, &found);
+  if (redundancy && !redundancy->chosen_joints.empty())
+    append({undetermined_friction(*result, *redundancy)}, &found);
   if (warnings) append(found, warnings);
   return result;
 }
 
 }  // namespace
 
-// The study's own design must start; a later design that cannot is a trial point with a failed status.
-std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study, Warnings* warnings) {
+// The study's own design must start; a later design that cannot is a trial point with a failed
+// status.
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study,
+                                                  Warnings* warnings) {
   if (study.solver.coordinates == CoordinatesKind::kAuto) {
     Study chosen = study;
     chosen.solver.coordinates = System(robot, study).best_coordinates();

@@ -15,10 +15,11 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfStress = 1e-7;     // relative; smaller pivots of self-stresses count as zero
+constexpr double kRankOfStress = 1e-7;  // relative; smaller pivots of self-stresses count as zero
 constexpr std::size_t kMostCompared = 40;  // candidates of which pairs and triples are compared
 
-/// The reactions of each self-stress that a release would remove: one row per freedom, one column per self-stress.
+/// The reactions of each self-stress that a release would remove: one row per freedom, one column
+/// per self-stress.
 struct Candidate {
   Release release;
   Eigen::MatrixXd removed;
@@ -26,7 +27,8 @@ struct Candidate {
 
 class Search {
  public:
-  Search(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state, Equations<double>* equations)
+  Search(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
+         Equations<double>* equations)
       : system_(system), basis_(redundancy.basis) {
     for (const bool loops : {true, false})
       for (int pair : redundancy.sharing.pairs) add_candidates(pair, loops, state, equations);
@@ -43,9 +45,12 @@ class Search {
   }
 
  private:
-  void add_candidates(int pair, bool loops, const State<double>& state, Equations<double>* equations) {
+  void add_candidates(int pair, bool loops, const State<double>& state,
+                      Equations<double>* equations) {
     const Pair& p = system_.topology().pairs[to_index(pair)];
-    if (p.is_loop != loops || p.chain.size() != 1 || (p.kind != PairKind::kRevolute && p.kind != PairKind::kPrismatic)) return;
+    if (p.is_loop != loops || p.chain.size() != 1 ||
+        (p.kind != PairKind::kRevolute && p.kind != PairKind::kPrismatic))
+      return;
     Eigen::MatrixXd forces(3, basis_.cols()), torques(3, basis_.cols());
     State<double> stressed = state;
     stressed.z.setZero(system_.layout().columns());
@@ -58,8 +63,11 @@ class Search {
       torques.col(k) = T;
     }
     const int joint = p.chain.front().joint;
-    if (p.kind == PairKind::kRevolute) candidates_.push_back({{joint, JointType::kSpherical}, torques.topRows(2)});
-    candidates_.push_back({{joint, JointType::kCylindrical}, p.kind == PairKind::kRevolute ? forces.bottomRows(1) : torques.bottomRows(1)});
+    if (p.kind == PairKind::kRevolute)
+      candidates_.push_back({{joint, JointType::kSpherical}, torques.topRows(2)});
+    candidates_.push_back(
+        {{joint, JointType::kCylindrical},
+         p.kind == PairKind::kRevolute ? forces.bottomRows(1) : torques.bottomRows(1)});
   }
 
   void find_friction_rows(const Redundancy& redundancy) {
@@ -67,8 +75,10 @@ class Search {
     std::vector<int> rows;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       const std::vector<int>& chosen = redundancy.chosen_joints;
-      if (std::find(chosen.begin(), chosen.end(), pairs[p].friction_joint) == chosen.end()) continue;
-      const int first = system_.layout().pair_row[p], end = system_.layout().pair_end(static_cast<int>(p));
+      if (std::find(chosen.begin(), chosen.end(), pairs[p].friction_joint) == chosen.end())
+        continue;
+      const int first = system_.layout().pair_row[p],
+                end = system_.layout().pair_end(static_cast<int>(p));
       const bool plane = pairs[p].kind->is_plane();
       for (int row = first; row < (plane ? first + 1 : end); ++row) rows.push_back(row);
     }
@@ -91,19 +101,22 @@ class Search {
     const Eigen::MatrixXd removed = removed_by(set);
     if (removed.rows() > removed.cols()) return false;
     const Eigen::VectorXd values = singular_values(removed).values;
-    return values.size() > 0 && values[values.size() - 1] > kRankOfStress * std::max(1.0, values[0]);
+    return values.size() > 0 &&
+           values[values.size() - 1] > kRankOfStress * std::max(1.0, values[0]);
   }
 
   /// Whether no self-stress that remains loads a joint with friction.
   bool determines(const std::vector<std::size_t>& set) const {
     if (set.empty()) return false;
-    const Eigen::MatrixXd left = friction_ * orthogonal_complement(removed_by(set).transpose(), kRankOfStress);
+    const Eigen::MatrixXd left =
+        friction_ * orthogonal_complement(removed_by(set).transpose(), kRankOfStress);
     return left.size() == 0 || left.cwiseAbs().maxCoeff() <= kRankOfStress;
   }
 
   bool has_joint_of(const std::vector<std::size_t>& set, std::size_t candidate) const {
-    return std::any_of(set.begin(), set.end(),
-                       [&](std::size_t k) { return candidates_[k].release.joint == candidates_[candidate].release.joint; });
+    return std::any_of(set.begin(), set.end(), [&](std::size_t k) {
+      return candidates_[k].release.joint == candidates_[candidate].release.joint;
+    });
   }
 
   /// Extends `set` by `more` candidates from `first` on; true once it determines the friction.
@@ -146,28 +159,34 @@ class Search {
   Eigen::MatrixXd friction_;  ///< rows of the basis that friction depends on
 };
 
-/// Random weights of the reactions, one for the force and one for the torque of each pair, so that no direction is special.
+/// Random weights of the reactions, one for the force and one for the torque of each pair, so that
+/// no direction is special.
 Eigen::VectorXd stiffness_weights(const CompiledSystem& system, std::mt19937* generator) {
-  const auto weight = [generator] { return std::pow(10.0, static_cast<double>((*generator)() % 2001) / 1000.0 - 1.0); };
+  const auto weight = [generator] {
+    return std::pow(10.0, static_cast<double>((*generator)() % 2001) / 1000.0 - 1.0);
+  };
   const Layout& layout = system.layout();
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(layout.constraints());
   for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
     const int force = system.topology().pairs[p].kind->force_rows();
     const int first = layout.pair_row[p], end = layout.pair_end(static_cast<int>(p));
     const double of_force = weight(), of_torque = weight();
-    for (int row = first; row < end; ++row) weights[row] = row < first + force ? of_force : of_torque;
+    for (int row = first; row < end; ++row)
+      weights[row] = row < first + force ? of_force : of_torque;
   }
   return weights;
 }
 
 }  // namespace
 
-std::vector<Release> releases_for_friction(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
+std::vector<Release> releases_for_friction(const CompiledSystem& system,
+                                           const Redundancy& redundancy, const State<double>& state,
                                            Equations<double>* equations) {
   return Search(system, redundancy, state, equations).smallest();
 }
 
-double effect_of_sharing(const CompiledSystem& system, const Redundancy& redundancy, State<double> state, Equations<double>* equations) {
+double effect_of_sharing(const CompiledSystem& system, const Redundancy& redundancy,
+                         State<double> state, Equations<double>* equations) {
   constexpr int kDistributions = 4;
   const Layout& layout = system.layout();
   if (redundancy.basis.cols() == 0) return -1.0;
@@ -177,7 +196,8 @@ double effect_of_sharing(const CompiledSystem& system, const Redundancy& redunda
     for (int p : redundancy.sharing.pairs) {
       const int joint = system.topology().pairs[to_index(p)].friction_joint;
       const std::vector<int>& chosen = redundancy.chosen_joints;
-      if (std::find(chosen.begin(), chosen.end(), joint) != chosen.end()) forces.push_back(equations->formulas().normal_force(p));
+      if (std::find(chosen.begin(), chosen.end(), joint) != chosen.end())
+        forces.push_back(equations->formulas().normal_force(p));
     }
     return forces;
   };
@@ -185,47 +205,61 @@ double effect_of_sharing(const CompiledSystem& system, const Redundancy& redunda
   const Eigen::VectorXd lambda = state.z.segment(layout.n, layout.constraints());
   double mass = 0.0;
   for (const BodyConstants<double>& body : equations->constants().bodies) mass += body.mass;
-  const double load = lambda.cwiseAbs().maxCoeff(), largest = *std::max_element(usual.begin(), usual.end());
-  constexpr double kNoLoad = 1e-9;  // [m/s^2] times the mass: at rest without gravity reactions are rounding
+  const double load = lambda.cwiseAbs().maxCoeff(),
+               largest = *std::max_element(usual.begin(), usual.end());
+  constexpr double kNoLoad =
+      1e-9;  // [m/s^2] times the mass: at rest without gravity reactions are rounding
   if (!(load > kNoLoad * mass && largest > kNoLoad * load)) return -1.0;
   std::mt19937 generator(1);
   double change = 0.0;
   for (int trial = 0; trial < kDistributions; ++trial) {
     const Eigen::VectorXd weights = stiffness_weights(system, &generator);
     const Eigen::MatrixXd weighted = weights.asDiagonal() * redundancy.basis;
-    const Eigen::VectorXd other = lambda - redundancy.basis * least_norm(weighted).solve(Eigen::VectorXd(weights.cwiseProduct(lambda)));
+    const Eigen::VectorXd other =
+        lambda - redundancy.basis *
+                     least_norm(weighted).solve(Eigen::VectorXd(weights.cwiseProduct(lambda)));
     state.z.segment(layout.n, layout.constraints()) = other;
     const std::vector<double> forces = normal_forces();
-    for (std::size_t k = 0; k < forces.size(); ++k) change = std::max(change, std::abs(forces[k] - usual[k]));
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      change = std::max(change, std::abs(forces[k] - usual[k]));
   }
   return change / largest;
 }
 
-Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& redundancy, const State<double>& state,
-                                const std::vector<SignalDescription>& signals, Equations<double>* equations) {
+Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& redundancy,
+                                const State<double>& state,
+                                const std::vector<SignalDescription>& signals,
+                                Equations<double>* equations) {
   std::vector<Signal> resolved;
   resolved.reserve(signals.size());
   for (const SignalDescription& signal : signals)
-    resolved.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
+    resolved.push_back(
+        resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
   Warnings warnings;
   for (std::size_t k : open_reactions(system, redundancy, state, resolved, equations))
-    append({warn("undetermined_reaction", {signals[k].where, "signal",
-                                           "the signal reads a reaction that is not unique, because the loop has redundant constraints; "
-                                           "the one of least norm is used; to remove the warning, give one joint of the loop the freedom "
-                                           "that it has in reality, as codesign:spherical or codesign:cylindrical",
-                                           signals[k].text, ""})},
+    append({warn("undetermined_reaction",
+                 {signals[k].where, "signal",
+                  "the signal reads a reaction that is not unique, because the loop has redundant "
+                  "constraints; "
+                  "the one of least norm is used; to remove the warning, give one joint of the "
+                  "loop the freedom "
+                  "that it has in reality, as codesign:spherical or codesign:cylindrical",
+                  signals[k].text, ""})},
            &warnings);
   return warnings;
 }
 
-Warnings warn_of_open_reactions(const CompiledSystem& system, const std::vector<SignalDescription>& signals) {
+Warnings warn_of_open_reactions(const CompiledSystem& system,
+                                const std::vector<SignalDescription>& signals) {
   const auto reads_one = [](const SignalDescription& signal) {
-    return std::any_of(signal.terms.begin(), signal.terms.end(), [](const SignalTerm& term) { return is_reaction(term); });
+    return std::any_of(signal.terms.begin(), signal.terms.end(),
+                       [](const SignalTerm& term) { return is_reaction(term); });
   };
   if (std::none_of(signals.begin(), signals.end(), reads_one)) return {};
   StartWorkspace start(system, system.parameters());
   if (!start.solve_positions().ok()) return {};
-  const Redundancy redundancy = analyse_redundancy(system, &start.equations, start.assembly, start.parameters, start.state);
+  const Redundancy redundancy =
+      analyse_redundancy(system, &start.equations, start.assembly, start.parameters, start.state);
   return warn_of_open_reactions(system, redundancy, start.state, signals, &start.equations);
 }
 

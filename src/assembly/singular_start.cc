@@ -13,22 +13,28 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankAtStart = 1e-4;  // a position that is solved for can be off the singular one by the square root of its tolerance
-constexpr double kIsMotion = 1e-3;     // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
-constexpr double kDifference = 1e-3;   // step [rad or m] of the fourth-order differences, whose error is about 1e-12
+constexpr double kRankAtStart = 1e-4;  // a position that is solved for can be off the singular one
+                                       // by the square root of its tolerance
+constexpr double kIsMotion = 1e-3;  // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
+constexpr double kDifference =
+    1e-3;  // step [rad or m] of the fourth-order differences, whose error is about 1e-12
 constexpr int kIterations = 50;
-constexpr Eigen::Index kLargest = 250000;  // entries of J; a larger J is not analysed, since its QR factorization is dense
+constexpr Eigen::Index kLargest =
+    250000;  // entries of J; a larger J is not analysed, since its QR factorization is dense
 
 }  // namespace
 
-SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tree, const LoopJacobian& loops)
+SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tree,
+                             const LoopJacobian& loops)
     : system_(system), tree_(tree), loops_(loops) {
   state_.resize(system.layout());
 }
 
-void SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x, VectorX<double>* result) {
+void SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x,
+                          VectorX<double>* result) {
   link_motions(system_.robot(), tree_, parameters_, theta, x, &motion_.links);
-  state_coordinates(system_, tree_, equations_->constants(), motion_.links, theta, x, &state_.q, &state_.v);
+  state_coordinates(system_, tree_, equations_->constants(), motion_.links, theta, x, &state_.q,
+                    &state_.v);
   equations_->constraint_errors(state_, &Phi_, &Phi_rate_);
   loops_.take_part(Phi_rate_, result);
 }
@@ -41,7 +47,8 @@ void SingularStart::difference(double step, const VectorX<double>& x, VectorX<do
   *result = forward_ - *result;
 }
 
-void SingularStart::load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations) {
+void SingularStart::load(const std::vector<double>& parameters, const VectorX<double>& theta,
+                         Equations<double>* equations) {
   const Eigen::Index count = loops_.rows();
   parameters_ = parameters;
   theta_ = theta;
@@ -79,7 +86,8 @@ bool SingularStart::is_motion(const VectorX<double>& x) {
   return B.norm() <= tolerance_;
 }
 
-// Newton's method on J x = 0 (without the nearly dependent part L L^T J) and L^T (J x)_theta x = 0, with steps of least norm.
+// Newton's method on J x = 0 (without the nearly dependent part L L^T J) and L^T (J x)_theta x = 0,
+// with steps of least norm.
 bool SingularStart::solve(const std::vector<int>& free, VectorX<double>* x) {
   const Eigen::MatrixXd J = J_ - product(L_, transposed_product(L_, J_));
   const auto count = to_signed(free.size());
@@ -106,10 +114,12 @@ bool SingularStart::choose_motion(const std::vector<bool>& held, VectorX<double>
   for (int c = 0; c < tree_.size; ++c)
     if (!held[to_index(c)]) free.push_back(c);
   const VectorX<double> first = *x;
-  // The first-order solution may lie between the tangents of two motions, where Newton's method fails: it is then started from both sides.
+  // The first-order solution may lie between the tangents of two motions, where Newton's method
+  // fails: it is then started from both sides.
   for (int attempt = 0; attempt <= 2 * static_cast<int>(free.size()) && attempt <= 8; ++attempt) {
     *x = first;
-    if (attempt > 0) (*x)[free[to_index((attempt - 1) / 2)]] += (attempt % 2 == 1 ? 1.0 : -1.0) * first.norm();
+    if (attempt > 0)
+      (*x)[free[to_index((attempt - 1) / 2)]] += (attempt % 2 == 1 ? 1.0 : -1.0) * first.norm();
     if (!free.empty() && solve(free, x)) return true;
   }
   *x = first;
@@ -145,10 +155,11 @@ std::string SingularStart::joints() const {
   }
   for (std::size_t k = 0; k < system_.robot().joints.size(); ++k) {
     const JointDescription& joint = system_.robot().joints[k];
-    const bool has_coordinate =
-        std::find(tree_.joint_order.begin(), tree_.joint_order.end(), static_cast<int>(k)) != tree_.joint_order.end();
+    const bool has_coordinate = std::find(tree_.joint_order.begin(), tree_.joint_order.end(),
+                                          static_cast<int>(k)) != tree_.joint_order.end();
     if (!has_coordinate || joint.type == JointType::kFixed) continue;
-    if (moves[tree_.offset[k]] > 1e-6 * moves.maxCoeff()) text += (text.empty() ? "'" : ", '") + joint.name + "'";
+    if (moves[tree_.offset[k]] > 1e-6 * moves.maxCoeff())
+      text += (text.empty() ? "'" : ", '") + joint.name + "'";
   }
   return text;
 }

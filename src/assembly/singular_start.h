@@ -14,31 +14,38 @@ class CompiledSystem;
 template <class T>
 class Equations;
 
-/// Tests whether rates of the tree coordinates (or, from rest, accelerations) belong to a motion, at a position where rows of the loops
-/// depend on each other; doc/theory.md (19a). With J = Phi^l_theta of loops and couplings and L an orthonormal basis of its left null
-/// space, rates x with J x = 0 belong to a motion only if J y = -(J x)_theta x has a solution y, which requires L^T (J x)_theta x = 0. If
-/// the redundancy is permanent, every such x satisfies this condition; where several motions meet, only their tangents do.
+/// Tests whether rates of the tree coordinates (or, from rest, accelerations) belong to a motion,
+/// at a position where rows of the loops depend on each other; doc/theory.md (19a). With J =
+/// Phi^l_theta of loops and couplings and L an orthonormal basis of its left null space, rates x
+/// with J x = 0 belong to a motion only if J y = -(J x)_theta x has a solution y, which requires
+/// L^T (J x)_theta x = 0. If the redundancy is permanent, every such x satisfies this condition;
+/// where several motions meet, only their tangents do.
 class SingularStart {
  public:
   /// @param tree, loops must outlive this.
   SingularStart(const CompiledSystem& system, const TreeLayout& tree, const LoopJacobian& loops);
 
-  /// Evaluates J and L at a position. Problems with more than 250,000 entries of J are not analysed: every rate then counts as a motion.
-  /// @param theta tree coordinates. @param equations must hold the design at `parameters`, and outlive the calls below.
-  void load(const std::vector<double>& parameters, const VectorX<double>& theta, Equations<double>* equations);
+  /// Evaluates J and L at a position. Problems with more than 250,000 entries of J are not
+  /// analysed: every rate then counts as a motion.
+  /// @param theta tree coordinates. @param equations must hold the design at `parameters`, and
+  /// outlive the calls below.
+  void load(const std::vector<double>& parameters, const VectorX<double>& theta,
+            Equations<double>* equations);
 
   /// Whether rows of the loops depend on each other at that position, nearly at least.
   bool is_singular() const { return L_.cols() > 0; }
   /// Whether rates x (or, from rest, accelerations), tree.size, belong to a motion.
   bool is_motion(const VectorX<double>& x);
-  /// Changes the rates that are not `held` as little as possible so that x belongs to a motion. False, with x unchanged, if no motion is
-  /// found.
+  /// Changes the rates that are not `held` as little as possible so that x belongs to a motion.
+  /// False, with x unchanged, if no motion is found.
   bool choose_motion(const std::vector<bool>& held, VectorX<double>* x);
 
-  /// Tree accelerations from the bodies' accelerations a (n entries) at rest; zero at a regular position. Valid until the next call.
+  /// Tree accelerations from the bodies' accelerations a (n entries) at rest; zero at a regular
+  /// position. Valid until the next call.
   const VectorX<double>& tree_accelerations(In<double> a);
 
-  /// Names of the joints in the loops whose condition the last is_motion() found violated: 'a', 'b', 'c'.
+  /// Names of the joints in the loops whose condition the last is_motion() found violated: 'a',
+  /// 'b', 'c'.
   std::string joints() const;
 
  private:

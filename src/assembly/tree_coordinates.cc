@@ -15,7 +15,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kLeastCosine = 1e-6;  // of the second turn of a floating joint, where the first and the third turn about one axis
+constexpr double kLeastCosine = 1e-6;  // of the second turn of a floating joint, where the first
+                                       // and the third turn about one axis
 
 LinkMotion<double> motion_of(const System& system, const Equations<double>& equations, int link) {
   const int body = system.topology().link_body[to_index(link)];
@@ -30,8 +31,10 @@ LinkMotion<double> motion_of(const System& system, const Equations<double>& equa
   return motion;
 }
 
-/// The child's motion relative to the joint frame, which is fixed in the parent, in the axes of that frame.
-LinkMotion<double> relative_motion(const LinkMotion<double>& parent, const Pose<double>& origin, const LinkMotion<double>& child) {
+/// The child's motion relative to the joint frame, which is fixed in the parent, in the axes of
+/// that frame.
+LinkMotion<double> relative_motion(const LinkMotion<double>& parent, const Pose<double>& origin,
+                                   const LinkMotion<double>& child) {
   const Pose<double> frame = parent.X * origin;
   LinkMotion<double> motion;
   motion.X = frame.inverse() * child.X;
@@ -41,24 +44,29 @@ LinkMotion<double> relative_motion(const LinkMotion<double>& parent, const Pose<
   return motion;
 }
 
-void planar_coordinates(const JointDescription& joint, const std::vector<double>& parameters, const LinkMotion<double>& motion, int c,
-                        TreeCoordinates* result) {
+void planar_coordinates(const JointDescription& joint, const std::vector<double>& parameters,
+                        const LinkMotion<double>& motion, int c, TreeCoordinates* result) {
   const PlaneAxes<double> plane = plane_axes(joint, parameters);
   const Vector3<double> normal = axis_at(joint.axis, parameters);
   const Vector3<double> turned = motion.X.R * plane.x;
-  result->theta.segment<3>(c) << plane.x.dot(motion.X.t), plane.y.dot(motion.X.t), std::atan2(plane.y.dot(turned), plane.x.dot(turned));
-  result->rate.segment<3>(c) << plane.x.dot(motion.velocity), plane.y.dot(motion.velocity), normal.dot(motion.omega);
+  result->theta.segment<3>(c) << plane.x.dot(motion.X.t), plane.y.dot(motion.X.t),
+      std::atan2(plane.y.dot(turned), plane.x.dot(turned));
+  result->rate.segment<3>(c) << plane.x.dot(motion.velocity), plane.y.dot(motion.velocity),
+      normal.dot(motion.omega);
 }
 
 // R = R_x(a) R_y(b) R_z(c) R_start, omega = x a' + R_x(a) y b' + R_x(a) R_y(b) z c'.
-bool floating_coordinates(const JointDescription& joint, const std::vector<double>& parameters, const LinkMotion<double>& motion, int c,
-                          TreeCoordinates* result) {
-  const Matrix3<double> R = motion.X.R * rotation_from_rpy<double>(vector_at(joint.start_rotation, parameters)).transpose();
+bool floating_coordinates(const JointDescription& joint, const std::vector<double>& parameters,
+                          const LinkMotion<double>& motion, int c, TreeCoordinates* result) {
+  const Matrix3<double> R =
+      motion.X.R *
+      rotation_from_rpy<double>(vector_at(joint.start_rotation, parameters)).transpose();
   const double a = std::atan2(-R(1, 2), R(2, 2)), b = std::asin(std::clamp(R(0, 2), -1.0, 1.0));
   if (std::cos(b) < kLeastCosine) return false;
   const Matrix3<double> about_x = Eigen::AngleAxisd(a, Vector3<double>::UnitX()).toRotationMatrix();
   Matrix3<double> axes;
-  axes << Vector3<double>::UnitX(), about_x.col(1), about_x * (Eigen::AngleAxisd(b, Vector3<double>::UnitY()).toRotationMatrix()).col(2);
+  axes << Vector3<double>::UnitX(), about_x.col(1),
+      about_x * (Eigen::AngleAxisd(b, Vector3<double>::UnitY()).toRotationMatrix()).col(2);
   result->theta.segment<3>(c) = motion.X.t;
   result->theta.segment<3>(c + 3) << a, b, std::atan2(-R(0, 1), R(0, 0));
   result->rate.segment<3>(c) = motion.velocity;
@@ -66,13 +74,16 @@ bool floating_coordinates(const JointDescription& joint, const std::vector<doubl
   return true;
 }
 
-bool scalar_coordinate(const System& system, int joint, int pair, int c, Equations<double>* equations, TreeCoordinates* result) {
+bool scalar_coordinate(const System& system, int joint, int pair, int c,
+                       Equations<double>* equations, TreeCoordinates* result) {
   const std::vector<ChainElement>& chain = system.topology().pairs[to_index(pair)].chain;
   for (std::size_t e = 0; e < chain.size(); ++e) {
     if (chain[e].joint != joint) continue;
     const auto& coordinates = equations->constants().pairs[to_index(pair)].coordinates;
-    if (e >= coordinates.size() || coordinates[e].kind == CoordinateConstants<double>::Kind::kNone) return false;
-    const CoordinateMotion<double>& motion = equations->formulas().coordinate(pair, static_cast<int>(e));
+    if (e >= coordinates.size() || coordinates[e].kind == CoordinateConstants<double>::Kind::kNone)
+      return false;
+    const CoordinateMotion<double>& motion =
+        equations->formulas().coordinate(pair, static_cast<int>(e));
     result->theta[c] = motion.position;
     result->rate[c] = motion.rate;
     return true;
@@ -82,7 +93,8 @@ bool scalar_coordinate(const System& system, int joint, int pair, int c, Equatio
 
 bool has_mass_at_both_ends(const System& system, const JointDescription& joint) {
   const std::vector<int>& body = system.topology().link_body;
-  return body[to_index(joint.parent)] != Topology::kMassless && body[to_index(joint.child)] != Topology::kMassless;
+  return body[to_index(joint.parent)] != Topology::kMassless &&
+         body[to_index(joint.child)] != Topology::kMassless;
 }
 
 /// Sets the flags first .. first + count - 1 if `given`.
@@ -90,9 +102,11 @@ void mark(std::vector<bool>* flags, int first, int count, bool given) {
   for (int k = 0; given && k < count; ++k) (*flags)[to_index(first + k)] = true;
 }
 
-/// Writes a vector in the joint frame to the sliding coordinates of a planar (2) or floating (3) joint.
+/// Writes a vector in the joint frame to the sliding coordinates of a planar (2) or floating (3)
+/// joint.
 template <class T>
-void set_slides(const JointDescription& joint, const QuantityVector& vector, const std::vector<T>& parameters, Out<T> coordinates) {
+void set_slides(const JointDescription& joint, const QuantityVector& vector,
+                const std::vector<T>& parameters, Out<T> coordinates) {
   const Vector3<T> x = vector_at(vector, parameters);
   if (joint.type == JointType::kFloating) {
     for (int k = 0; k < 3; ++k) coordinates[k] = x[k];
@@ -105,7 +119,8 @@ void set_slides(const JointDescription& joint, const QuantityVector& vector, con
 
 }  // namespace
 
-std::string tree_coordinates(const System& system, const TreeLayout& tree, const State<double>& state, const VectorX<double>& rest,
+std::string tree_coordinates(const System& system, const TreeLayout& tree,
+                             const State<double>& state, const VectorX<double>& rest,
                              Equations<double>* equations, TreeCoordinates* result) {
   equations->formulas().load(state);
   result->theta = rest;
@@ -120,9 +135,9 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree, const
       continue;
     }
     if (!has_mass_at_both_ends(system, joint)) return joint.name;
-    const LinkMotion<double> motion =
-        relative_motion(motion_of(system, *equations, joint.parent), pose_at(joint.origin, equations->parameters()),
-                        motion_of(system, *equations, joint.child));
+    const LinkMotion<double> motion = relative_motion(
+        motion_of(system, *equations, joint.parent), pose_at(joint.origin, equations->parameters()),
+        motion_of(system, *equations, joint.child));
     if (count == 3)
       planar_coordinates(joint, equations->parameters(), motion, c, result);
     else if (!floating_coordinates(joint, equations->parameters(), motion, c, result))
@@ -151,7 +166,8 @@ GivenStart::GivenStart(const System& system, const TreeLayout& tree) {
 }
 
 template <class T>
-void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters, VectorX<T>* theta, VectorX<T>* rate) {
+void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters,
+                     VectorX<T>* theta, VectorX<T>* rate) {
   for (const InitialJointState& initial : system.study().initial_state) {
     const int index = tree_joint(system.robot(), initial);
     if (index < 0) continue;
@@ -161,11 +177,15 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
     const int slides = planar ? 2 : 3;
     if (initial.position) (*theta)[c] = initial.position->at(parameters);
     if (initial.velocity) (*rate)[c] = initial.velocity->at(parameters);
-    if (initial.translation) set_slides(joint, *initial.translation, parameters, Out<T>(*theta).subspan(c, slides));
-    if (initial.linear_velocity) set_slides(joint, *initial.linear_velocity, parameters, Out<T>(*rate).subspan(c, slides));
+    if (initial.translation)
+      set_slides(joint, *initial.translation, parameters, Out<T>(*theta).subspan(c, slides));
+    if (initial.linear_velocity)
+      set_slides(joint, *initial.linear_velocity, parameters, Out<T>(*rate).subspan(c, slides));
     if (initial.rotation && planar) (*theta)[c + 2] = (*initial.rotation)[2].at(parameters);
-    if (initial.angular_velocity && planar) (*rate)[c + 2] = (*initial.angular_velocity)[2].at(parameters);
-    if (initial.angular_velocity && !planar) rate->template segment<3>(c + 3) = vector_at(*initial.angular_velocity, parameters);
+    if (initial.angular_velocity && planar)
+      (*rate)[c + 2] = (*initial.angular_velocity)[2].at(parameters);
+    if (initial.angular_velocity && !planar)
+      rate->template segment<3>(c + 3) = vector_at(*initial.angular_velocity, parameters);
   }
 }
 
@@ -176,8 +196,9 @@ void set_extra_states(const System& system, const std::vector<T>& parameters, Ve
   for (std::size_t k = 0; k < given.size(); ++k) (*s)[to_signed(k)] = given[k].at(parameters);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                     \
-  template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, VectorX<T>*, VectorX<T>*); \
+#define CODESIGN_INSTANTIATE(T)                                                          \
+  template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, \
+                                VectorX<T>*, VectorX<T>*);                               \
   template void set_extra_states(const System&, const std::vector<T>&, VectorX<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE

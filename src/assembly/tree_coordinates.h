@@ -15,27 +15,35 @@ struct TreeCoordinates {
   VectorX<double> theta, rate;
 };
 
-/// The tree coordinates of a state, the inverse of body_coordinates(). The turns of a floating joint are about x, then y, then z.
-/// @param equations must hold the design; they load `state`. @param rest coordinates of joints below which nothing has mass, kept.
-/// @param result sized and filled. @returns the joint whose coordinate cannot be computed (a hinge of a folded chain without a closed form,
-/// a floating joint turned by 90 degrees about y), or an empty text.
-std::string tree_coordinates(const System& system, const TreeLayout& tree, const State<double>& state, const VectorX<double>& rest,
+/// The tree coordinates of a state, the inverse of body_coordinates(). The turns of a floating
+/// joint are about x, then y, then z.
+/// @param equations must hold the design; they load `state`. @param rest coordinates of joints
+/// below which nothing has mass, kept.
+/// @param result sized and filled. @returns the joint whose coordinate cannot be computed (a hinge
+/// of a folded chain without a closed form, a floating joint turned by 90 degrees about y), or an
+/// empty text.
+std::string tree_coordinates(const System& system, const TreeLayout& tree,
+                             const State<double>& state, const VectorX<double>& rest,
                              Equations<double>* equations, TreeCoordinates* result);
 
-/// Flags per tree coordinate (TreeLayout order): whether the study gives its position, a guess of it, or its rate.
+/// Flags per tree coordinate (TreeLayout order): whether the study gives its position, a guess of
+/// it, or its rate.
 struct GivenStart {
   std::vector<bool> position, guess, velocity;
 
   GivenStart(const System& system, const TreeLayout& tree);
 };
 
-/// Sets the tree coordinates [rad or m] and rates that the study gives (guesses excepted) to their values at `parameters`; other entries of
-/// `theta` and `rate`, both of tree.size, keep their values. A given rotation of a floating joint leaves its turning coordinates at zero:
+/// Sets the tree coordinates [rad or m] and rates that the study gives (guesses excepted) to their
+/// values at `parameters`; other entries of `theta` and `rate`, both of tree.size, keep their
+/// values. A given rotation of a floating joint leaves its turning coordinates at zero:
 /// JointDescription::start_rotation holds the rotation.
 template <class T>
-void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters, VectorX<T>* theta, VectorX<T>* rate);
+void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters,
+                     VectorX<T>* theta, VectorX<T>* rate);
 
-/// The extra states at the start, Study::initial_extra_states and then zeros; resized to Layout::states.
+/// The extra states at the start, Study::initial_extra_states and then zeros; resized to
+/// Layout::states.
 template <class T>
 void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s);
 

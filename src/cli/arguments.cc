@@ -14,8 +14,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// An option of the command line. A required value is the next word or follows `=`, as in `--set x=1` and `--set=x=1`; an optional one must
-/// follow `=`.
+/// An option of the command line. A required value is the next word or follows `=`, as in `--set
+/// x=1` and `--set=x=1`; an optional one must follow `=`.
 struct Option {
   enum class Value { kNone, kOptional, kRequired };
   Value value = Value::kRequired;
@@ -27,14 +27,17 @@ template <class T>
 T number_of(const std::string& option, const std::string& text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) throw UsageError(option + ": \"" + text + "\" is not a number");
+  if (error != std::errc() || end != text.data() + text.size())
+    throw UsageError(option + ": \"" + text + "\" is not a number");
   return value;
 }
 
 void add_setting(const std::string& text, Arguments* arguments) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw UsageError("--set: expected PARAMETER=VALUE, not \"" + text + "\"");
-  arguments->settings.emplace_back(text.substr(0, equals), number_of<double>("--set", text.substr(equals + 1)));
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError("--set: expected PARAMETER=VALUE, not \"" + text + "\"");
+  arguments->settings.emplace_back(text.substr(0, equals),
+                                   number_of<double>("--set", text.substr(equals + 1)));
 }
 
 void add_signals(const std::string& text, Arguments* arguments) {
@@ -62,7 +65,8 @@ void set_method(const std::string& text, Arguments* arguments) {
 
 void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   if (!arguments->output.empty() && arguments->output != path)
-    throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path + "\" are two folders, a job has one");
+    throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path +
+                     "\" are two folders, a job has one");
   arguments->output = path;
   arguments->resume = arguments->resume || resume;
 }
@@ -70,24 +74,38 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const std::map<std::string, Option> kOptions = {
-      {"--overlay", {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->overlays.push_back(text); }}},
+      {"--overlay",
+       {Value::kRequired,
+        {},
+        [](const std::string& text, Arguments* to) { to->overlays.push_back(text); }}},
       {"--set", {Value::kRequired, {}, add_setting}},
-      {"--result", {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
+      {"--result",
+       {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
       {"--json", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->json = true; }}},
       {"--quiet", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->quiet = true; }}},
-      {"--sticks", {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
+      {"--sticks",
+       {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
       {"--signals", {Value::kRequired, {"simulate"}, add_signals}},
-      {"--csv", {Value::kRequired, {"simulate"}, [](const std::string& text, Arguments* to) { to->csv = text; }}},
+      {"--csv",
+       {Value::kRequired,
+        {"simulate"},
+        [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
       {"--output",
-       {Value::kRequired, {"optimize", "identify", "excite"}, [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
-      {"--resume", {Value::kRequired, {"optimize"}, [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
+       {Value::kRequired,
+        {"optimize", "identify", "excite"},
+        [](const std::string& text, Arguments* to) { set_folder(text, false, to); }}},
+      {"--resume",
+       {Value::kRequired,
+        {"optimize"},
+        [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
   };
   return kOptions;
 }
 
-[[noreturn]] void fail_unknown(const std::string& kind, const std::string& word, const Names& known) {
+[[noreturn]] void fail_unknown(const std::string& kind, const std::string& word,
+                               const Names& known) {
   const std::string near = nearest_name(word, known);
   throw UsageError("unknown " + kind + " \"" + word + "\"" + did_you_mean(near));
 }
@@ -95,7 +113,8 @@ const std::map<std::string, Option>& options() {
 const Option& find_option(const std::string& name, const std::string& command) {
   Names known;
   for (const auto& [option_name, option] : options()) {
-    const bool fits = option.commands.empty() || std::count(option.commands.begin(), option.commands.end(), command) > 0;
+    const bool fits = option.commands.empty() ||
+                      std::count(option.commands.begin(), option.commands.end(), command) > 0;
     if (fits && option_name == name) return option;
     if (fits) known.push_back(option_name);
   }
@@ -130,7 +149,8 @@ void take_positional(const std::string& word, Arguments* arguments) {
 }
 
 bool asks_for_help(const Names& words) {
-  return words[0] == "help" || std::count(words.begin(), words.end(), "--help") > 0 || std::count(words.begin(), words.end(), "-h") > 0;
+  return words[0] == "help" || std::count(words.begin(), words.end(), "--help") > 0 ||
+         std::count(words.begin(), words.end(), "-h") > 0;
 }
 
 /// The help of one command: its line with arguments and meaning, then its options.
@@ -138,12 +158,14 @@ struct CommandHelp {
   std::string name, text;
 };
 
-constexpr const char* kFiles = "MODEL is an annotated URDF (doc/annotations.md), STUDY a YAML file (doc/study.md).\n";
+constexpr const char* kFiles =
+    "MODEL is an annotated URDF (doc/annotations.md), STUDY a YAML file (doc/study.md).\n";
 
 const CommandHelp kCommands[] = {
     {"check", R"(  check MODEL [STUDY]      the table of equations, redundant constraints
 )"},
-    {"urdf", R"(  urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
+    {"urdf",
+     R"(  urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
     --sticks               for viewers: links without <visual>, or whose meshes are not here,
                            get sticks and spheres
 )"},
@@ -152,36 +174,44 @@ const CommandHelp kCommands[] = {
     --csv FILE             the file to write; by default standard output
     --samples N            number of equally spaced instants, at least 2; by default 101
 )"},
-    {"gradient", R"(  gradient MODEL STUDY     the objective and its gradient by direct sensitivities
+    {"gradient",
+     R"(  gradient MODEL STUDY     the objective and its gradient by direct sensitivities
     --verify               compare with a complex step (with idas: Ridders' differences) along one
                            direction; where that disagrees, by each parameter
     --verify=METHOD        compare by each parameter, with complex_step or ridders
 )"},
-    {"optimize", R"(  optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
+    {"optimize",
+     R"(  optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
     --output DIR           write result.json, tuned.urdf, gains.yaml, tables of both runs and of
                            the search (doc/results.md); best.urdf and best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
 )"},
-    {"identify", R"(  identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
+    {"identify",
+     R"(  identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified_overlay.urdf, identified.urdf,
                            residuals.csv and job_study.yaml, the study
 )"},
-    {"excite", R"(  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
+    {"excite",
+     R"(  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
     --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
 )"},
-    {"report", R"(  report DIR|BAG           a page with all that an optimization or identification has found
+    {"report",
+     R"(  report DIR|BAG           a page with all that an optimization or identification has found
     -o FILE                the page; by default report.html
 )"},
-    {"apply", R"(  apply DIR|BAG            send the gains of an optimization to a running robot, along a ramp, and
+    {"apply",
+     R"(  apply DIR|BAG            send the gains of an optimization to a running robot, along a ramp, and
                            take them back if it leaves its limits (apply --help; with ROS)
 )"},
 };
 
-constexpr const char* kOtherCommands = R"(  help [COMMAND]           this text, or the options of one command
+constexpr const char* kOtherCommands =
+    R"(  help [COMMAND]           this text, or the options of one command
   --version                the version of this program, as "codesign 0.1.0"
 )";
 
-constexpr const char* kSharedOptions = R"(  --overlay FILE           annotations to merge into the model; may be repeated
+constexpr const char* kSharedOptions =
+    R"(  --overlay FILE           annotations to merge into the model; may be repeated
   --result FILE            take the design of a result.json; of another study what fits
   --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
   --json                   one JSON object on standard output, with this program's version
@@ -196,7 +226,8 @@ the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "report", "apply", "help"};
+  const Names commands = {"check",    "urdf",   "simulate", "gradient", "optimize",
+                          "identify", "excite", "report",   "apply",    "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];
@@ -204,7 +235,8 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     // The command before `--help`, or the word after `help`.
     arguments.topic = words[0] == "help" && words.size() > 1 ? words[1] : words[0];
     if (arguments.topic.rfind('-', 0) == 0 || arguments.topic == "help") arguments.topic.clear();
-    if (!arguments.topic.empty() && std::count(commands.begin(), commands.end(), arguments.topic) == 0)
+    if (!arguments.topic.empty() &&
+        std::count(commands.begin(), commands.end(), arguments.topic) == 0)
       fail_unknown("command", arguments.topic, commands);
     return arguments;
   }
@@ -212,7 +244,8 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     arguments.command = "version";
     return arguments;
   }
-  if (std::count(commands.begin(), commands.end(), arguments.command) == 0) fail_unknown("command", arguments.command, commands);
+  if (std::count(commands.begin(), commands.end(), arguments.command) == 0)
+    fail_unknown("command", arguments.command, commands);
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i].empty()) throw UsageError("an empty argument");
     if (words[i][0] == '-')
@@ -227,15 +260,23 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
 }
 
 std::string usage(const std::string& command) {
-  const auto one = std::find_if(std::begin(kCommands), std::end(kCommands), [&](const CommandHelp& help) { return help.name == command; });
+  const auto one = std::find_if(std::begin(kCommands), std::end(kCommands),
+                                [&](const CommandHelp& help) { return help.name == command; });
   if (one != std::end(kCommands)) {
     const bool is_for_jobs = command == "report" || command == "apply";
-    const std::string head = "usage: codesign " + command + (is_for_jobs ? " DIR|BAG [OPTIONS]\n\n" : " MODEL [STUDY] [OPTIONS]\n\n");
-    return head + one->text + (is_for_jobs ? "" : std::string("\noptions of every command\n") + kSharedOptions + '\n' + kFiles);
+    const std::string head =
+        "usage: codesign " + command +
+        (is_for_jobs ? " DIR|BAG [OPTIONS]\n\n" : " MODEL [STUDY] [OPTIONS]\n\n");
+    return head + one->text +
+           (is_for_jobs
+                ? ""
+                : std::string("\noptions of every command\n") + kSharedOptions + '\n' + kFiles);
   }
-  std::string text = std::string("usage: codesign COMMAND MODEL [STUDY] [OPTIONS]\n\n") + kFiles + "\ncommands\n";
+  std::string text =
+      std::string("usage: codesign COMMAND MODEL [STUDY] [OPTIONS]\n\n") + kFiles + "\ncommands\n";
   for (const CommandHelp& help : kCommands) text += help.text;
-  return text + kOtherCommands + "\noptions of every command but report and apply\n" + kSharedOptions + kExitCodes;
+  return text + kOtherCommands + "\noptions of every command but report and apply\n" +
+         kSharedOptions + kExitCodes;
 }
 
 }  // namespace codesign::cli

@@ -16,15 +16,17 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options name their command.
+/// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options
+/// name their command.
 struct Arguments {
-  std::string topic;    ///< help; the command that it is about, empty: all
-  std::string command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, help or version
+  std::string topic;  ///< help; the command that it is about, empty: all
+  std::string
+      command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, help or version
   std::string model;
   std::string study;                  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
-  std::string result;                 ///< path of the result.json with the design to use; empty: none
-  ParameterSettings settings;         ///< --set NAME=VALUE, in order; they replace the values of `result`
+  std::string result;          ///< path of the result.json with the design to use; empty: none
+  ParameterSettings settings;  ///< --set NAME=VALUE, in order; they replace the values of `result`
   bool json = false;
   bool quiet = false;                ///< no progress on the error stream
   bool sticks = false;               ///< urdf; with_sticks()
@@ -32,14 +34,15 @@ struct Arguments {
   std::string csv;                   ///< simulate; empty: standard output
   int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2
   bool verify = false;               ///< gradient
-  bool each_parameter = false;       ///< gradient; verify each parameter, instead of a few directions
+  bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files
   bool resume = false;  ///< optimize; continue with the journal in `output`
 };
 
 /// @param words the command line without the program's name.
-/// @throws UsageError that names the word and, for an unknown option or command, the nearest known one.
+/// @throws UsageError that names the word and, for an unknown option or command, the nearest known
+/// one.
 Arguments parse_arguments(const std::vector<std::string>& words);
 
 /// The help text of a command; of all commands if there is none with this name.

@@ -14,7 +14,8 @@
 namespace codesign::cli {
 namespace {
 
-void print_names(const std::string& what, const std::vector<std::string>& names, std::ostream& out) {
+void print_names(const std::string& what, const std::vector<std::string>& names,
+                 std::ostream& out) {
   if (names.empty()) return;
   out << what << '\n';
   for (const std::string& name : names) out << "  " << name << '\n';
@@ -22,19 +23,24 @@ void print_names(const std::string& what, const std::vector<std::string>& names,
 
 void print_redundancy(const Counts& counts, std::ostream& out) {
   std::vector<std::string> rows;
-  for (const ConstraintRow& row : counts.redundant_rows) rows.push_back(row.joint + ", row " + std::to_string(row.row) + ": " + row.kind);
+  for (const ConstraintRow& row : counts.redundant_rows)
+    rows.push_back(row.joint + ", row " + std::to_string(row.row) + ": " + row.kind);
   print_names("redundant rows (they depend on the other rows at the start)", rows, out);
-  print_names("reactions that are not unique; those of least norm are used", counts.undetermined_reactions, out);
+  print_names("reactions that are not unique; those of least norm are used",
+              counts.undetermined_reactions, out);
   print_names("friction that depends on such a reaction", counts.chosen_friction, out);
 }
 
 void print_table(const Counts& counts, std::ostream& out) {
   Table table;
-  const auto add = [&table](const char* what, int number) { table.add({what, std::to_string(number)}); };
+  const auto add = [&table](const char* what, int number) {
+    table.add({what, std::to_string(number)});
+  };
   add("bodies", counts.bodies);
   add("coordinates", counts.coordinates);
   add("first-order equations", counts.first_order_equations);
-  if (counts.controller_states > 0) add("additional controller and friction states", counts.controller_states);
+  if (counts.controller_states > 0)
+    add("additional controller and friction states", counts.controller_states);
   add("degrees of freedom", counts.degrees_of_freedom);
   add("constraints", counts.constraints);
   add("redundant constraints", counts.redundant_constraints);
@@ -43,13 +49,15 @@ void print_table(const Counts& counts, std::ostream& out) {
   add("sensitivities", counts.sensitivities);
   add("equations in all", counts.total_equations);
   table.print(out);
-  out << "solved in " << (counts.in_joint_coordinates ? "joint" : "absolute") << " coordinates: " << counts.solved_coordinates << ", with "
-      << counts.solved_constraints << " constraints\n";
+  out << "solved in " << (counts.in_joint_coordinates ? "joint" : "absolute")
+      << " coordinates: " << counts.solved_coordinates << ", with " << counts.solved_constraints
+      << " constraints\n";
   print_redundancy(counts, out);
 }
 
 /// The limits that the start exceeds.
-std::vector<LimitCrossing> crossings_at_start(const Problem& problem, const std::vector<double>& parameters) {
+std::vector<LimitCrossing> crossings_at_start(const Problem& problem,
+                                              const std::vector<double>& parameters) {
   Simulation simulation(problem.system(), parameters);
   LimitWatch watch(problem, parameters, simulation.names());
   Frame frame;
@@ -68,7 +76,8 @@ int check(const Arguments& arguments, const Console& console) {
   const Counts counts = count_equations(*problem.system(), parameters, &status);
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
   Warnings of_recordings;
-  const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &of_recordings);
+  const std::vector<RecordingSummary> recordings =
+      check_recordings(problem, console, &of_recordings);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
@@ -86,7 +95,8 @@ int check(const Arguments& arguments, const Console& console) {
 
 int urdf(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments);
-  std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters(), std::nullopt, problem.robot().laws);
+  std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters(),
+                                      std::nullopt, problem.robot().laws);
   if (arguments.sticks) text = with_sticks(text);
   if (!arguments.json) console.out << text;
   Json object;

@@ -9,8 +9,8 @@
 
 namespace codesign::cli {
 
-/// The commands of the program. Each returns kDone or kFailed. @throws InputError for bad input, OutputError for output that cannot be
-/// written.
+/// The commands of the program. Each returns kDone or kFailed. @throws InputError for bad input,
+/// OutputError for output that cannot be written.
 int check(const Arguments& arguments, const Console& console);
 int simulate(const Arguments& arguments, const Console& console);
 int urdf(const Arguments& arguments, const Console& console);
@@ -19,7 +19,8 @@ int optimize(const Arguments& arguments, const Console& console);
 int identify(const Arguments& arguments, const Console& console);
 int excite(const Arguments& arguments, const Console& console);
 
-/// Runs the program and reports every error. @param words the command line without the program's name. @returns the exit code, an ExitCode.
+/// Runs the program and reports every error. @param words the command line without the program's
+/// name. @returns the exit code, an ExitCode.
 int run(const std::vector<std::string>& words, const Console& console);
 
 }  // namespace codesign::cli

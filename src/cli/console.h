@@ -16,14 +16,17 @@ namespace codesign::cli {
 
 /// The output streams and the cancel flag of a command.
 struct Console {
-  std::ostream& out;                                ///< results only
-  std::ostream& err;                                ///< progress and messages
-  const std::atomic<bool>& cancel;                  ///< once set, the command ends soon and keeps its results so far
-  void (*loaded)() = nullptr;                       ///< called after the input is loaded, before the computation; may be null
-  Dispatcher* ranks = nullptr;                      ///< the processes of the job, as in require_engine()
-  BagReader bags = {};                              ///< reads the bags that a study names; empty: they are refused
-  IdentificationBagWriter identification_bag = {};  ///< writes the bag of an identification; empty: none is written
-  TrajectoryBagWriter trajectories = {};            ///< writes bags of trajectories; empty: none are written
+  std::ostream& out;  ///< results only
+  std::ostream& err;  ///< progress and messages
+  const std::atomic<bool>&
+      cancel;  ///< once set, the command ends soon and keeps its results so far
+  void (*loaded)() =
+      nullptr;  ///< called after the input is loaded, before the computation; may be null
+  Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
+  BagReader bags = {};          ///< reads the bags that a study names; empty: they are refused
+  IdentificationBagWriter identification_bag =
+      {};  ///< writes the bag of an identification; empty: none is written
+  TrajectoryBagWriter trajectories = {};  ///< writes bags of trajectories; empty: none are written
 };
 
 /// The program's exit codes.

@@ -28,7 +28,8 @@ constexpr const char* kBagFile = "trajectory.bag";
 void print_excitation_trial(const ExcitationTrial& trial, std::ostream& err) {
   err << "start " << trial.start << ", evaluation " << trial.evaluation << ": ";
   if (trial.status.ok())
-    err << "criterion " << readable(trial.criterion) << ", " << readable(100.0 * trial.worst) << " % of the limits" << std::endl;
+    err << "criterion " << readable(trial.criterion) << ", " << readable(100.0 * trial.worst)
+        << " % of the limits" << std::endl;
   else
     err << "failed, " << describe(trial.status) << std::endl;
 }
@@ -37,7 +38,8 @@ void print_predictions(const ExcitationResult& result, double level, std::ostrea
   Table table;
   table.add({"number", "nominal", readable(100.0 * level) + " % +-, plain", "+-, found", "note"});
   for (const PredictedNumber& number : result.numbers)
-    table.add({number.name, readable(number.nominal), readable(number.half_before, kIntervalDigits), readable(number.half, kIntervalDigits),
+    table.add({number.name, readable(number.nominal), readable(number.half_before, kIntervalDigits),
+               readable(number.half, kIntervalDigits),
                number.is_determined ? "" : "not identifiable"});
   table.print(out);
 }
@@ -46,8 +48,8 @@ void print_limits(const ExcitationResult& result, std::ostream& out) {
   Table table;
   table.add({"limit", "lower", "lowest", "highest", "upper"});
   for (const KeptLimit& limit : result.limits)
-    table.add({limit.limits.name, readable(limit.limits.lower), readable(limit.reached.lowest), readable(limit.reached.highest),
-               readable(limit.limits.upper)});
+    table.add({limit.limits.name, readable(limit.limits.lower), readable(limit.reached.lowest),
+               readable(limit.reached.highest), readable(limit.limits.upper)});
   table.print(out);
 }
 
@@ -55,14 +57,16 @@ void print_excitation(const Problem& problem, const ExcitationResult& result, st
   for (const std::string& sentence : excitation_sentences(result)) out << sentence << '\n';
   print_predictions(result, problem.study().identification->intervals.level, out);
   print_limits(result, out);
-  out << result.termination << " after " << result.starts.size() << " searches, " << result.evaluations << " evaluations, "
-      << readable(result.cpu_seconds) << " s of processor time\n";
+  out << result.termination << " after " << result.starts.size() << " searches, "
+      << result.evaluations << " evaluations, " << readable(result.cpu_seconds)
+      << " s of processor time\n";
 }
 
 Problem load_excitable(const Arguments& arguments, const Console& console) {
   Problem problem = load(arguments, &console);
   if (!problem.study().excitation)
-    throw InputError({{arguments.study, 1}, "excite", "the study has no joints to move", "", "a block excite"});
+    throw InputError(
+        {{arguments.study, 1}, "excite", "the study has no joints to move", "", "a block excite"});
   return problem;
 }
 
@@ -83,14 +87,19 @@ void attempt(const Action& action, std::vector<Failure>* failures) {
   }
 }
 
-std::vector<Failure> write_excitation(const std::string& folder, const ExcitationResult& result, const Json& object,
-                                      const Console& console) {
-  const auto in_folder = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+std::vector<Failure> write_excitation(const std::string& folder, const ExcitationResult& result,
+                                      const Json& object, const Console& console) {
+  const auto in_folder = [&](const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+  };
   std::vector<Failure> failures;
   attempt([&] { write_whole_file(in_folder(kResultFile), to_text(object)); }, &failures);
-  attempt([&] { write_whole_file(in_folder(kTrajectoryFile), trajectory_text(result.points)); }, &failures);
-  attempt([&] { write_whole_file(in_folder(kPlainFile), trajectory_text(result.before)); }, &failures);
-  if (console.trajectories) attempt([&] { console.trajectories(in_folder(kBagFile), result.points); }, &failures);
+  attempt([&] { write_whole_file(in_folder(kTrajectoryFile), trajectory_text(result.points)); },
+          &failures);
+  attempt([&] { write_whole_file(in_folder(kPlainFile), trajectory_text(result.before)); },
+          &failures);
+  if (console.trajectories)
+    attempt([&] { console.trajectories(in_folder(kBagFile), result.points); }, &failures);
   return failures;
 }
 
@@ -100,7 +109,8 @@ int excite(const Arguments& arguments, const Console& console) {
   const Problem problem = load_excitable(arguments, console);
   if (!arguments.output.empty()) {
     make_folder(arguments.output, "--output");
-    require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile}, problem);
+    require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile},
+                        problem);
   }
   LinePace pace;
   const auto observer = [&](const ExcitationTrial& trial) {
@@ -114,7 +124,8 @@ int excite(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, {}, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
-  if (!arguments.output.empty() && is_found) failures = write_excitation(arguments.output, result, object, console);
+  if (!arguments.output.empty() && is_found)
+    failures = write_excitation(arguments.output, result, object, console);
   return finish(arguments, result.status, std::move(object), console, failures);
 }
 

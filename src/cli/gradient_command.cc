@@ -11,15 +11,19 @@
 namespace codesign::cli {
 namespace {
 
-const char* name_of(CheckMethod method) { return method == CheckMethod::kComplexStep ? "complex_step" : "ridders"; }
+const char* name_of(CheckMethod method) {
+  return method == CheckMethod::kComplexStep ? "complex_step" : "ridders";
+}
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
   const Ensemble ensemble(problem, 1, {nullptr, nullptr, console.ranks});
   if (arguments.verify) {
     GradientCheck check;
-    if (!arguments.each_parameter) check = check_along(ensemble, problem.start(), arguments.method, &console.cancel);
+    if (!arguments.each_parameter)
+      check = check_along(ensemble, problem.start(), arguments.method, &console.cancel);
     // A disagreement is shown parameter by parameter.
-    if (arguments.each_parameter || (check.status.ok() && check.directions.size() > 0 && disagrees(check)))
+    if (arguments.each_parameter ||
+        (check.status.ok() && check.directions.size() > 0 && disagrees(check)))
       check = check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
     return check;
   }
@@ -32,7 +36,8 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
 void print_table(const Problem& problem, const GradientCheck& result, std::ostream& out) {
   const std::vector<std::string> names = problem.tuned_names();
   const Eigen::VectorXd rho = problem.start();
-  const bool along = result.directions.size() > 0, verified = !along && result.reference.size() == rho.size();
+  const bool along = result.directions.size() > 0,
+             verified = !along && result.reference.size() == rho.size();
   Table table;
   std::vector<std::string> header = {"parameter", "value", "gradient"};
   if (verified) header.insert(header.end(), {name_of(result.method), "difference"});
@@ -40,23 +45,29 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const double gradient = result.evaluation.gradient[k];
     std::vector<std::string> row = {names[to_index(k)], readable(rho[k]), readable(gradient)};
-    if (verified) row.insert(row.end(), {readable(result.reference[k]), readable(gradient - result.reference[k])});
+    if (verified)
+      row.insert(row.end(),
+                 {readable(result.reference[k]), readable(gradient - result.reference[k])});
     table.add(std::move(row));
   }
   out << "objective " << readable(result.evaluation.objective) << '\n';
   table.print(out);
   if (along)
     out << "verified with " << name_of(result.method)
-        << " along a direction in which every parameter has its part; --verify=" << name_of(result.method) << " verifies each parameter\n";
-  if (verified || along) out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
+        << " along a direction in which every parameter has its part; --verify="
+        << name_of(result.method) << " verifies each parameter\n";
+  if (verified || along)
+    out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
 }
 
-Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result, const Json& counts) {
+Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result,
+                 const Json& counts) {
   const std::vector<std::string> names = problem.tuned_names();
   Json object;
   if (result.evaluation.status.ok()) object["objective"] = result.evaluation.objective;
   object["parameters"] = parameters_json(problem, problem.parameters());
-  if (result.evaluation.gradient.size() > 0) object["gradient"] = by_name(names, result.evaluation.gradient);
+  if (result.evaluation.gradient.size() > 0)
+    object["gradient"] = by_name(names, result.evaluation.gradient);
   add_statistics(result.evaluation.statistics, &object);
   object.update(counts);
   if (!arguments.verify || !result.status.ok()) return object;

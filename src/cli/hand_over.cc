@@ -53,7 +53,8 @@ std::string find_script(const std::string& name, const std::string& program_fold
     std::ifstream file(place / "scripts.path");
     std::getline(file, built);
     for (const fs::path& folder : {place / "scripts", fs::path(built)})
-      if (!folder.empty() && fs::exists(folder / name)) return fs::weakly_canonical(folder / name).string();
+      if (!folder.empty() && fs::exists(folder / name))
+        return fs::weakly_canonical(folder / name).string();
   }
   return "";
 }
@@ -67,7 +68,8 @@ void become(const std::string& program, const std::vector<std::string>& words) {
   const fs::path self = fs::read_symlink("/proc/self/exe");
   const std::string path = find_program(program, self.parent_path().string());
   if (path.empty())
-    throw std::runtime_error("the program " + program + ", which needs ROS, is not beside " + self.string() +
+    throw std::runtime_error("the program " + program + ", which needs ROS, is not beside " +
+                             self.string() +
                              ": build the package where ROS is installed (doc/building.md)");
   std::vector<std::string> arguments = words;
   arguments.insert(arguments.begin(), path);
@@ -78,11 +80,14 @@ void become(const std::string& program, const std::vector<std::string>& words) {
 int hand_over(const std::string& script, const std::vector<std::string>& words) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const std::string path = find_script(script, program.parent_path().string());
-  if (path.empty()) throw std::runtime_error("the script " + script + " of this package is not installed beside " + program.string());
+  if (path.empty())
+    throw std::runtime_error("the script " + script + " of this package is not installed beside " +
+                             program.string());
   std::vector<std::string> arguments = words, variables = environment_with(program.string());
   arguments.insert(arguments.begin(), path);
   pid_t child = 0;
-  const int error = posix_spawn(&child, path.c_str(), nullptr, nullptr, pointers_to(&arguments).data(), pointers_to(&variables).data());
+  const int error = posix_spawn(&child, path.c_str(), nullptr, nullptr,
+                                pointers_to(&arguments).data(), pointers_to(&variables).data());
   if (error != 0) throw std::runtime_error(path + " cannot be started: " + std::strerror(error));
   return wait_for(child);
 }

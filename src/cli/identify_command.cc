@@ -22,11 +22,13 @@ namespace {
 
 void print_numbers(const IdentificationResult& result, double level, std::ostream& out) {
   Table table;
-  table.add({"number", "start", "identified", "deviation", readable(100.0 * level) + " % from", "to", "note"});
+  table.add({"number", "start", "identified", "deviation", readable(100.0 * level) + " % from",
+             "to", "note"});
   for (const IdentifiedNumber& number : result.numbers) {
     const bool known = number.is_determined && !number.is_on_bound;
-    table.add({number.name, readable(number.start), readable(number.value), known ? readable(number.deviation) : "",
-               known ? readable(number.low) : "", known ? readable(number.high) : "",
+    table.add({number.name, readable(number.start), readable(number.value),
+               known ? readable(number.deviation) : "", known ? readable(number.low) : "",
+               known ? readable(number.high) : "",
                number.is_on_bound     ? "on its bound"
                : number.is_determined ? ""
                                       : "not identifiable"});
@@ -40,7 +42,8 @@ void print_combinations(const IdentificationResult& result, double level, std::o
   Table table;
   table.add({"value", "deviation", readable(100.0 * level) + " % from", "to", "known combination"});
   for (const BaseParameter& known : result.combinations)
-    table.add({readable(known.value), readable(known.deviation), readable(known.low), readable(known.high), known.expression});
+    table.add({readable(known.value), readable(known.deviation), readable(known.low),
+               readable(known.high), known.expression});
   table.print(out);
 }
 
@@ -49,8 +52,9 @@ void print_result(const Problem& problem, const IdentificationResult& result, st
   const double level = problem.study().identification->intervals.level;
   print_numbers(result, level, out);
   print_combinations(result, level, out);
-  out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
-      << result.failed_evaluations << " failed), " << readable(result.cpu_seconds) << " s of processor time\n";
+  out << result.termination << " after " << result.iterations << " iterations, "
+      << result.evaluations << " evaluations (" << result.failed_evaluations << " failed), "
+      << readable(result.cpu_seconds) << " s of processor time\n";
 }
 
 Problem load_identifiable(const Arguments& arguments) {
@@ -63,7 +67,8 @@ Problem load_identifiable(const Arguments& arguments) {
 void make_room(const std::string& folder, const Problem& problem) {
   make_folder(folder, "--output");
   std::vector<std::string> names;
-  for (const IdentificationFile& file : identification_files(problem, {}, {})) names.push_back(file.name);
+  for (const IdentificationFile& file : identification_files(problem, {}, {}))
+    names.push_back(file.name);
   require_other_files(folder, names, problem);
 }
 
@@ -77,16 +82,21 @@ void try_to(Write write, std::vector<Failure>* failures) {
   }
 }
 
-/// Replaces the bag of an earlier identification in this folder. An interrupt during this call ends the bag early, which is a failure.
-/// After an earlier interrupt the bag is written in full, since a second interrupt ends the program. If a motion cannot be shown, a warning
-/// says so; the identification does not fail.
-void write_show(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings, const IdentificationResult& result,
-                const std::string& json, const std::string& path, const Console& console, std::vector<Failure>* failures) {
+/// Replaces the bag of an earlier identification in this folder. An interrupt during this call ends
+/// the bag early, which is a failure. After an earlier interrupt the bag is written in full, since
+/// a second interrupt ends the program. If a motion cannot be shown, a warning says so; the
+/// identification does not fail.
+void write_show(const Arguments& arguments, const Problem& problem,
+                const StudyRecordings& recordings, const IdentificationResult& result,
+                const std::string& json, const std::string& path, const Console& console,
+                std::vector<Failure>* failures) {
   const bool is_told_before = console.cancel;
-  ComparedMotion motion = compare_motion(problem, recordings, result, kShownRate, [&] { return !is_told_before && console.cancel; });
+  ComparedMotion motion = compare_motion(problem, recordings, result, kShownRate,
+                                         [&] { return !is_told_before && console.cancel; });
   for (const ComparedRecording& recording : motion.recordings) {
     if (recording.status.ok()) continue;
-    const std::string sentence = recording.element + " ends early in " + path + ": " + describe(recording.status);
+    const std::string sentence =
+        recording.element + " ends early in " + path + ": " + describe(recording.status);
     if (recording.status.is_interrupted())
       failures->push_back({name_of(recording.status.code), sentence});
     else
@@ -96,15 +106,19 @@ void write_show(const Arguments& arguments, const Problem& problem, const StudyR
   console.identification_bag(path, identification_show(problem, result, json, std::move(motion)));
 }
 
-std::vector<Failure> write_folder(const Arguments& arguments, const Problem& problem, const StudyRecordings& recordings,
-                                  const IdentificationResult& result, const std::string& json, const Console& console) {
+std::vector<Failure> write_folder(const Arguments& arguments, const Problem& problem,
+                                  const StudyRecordings& recordings,
+                                  const IdentificationResult& result, const std::string& json,
+                                  const Console& console) {
   std::vector<Failure> failures;
   const std::filesystem::path folder(arguments.output);
   for (const IdentificationFile& file : identification_files(problem, result, json))
     try_to([&] { write_whole_file((folder / file.name).string(), file.text()); }, &failures);
   const std::string bag = (folder / "identification.bag").string();
   if (console.identification_bag)
-    try_to([&] { write_show(arguments, problem, recordings, result, json, bag, console, &failures); }, &failures);
+    try_to(
+        [&] { write_show(arguments, problem, recordings, result, json, bag, console, &failures); },
+        &failures);
   return failures;
 }
 
@@ -132,7 +146,8 @@ int identify(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
-  if (!arguments.output.empty() && known) failures = write_folder(arguments, problem, recordings, result, to_text(object), console);
+  if (!arguments.output.empty() && known)
+    failures = write_folder(arguments, problem, recordings, result, to_text(object), console);
   return finish(arguments, result.status, std::move(object), console, failures);
 }
 

@@ -16,14 +16,24 @@ namespace codesign::cli {
 void open_output(const std::string& path, const std::string& option, std::ofstream* file) {
   file->open(path, std::ios::binary);
   if (!*file)
-    throw InputError({{path, 0}, option, "the file cannot be written", path, "a path in a folder that exists and may be written to"});
+    throw InputError({{path, 0},
+                      option,
+                      "the file cannot be written",
+                      path,
+                      "a path in a folder that exists and may be written to"});
 }
 
-void require_no_input(const std::string& path, const std::string& option, const std::string& what, const std::vector<std::string>& inputs) {
+void require_no_input(const std::string& path, const std::string& option, const std::string& what,
+                      const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     std::error_code error;
-    if (std::filesystem::is_regular_file(input, error) && std::filesystem::equivalent(path, input, error))
-      throw InputError({{input, 0}, option, what + " would replace this file, which is read", path, "the path of another file"});
+    if (std::filesystem::is_regular_file(input, error) &&
+        std::filesystem::equivalent(path, input, error))
+      throw InputError({{input, 0},
+                        option,
+                        what + " would replace this file, which is read",
+                        path,
+                        "the path of another file"});
   }
 }
 
@@ -31,7 +41,11 @@ void make_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path))
-    throw InputError({{path, 0}, option, "the folder cannot be created", path, "a folder that exists or can be created"});
+    throw InputError({{path, 0},
+                      option,
+                      "the folder cannot be created",
+                      path,
+                      "a folder that exists or can be created"});
 }
 
 Problem load(const Arguments& arguments, const Console* console) {
@@ -57,17 +71,21 @@ std::vector<std::string> input_files(const Problem& problem) {
   std::vector<std::string> paths = {problem.urdf().name, problem.study_text().name};
   for (const SourceText& overlay : problem.overlays()) paths.push_back(overlay.name);
   for (const LoadedFile& file : problem.contents().files) paths.push_back(file.source.name);
-  const std::filesystem::path folder = std::filesystem::absolute(problem.study_text().name).parent_path();
-  for (const LoadedTrajectory& trajectory : problem.contents().trajectories) paths.push_back(folder / trajectory.bag);
+  const std::filesystem::path folder =
+      std::filesystem::absolute(problem.study_text().name).parent_path();
+  for (const LoadedTrajectory& trajectory : problem.contents().trajectories)
+    paths.push_back(folder / trajectory.bag);
   if (const auto& identification = problem.study().identification)
     for (const auto* recordings : {&identification->data, &identification->holdout})
-      for (const RecordingDescription& recording : *recordings) paths.push_back(folder / recording.file);
+      for (const RecordingDescription& recording : *recordings)
+        paths.push_back(folder / recording.file);
   return paths;
 }
 
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem) {
   const std::vector<ControllerDescription>& controllers = problem.study().controllers;
-  const std::vector<std::string> texts = arguments.signals.empty() ? default_signals(problem.robot(), controllers) : arguments.signals;
+  const std::vector<std::string> texts =
+      arguments.signals.empty() ? default_signals(problem.robot(), controllers) : arguments.signals;
   std::vector<SignalDescription> signals;
   for (const std::string& text : texts) {
     signals.push_back(parse_signal(text, {"command line", 0}, "--signals"));

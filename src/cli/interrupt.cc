@@ -13,7 +13,8 @@ namespace {
 std::atomic<bool> interrupted_flag{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take a lock");
 
-// While the input is loaded, no flag is checked and there are no results to lose, so that the program ends at once.
+// While the input is loaded, no flag is checked and there are no results to lose, so that the
+// program ends at once.
 extern "C" void leave(int) {
   static const char kMessage[] = "codesign: interrupted before anything was computed\n";
   const ssize_t written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);

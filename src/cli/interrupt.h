@@ -5,10 +5,12 @@
 
 namespace codesign::cli {
 
-/// Until keep_results() is called, SIGINT and SIGTERM end the program at once with exit code kFailed.
+/// Until keep_results() is called, SIGINT and SIGTERM end the program at once with exit code
+/// kFailed.
 void watch_interrupts();
 
-/// From now on the first SIGINT or SIGTERM sets interrupted(), and a second one ends the program. Called when there are results to keep.
+/// From now on the first SIGINT or SIGTERM sets interrupted(), and a second one ends the program.
+/// Called when there are results to keep.
 void keep_results();
 /// Whether the program was interrupted after keep_results().
 

@@ -20,10 +20,12 @@ constexpr const char* kConvergence = "convergence.csv";
 
 }  // namespace
 
-void require_other_files(const std::string& folder, const std::vector<std::string>& names, const Problem& problem) {
+void require_other_files(const std::string& folder, const std::vector<std::string>& names,
+                         const Problem& problem) {
   const std::vector<std::string> inputs = input_files(problem);
   for (const std::string& name : names)
-    require_no_input((std::filesystem::path(folder) / name).string(), "--output", "the result " + name, inputs);
+    require_no_input((std::filesystem::path(folder) / name).string(), "--output",
+                     "the result " + name, inputs);
 }
 
 JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resume)
@@ -37,23 +39,34 @@ JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resum
   require_other_files(path, names, problem);
   lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
   if (!lock_)
-    throw InputError({{path, 0}, "--output", "another optimization is writing into this folder", path, "a folder of its own for each"});
+    throw InputError({{path, 0},
+                      "--output",
+                      "another optimization is writing into this folder",
+                      path,
+                      "a folder of its own for each"});
   open_journal(resume);
   make_room(resume);
   const std::string convergence = in_folder(kConvergence);
   // A link of this name is replaced, not the file that it leads to.
   unlink(convergence.c_str());
   open_output(convergence, "--output", &convergence_file_);
-  try_to([&] { convergence_.emplace(convergence_file_, convergence_columns(problem.tuned_names()), convergence); });
+  try_to([&] {
+    convergence_.emplace(convergence_file_, convergence_columns(problem.tuned_names()),
+                         convergence);
+  });
 }
 
-std::string JobFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
+std::string JobFolder::in_folder(const std::string& name) const {
+  return (std::filesystem::path(path_) / name).string();
+}
 
 void JobFolder::open_journal(bool resume) {
   const std::string path = in_folder(kJournal), previous = in_folder(kPreviousJournal);
   if (!resume && std::rename(path.c_str(), previous.c_str()) == 0)
-    notes_.push_back("the journal of an earlier optimization in this folder is now " + previous + "; --resume would have gone on with it");
-  journal_ = std::make_shared<Journal>(path, problem_, problem_.optimizer_options(), resume ? Journal::Mode::kResume : Journal::Mode::kNew);
+    notes_.push_back("the journal of an earlier optimization in this folder is now " + previous +
+                     "; --resume would have gone on with it");
+  journal_ = std::make_shared<Journal>(path, problem_, problem_.optimizer_options(),
+                                       resume ? Journal::Mode::kResume : Journal::Mode::kNew);
   notes_.insert(notes_.end(), journal_->notes().begin(), journal_->notes().end());
 }
 
@@ -67,7 +80,8 @@ void JobFolder::make_room(bool resume) {
     // The resumed optimization reaches its best point again.
     if (resume) continue;
     if (std::rename(in_folder(name).c_str(), in_folder("killed_" + name).c_str()) == 0)
-      notes_.push_back("an optimization in this folder was killed; its best point is now in " + in_folder("killed_" + name));
+      notes_.push_back("an optimization in this folder was killed; its best point is now in " +
+                       in_folder("killed_" + name));
   }
 }
 
@@ -87,9 +101,12 @@ void JobFolder::add(const Trial& trial) {
   if (failures_.size() > before) convergence_.reset();
 }
 
-void JobFolder::add_failures(const std::vector<Failure>& failures) { failures_.insert(failures_.end(), failures.begin(), failures.end()); }
+void JobFolder::add_failures(const std::vector<Failure>& failures) {
+  failures_.insert(failures_.end(), failures.begin(), failures.end());
+}
 
-std::vector<Failure> JobFolder::finish(const Json& object, const OptimizationResult& result, const std::atomic<bool>& cancel) {
+std::vector<Failure> JobFolder::finish(const Json& object, const OptimizationResult& result,
+                                       const std::atomic<bool>& cancel) {
   const std::atomic<bool>* const watched = cancel ? nullptr : &cancel;
   if (!journal_->failure().empty()) failures_.push_back({"output_failed", journal_->failure()});
   const std::size_t before = failures_.size();

@@ -19,17 +19,22 @@
 
 namespace codesign::cli {
 
-/// Checks that no result replaces an input file. @param names of the files to be written into the folder. @throws InputError
-void require_other_files(const std::string& folder, const std::vector<std::string>& names, const Problem& problem);
+/// Checks that no result replaces an input file. @param names of the files to be written into the
+/// folder. @throws InputError
+void require_other_files(const std::string& folder, const std::vector<std::string>& names,
+                         const Problem& problem);
 
-/// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written while the optimization runs; finish()
-/// writes the files of ResultFolder, each as a whole. A lock admits one optimization at a time. Results of an
-/// earlier optimization are removed; its journal is kept as previous_journal.jsonl, and the best point of a killed optimization as
+/// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written
+/// while the optimization runs; finish() writes the files of ResultFolder, each as a whole. A lock
+/// admits one optimization at a time. Results of an earlier optimization are removed; its journal
+/// is kept as previous_journal.jsonl, and the best point of a killed optimization as
 /// killed_best.urdf and killed_best.json.
 class JobFolder {
  public:
-  /// Creates and locks the folder and opens convergence.csv and journal.jsonl. @param resume continues with the folder's journal.
-  /// @throws InputError if that fails, or if another optimization uses the folder; OutputError if the journal cannot be written.
+  /// Creates and locks the folder and opens convergence.csv and journal.jsonl. @param resume
+  /// continues with the folder's journal.
+  /// @throws InputError if that fails, or if another optimization uses the folder; OutputError if
+  /// the journal cannot be written.
   JobFolder(const std::string& path, const Problem& problem, bool resume = false);
 
   /// Sentences for the user about files of an earlier optimization that were kept.
@@ -40,15 +45,19 @@ class JobFolder {
   /// About damaged lines of a journal that is resumed.
   Warnings warnings() const { return journal_->warnings(); }
 
-  /// Records a trial point. A file that cannot be written does not end the optimization; finish() reports it.
+  /// Records a trial point. A file that cannot be written does not end the optimization; finish()
+  /// reports it.
   void add(const Trial& trial);
 
-  /// Writes the remaining files; a failure of one does not affect the others. @param object for result.json. @param result has the best
-  /// point, and the searches and scenarios for starts.csv and scenarios.csv.
-  /// @returns one failure for each file that is missing, or incomplete because its run failed; empty on success.
-  /// @param cancel if it is set during this call, the recorded runs end early. If it was set before (a cancelled optimization), it is
-  /// ignored and the runs are recorded in full.
-  std::vector<Failure> finish(const Json& object, const OptimizationResult& result, const std::atomic<bool>& cancel);
+  /// Writes the remaining files; a failure of one does not affect the others. @param object for
+  /// result.json. @param result has the best point, and the searches and scenarios for starts.csv
+  /// and scenarios.csv.
+  /// @returns one failure for each file that is missing, or incomplete because its run failed;
+  /// empty on success.
+  /// @param cancel if it is set during this call, the recorded runs end early. If it was set before
+  /// (a cancelled optimization), it is ignored and the runs are recorded in full.
+  std::vector<Failure> finish(const Json& object, const OptimizationResult& result,
+                              const std::atomic<bool>& cancel);
 
  private:
   std::string in_folder(const std::string& name) const;

@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   cli::watch_interrupts();
   return codesign::run_on_ranks("codesign", [&](codesign::Dispatcher* ranks) {
     const codesign::BagFiles bags = codesign::bag_files();
-    return cli::run({argv + 1, argv + argc}, {std::cout, std::cerr, cli::interrupted(), cli::keep_results, ranks, bags.read,
-                                              bags.write_identification, bags.write_trajectory});
+    return cli::run({argv + 1, argv + argc},
+                    {std::cout, std::cerr, cli::interrupted(), cli::keep_results, ranks, bags.read,
+                     bags.write_identification, bags.write_trajectory});
   });
 }

@@ -28,38 +28,45 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
   for (std::size_t k = 0; k < names.size(); ++k) {
     const Parameter& parameter = problem.study().parameters[to_index(problem.study().tuned[k])];
     const auto i = to_signed(k);
-    table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]), readable(parameter.lower), readable(parameter.upper),
+    table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]),
+               readable(parameter.lower), readable(parameter.upper),
                is_evaluated(problem, result) ? readable(result.gradient[i]) : "not evaluated"});
   }
   table.print(out);
   for (std::size_t k = 0; k < problem.study().constraints.size(); ++k)
-    out << problem.study().constraints[k].text << ": margin " << readable(result.margins[to_signed(k)]) << '\n';
+    out << problem.study().constraints[k].text << ": margin "
+        << readable(result.margins[to_signed(k)]) << '\n';
 }
 
 void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
   print_design(problem, result, out);
   if (is_evaluated(problem, result))
-    out << "objective " << readable(result.initial_objective) << " -> " << readable(result.objective) << '\n';
+    out << "objective " << readable(result.initial_objective) << " -> "
+        << readable(result.objective) << '\n';
   else if (has_objective(problem, result))
     out << "objective " << readable(result.objective) << " at the best point of screening\n";
   for (const std::string& sentence : watched_sentences(result)) out << sentence << '\n';
   for (const std::string& sentence : ensemble_sentences(problem, result)) out << sentence << '\n';
-  out << result.termination << " after " << result.iterations << " iterations, " << result.evaluations << " evaluations ("
-      << result.failed_evaluations << " failed), " << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
+  out << result.termination << " after " << result.iterations << " iterations, "
+      << result.evaluations << " evaluations (" << result.failed_evaluations << " failed), "
+      << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
       << " s of processor time\n";
   if (const std::string stop = stop_sentence(result); !stop.empty()) out << stop << '\n';
 }
 
 void tell(const std::vector<std::string>& sentences, const Console& console) {
-  for (const std::string& sentence : sentences) console.err << "codesign optimize: " << sentence << std::endl;
+  for (const std::string& sentence : sentences)
+    console.err << "codesign optimize: " << sentence << std::endl;
 }
 
 /// A sentence if more processes were started than can have work.
 std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ranks) {
   const EnsembleDescription& ensemble = problem.study().ensemble;
-  if (ranks == nullptr || ranks->ranks() == 1 || ensemble.is_ensemble() || ensemble.multistart.starts > 0) return {};
-  return {"a study with one run and one start has one evaluation at a time: of the " + std::to_string(ranks->ranks()) +
-          " processes that mpirun has started, one computes"};
+  if (ranks == nullptr || ranks->ranks() == 1 || ensemble.is_ensemble() ||
+      ensemble.multistart.starts > 0)
+    return {};
+  return {"a study with one run and one start has one evaluation at a time: of the " +
+          std::to_string(ranks->ranks()) + " processes that mpirun has started, one computes"};
 }
 
 }  // namespace
@@ -83,15 +90,18 @@ int optimize(const Arguments& arguments, const Console& console) {
   ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
   TrialLines lines(problem.study());
   const auto observer = [&](const Trial& trial) {
-    const Progress now = meter.now();  // before the lock: the meter calls `progress`, which takes it
+    const Progress now =
+        meter.now();  // before the lock: the meter calls `progress`, which takes it
     const std::lock_guard<std::mutex> lock(printing);
     const std::string line = lines.line(trial, now);
     if (trials.admits_now()) shown << line << std::endl;
     if (folder) folder->add(trial);
     return !console.cancel;
   };
-  const SearchHooks hooks{observer, nullptr, folder ? folder->journal() : nullptr, console.ranks, &meter};
-  const OptimizationResult result = run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
+  const SearchHooks hooks{observer, nullptr, folder ? folder->journal() : nullptr, console.ranks,
+                          &meter};
+  const OptimizationResult result =
+      run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
   if (!arguments.json && designed) print_result(problem, result, console.out);
   Json object = optimization_json(problem, result);
@@ -100,7 +110,9 @@ int optimize(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   if (result.status.code == StatusCode::kWorkerLost && folder)
-    tell({"all that was evaluated is in the journal; go on with --resume " + arguments.output + " in place of --output"}, console);
+    tell({"all that was evaluated is in the journal; go on with --resume " + arguments.output +
+          " in place of --output"},
+         console);
   std::vector<Failure> failures;
   // The files are written before the output, so that the output reports missing ones.
   if (folder && designed) failures = folder->finish(object, result, console.cancel);

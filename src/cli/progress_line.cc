@@ -29,7 +29,8 @@ bool LinePace::admits(double seconds) {
 
 std::string progress_line(const Progress& progress) {
   std::string line = counted(progress) + ", " + std::to_string(progress.runs) + " runs";
-  if (progress.runs_per_second > 0.0) line += ", " + readable(progress.runs_per_second, 3) + " runs/s";
+  if (progress.runs_per_second > 0.0)
+    line += ", " + readable(progress.runs_per_second, 3) + " runs/s";
   return line + time_left(progress.seconds_left, progress.is_bound);
 }
 

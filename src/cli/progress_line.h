@@ -11,8 +11,8 @@ namespace codesign::cli {
 /// "screening: 12 of 400 points, 288 runs, 31.2 runs/s, about 5 min left".
 std::string progress_line(const Progress& progress);
 
-/// Bounds the number of lines that a long job prints: the first kLines all, later ones only after a hundredth of the time so far, so that
-/// the next e times that time have some hundred lines.
+/// Bounds the number of lines that a long job prints: the first kLines all, later ones only after a
+/// hundredth of the time so far, so that the next e times that time have some hundred lines.
 class LinePace {
  public:
   static constexpr int kLines = 200;
@@ -20,7 +20,9 @@ class LinePace {
   /// Whether a line is printed at `seconds` since the job began, which ascend.
   bool admits(double seconds);
   /// The same now, counted from the construction of this object.
-  bool admits_now() { return admits(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count()); }
+  bool admits_now() {
+    return admits(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count());
+  }
 
  private:
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

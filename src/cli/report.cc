@@ -10,18 +10,23 @@ std::ostream& progress_of(const Arguments& arguments, const Console& console) {
   return arguments.quiet ? nothing : console.err;
 }
 
-void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console) {
+void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run,
+                  Json* object, const Console& console) {
   Warnings warnings = problem.warnings();
   append(of_run, &warnings);
   for (const Warning& warning : warnings)
-    console.err << "codesign " << arguments.command << ": warning [" << warning.code << "]: " << warning.message << '\n';
+    console.err << "codesign " << arguments.command << ": warning [" << warning.code
+                << "]: " << warning.message << '\n';
   console.err.flush();
   (*object)["setup_seconds"] = problem.setup_seconds();
   (*object)["warnings"] = to_json(warnings);
 }
 
-int finish(const Arguments& arguments, const Status& status, Json object, const Console& console, const std::vector<Failure>& failures) {
-  const auto tell = [&](const std::string& sentence) { console.err << "codesign " << arguments.command << ": " << sentence << std::endl; };
+int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
+           const std::vector<Failure>& failures) {
+  const auto tell = [&](const std::string& sentence) {
+    console.err << "codesign " << arguments.command << ": " << sentence << std::endl;
+  };
   if (!status.ok()) {
     object["error"] = to_json(status);
     tell(describe(status));
@@ -29,7 +34,8 @@ int finish(const Arguments& arguments, const Status& status, Json object, const 
   for (const Failure& failure : failures) {
     tell(failure.message);
     if (object.contains("error"))
-      object["error"]["message"] = object["error"]["message"].get<std::string>() + "; " + failure.message;
+      object["error"]["message"] =
+          object["error"]["message"].get<std::string>() + "; " + failure.message;
     else
       object["error"] = {{"code", failure.code}, {"message", failure.message}};
   }

@@ -21,13 +21,15 @@ inline void print(const Json& object, std::ostream& out) { out << to_text(object
 /// The stream for progress: the error stream, or with --quiet one that drops everything.
 std::ostream& progress_of(const Arguments& arguments, const Console& console);
 
-/// Writes each warning with its code as a line to the error stream and all of them to `warnings` of `object`; also sets its
-/// `setup_seconds`.
+/// Writes each warning with its code as a line to the error stream and all of them to `warnings` of
+/// `object`; also sets its `setup_seconds`.
 /// @param of_run warnings of the run, in addition to the warnings of the input files.
-void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run, Json* object, const Console& console);
+void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run,
+                  Json* object, const Console& console);
 
-/// Ends a command: prints `object` if --json was given, with an `error` if something failed, and writes each failure to the error stream.
-/// The code of the error is the code of `status` or, if that is ok, of the first of `failures`. @returns the exit code.
+/// Ends a command: prints `object` if --json was given, with an `error` if something failed, and
+/// writes each failure to the error stream. The code of the error is the code of `status` or, if
+/// that is ok, of the first of `failures`. @returns the exit code.
 int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
            const std::vector<Failure>& failures = {});
 

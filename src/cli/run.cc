@@ -40,7 +40,8 @@ int run_command(const std::vector<std::string>& words, const Console& console) {
   const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
   try {
     // A script makes the report, and reads its own command line.
-    if (!words.empty() && words[0] == "report") return hand_over("report", {words.begin() + 1, words.end()});
+    if (!words.empty() && words[0] == "report")
+      return hand_over("report", {words.begin() + 1, words.end()});
     // A program of its own, since `apply` needs ROS, and this program is not linked with ROS.
     if (!words.empty() && words[0] == "apply") become("apply", {words.begin() + 1, words.end()});
     return dispatch(parse_arguments(words), console);
@@ -63,7 +64,8 @@ int run(const std::vector<std::string>& words, const Console& console) {
   errno = 0;
   console.out.flush();
   if (console.out) return code;
-  console.err << "codesign: " << OutputError::of_system("standard output", errno).what() << std::endl;
+  console.err << "codesign: " << OutputError::of_system("standard output", errno).what()
+              << std::endl;
   return code == kDone ? kFailed : code;
 }
 

@@ -16,7 +16,8 @@
 namespace codesign::cli {
 namespace {
 
-Json series_json(const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows) {
+Json series_json(const std::vector<std::string>& names,
+                 const std::vector<std::vector<double>>& rows) {
   Json series = Json::object();
   for (std::size_t column = 0; column < names.size(); ++column) {
     Json values = Json::array();
@@ -27,10 +28,11 @@ Json series_json(const std::vector<std::string>& names, const std::vector<std::v
 }
 
 void summarize(const RunSummary& run, double duration, double setup_seconds, std::ostream& err) {
-  err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps (" << run.statistics.rejected_steps
-      << " rejected), " << readable(run.statistics.cpu_seconds) << " s of processor time, set-up " << readable(setup_seconds) << " s"
-      << std::endl;
-  err << "energy error " << readable(run.statistics.energy_error, 3) << " of the largest energy; constraint drift at most "
+  err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps ("
+      << run.statistics.rejected_steps << " rejected), " << readable(run.statistics.cpu_seconds)
+      << " s of processor time, set-up " << readable(setup_seconds) << " s" << std::endl;
+  err << "energy error " << readable(run.statistics.energy_error, 3)
+      << " of the largest energy; constraint drift at most "
       << readable(run.statistics.constraint_drift, 3) << " times the error tolerance" << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
@@ -43,32 +45,36 @@ void open_csv(const Arguments& arguments, const Problem& problem, std::ofstream*
   open_output(arguments.csv, "--csv", file);
 }
 
-/// Adds the objective. It is that of the run, unless it has peaks, which need a separate run that follows them. If that run fails, `status`
-/// becomes its status.
-/// @param as_searched integrates as a search does, so that the objective of a result is reproduced: if sensitivities take part in the error
-/// test, a search has other steps.
-void add_objective(const Problem& problem, bool as_searched, const std::optional<double>& of_run, const Console& console, Status* status,
-                   Json* object) {
+/// Adds the objective. It is that of the run, unless it has peaks, which need a separate run that
+/// follows them. If that run fails, `status` becomes its status.
+/// @param as_searched integrates as a search does, so that the objective of a result is reproduced:
+/// if sensitivities take part in the error test, a search has other steps.
+void add_objective(const Problem& problem, bool as_searched, const std::optional<double>& of_run,
+                   const Console& console, Status* status, Json* object) {
   if (!status->ok() || !has_objective(problem.study())) return;
   const SolverOptions& solver = problem.study().solver;
-  const bool has_other_steps = solver.integrator == IntegratorKind::kIdas || solver.sensitivity_tolerance > 0.0;
+  const bool has_other_steps =
+      solver.integrator == IntegratorKind::kIdas || solver.sensitivity_tolerance > 0.0;
   const bool with_gradient = as_searched && has_other_steps && !problem.study().tuned.empty();
   if (of_run && std::isfinite(*of_run) && !with_gradient) {
     (*object)["objective"] = *of_run;
     return;
   }
-  const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), with_gradient, &console.cancel);
+  const Evaluation evaluation =
+      Evaluator(problem.system()).evaluate(problem.start(), with_gradient, &console.cancel);
   if (evaluation.status.ok())
     (*object)["objective"] = evaluation.objective;
   else
     *status = evaluation.status;
 }
 
-void add_run(const Problem& problem, const RunSummary& run, const Json& counts, Json series, Json* object) {
+void add_run(const Problem& problem, const RunSummary& run, const Json& counts, Json series,
+             Json* object) {
   (*object)["parameters"] = parameters_json(problem, problem.parameters());
   add_statistics(run.statistics, object);
   Json methods = Json::array();
-  for (const MethodChange& change : run.methods) methods.push_back({{"from", change.time}, {"method", change.method}});
+  for (const MethodChange& change : run.methods)
+    methods.push_back({{"from", change.time}, {"method", change.method}});
   (*object)["methods"] = std::move(methods);
   object->update(counts);
   (*object)["limits_exceeded"] = to_json(run.crossings);
@@ -85,7 +91,9 @@ int simulate(const Arguments& arguments, const Console& console) {
   if (!arguments.csv.empty()) open_csv(arguments, problem, &file);
   const bool to_console = arguments.csv.empty() && !arguments.json;
   std::optional<CsvWriter> csv;
-  if (file.is_open() || to_console) csv.emplace(to_console ? console.out : file, names, to_console ? "standard output" : arguments.csv);
+  if (file.is_open() || to_console)
+    csv.emplace(to_console ? console.out : file, names,
+                to_console ? "standard output" : arguments.csv);
   std::vector<std::vector<double>> rows;
   const auto sink = [&](const std::vector<double>& row) {
     if (csv) csv->write(row);
@@ -94,8 +102,11 @@ int simulate(const Arguments& arguments, const Console& console) {
   // Counted before the run, so that a cancelled command ends without further work.
   Json counts = Json::object();
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
-  RunSummary run = record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
-  if (run.status.ok()) summarize(run, problem.study().duration, problem.setup_seconds(), progress_of(arguments, console));
+  RunSummary run =
+      record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
+  if (run.status.ok())
+    summarize(run, problem.study().duration, problem.setup_seconds(),
+              progress_of(arguments, console));
   Json object;
   if (arguments.json) {
     add_objective(problem, !arguments.result.empty(), run.objective, console, &run.status, &object);

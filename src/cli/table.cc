@@ -26,19 +26,24 @@ void Table::print(std::ostream& out) const {
   }
 }
 
-StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
-  const std::string folder = std::filesystem::absolute(problem.study_text().name).parent_path().string();
-  return load_recordings(*problem.study().identification, problem.robot(), folder, console.bags, warnings);
+StudyRecordings read_recordings(const Problem& problem, const Console& console,
+                                Warnings* warnings) {
+  const std::string folder =
+      std::filesystem::absolute(problem.study_text().name).parent_path().string();
+  return load_recordings(*problem.study().identification, problem.robot(), folder, console.bags,
+                         warnings);
 }
 
-std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings) {
+std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console,
+                                               Warnings* warnings) {
   std::vector<RecordingSummary> summaries;
   const std::optional<IdentificationDescription>& identification = problem.study().identification;
   if (!identification) return summaries;
   const StudyRecordings recordings = read_recordings(problem, console, warnings);
   for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})
     for (const JointRecording& recording : *list)
-      summaries.push_back(summary_of(recording, measured_motion(recording, identification->filter, warnings)));
+      summaries.push_back(
+          summary_of(recording, measured_motion(recording, identification->filter, warnings)));
   append(warnings_of(*identification, find_effort_doubts(problem, recordings.data)), warnings);
   return summaries;
 }
@@ -49,8 +54,9 @@ void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostr
   Table table;
   table.add({"recording", "samples", "rate [Hz]", "from [s]", "to [s]", "fitted"});
   for (const RecordingSummary& summary : recordings)
-    table.add({summary.element, std::to_string(summary.samples), readable(summary.rate, kDigits), readable(summary.from, kDigits),
-               readable(summary.to, kDigits), std::to_string(summary.fitted)});
+    table.add({summary.element, std::to_string(summary.samples), readable(summary.rate, kDigits),
+               readable(summary.from, kDigits), readable(summary.to, kDigits),
+               std::to_string(summary.fitted)});
   table.print(out);
   for (const RecordingSummary& summary : recordings)
     out << summary.element << ": " << list_names(summary.measured) << " (" << summary.file << ")\n";

@@ -21,13 +21,15 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Reads the recordings of the study, which has a block `identify`. Relative paths count from the study's folder. @throws InputError as
-/// load_recordings().
+/// Reads the recordings of the study, which has a block `identify`. Relative paths count from the
+/// study's folder. @throws InputError as load_recordings().
 StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings);
 
-/// Reads and filters the recordings of the study's `identify:`; empty without `identify:`. @param warnings receives the warnings about the
-/// recordings. @throws InputError as load_recordings() and measured_motion().
-std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console, Warnings* warnings);
+/// Reads and filters the recordings of the study's `identify:`; empty without `identify:`. @param
+/// warnings receives the warnings about the recordings. @throws InputError as load_recordings() and
+/// measured_motion().
+std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console,
+                                               Warnings* warnings);
 
 /// Prints a row per recording with its content.
 void print_recordings(const std::vector<RecordingSummary>& recordings, std::ostream& out);

@@ -17,27 +17,36 @@ std::vector<bool> nodes_after(const Recording& recording, const std::vector<bool
   after.resize(to_index(recording.size()));
   for (int n = 0; n < recording.size(); ++n) {
     const Recording::Node& node = recording.node(n);
-    if (after[to_index(n)] || node.operation == Operation::kLeaf || node.operation == Operation::kLiteral) continue;
+    if (after[to_index(n)] || node.operation == Operation::kLeaf ||
+        node.operation == Operation::kLiteral)
+      continue;
     after[to_index(n)] = after[to_index(node.a)] || (node.b >= 0 && after[to_index(node.b)]);
   }
   return after;
 }
 
-/// The linearized graph. Vertices are the nodes of the recording, then one vertex per output; those between leaves and outputs are
-/// eliminated one after another.
+/// The linearized graph. Vertices are the nodes of the recording, then one vertex per output; those
+/// between leaves and outputs are eliminated one after another.
 class Elimination {
  public:
-  Elimination(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs)
-      : recording_(recording), size_(recording->size()), in_(to_index(size_) + outputs.size()), out_(in_.size()), is_leaf_(in_.size()) {
+  Elimination(Recording* recording, const std::vector<int>& outputs,
+              const std::vector<JacobianInput>& inputs)
+      : recording_(recording),
+        size_(recording->size()),
+        in_(to_index(size_) + outputs.size()),
+        out_(in_.size()),
+        is_leaf_(in_.size()) {
     for (const JacobianInput& input : inputs) is_leaf_[to_index(input.leaf)] = true;
     find_dependent();
     for (std::size_t k = 0; k < outputs.size(); ++k)
-      if (depends_[to_index(outputs[k])]) connect(outputs[k], size_ + static_cast<int>(k), Traced(1.0));
+      if (depends_[to_index(outputs[k])])
+        connect(outputs[k], size_ + static_cast<int>(k), Traced(1.0));
     // From the outputs back: nodes that no output needs get no edges.
     for (int n = size_ - 1; n >= 0; --n)
       if (!out_[to_index(n)].empty() && !is_leaf_[to_index(n)])
         for (const Partial& partial : partials_of(recording_, n))
-          if (depends_[to_index(partial.node)]) connect(partial.node, n, folded(recording_, partial.factor));
+          if (depends_[to_index(partial.node)])
+            connect(partial.node, n, folded(recording_, partial.factor));
   }
 
   void run(EliminationOrder order) {
@@ -51,7 +60,8 @@ class Elimination {
   /// The edges into output k, in order of their leaves.
   std::vector<Partial> row(std::size_t k) const {
     std::vector<Partial> edges = in_[to_index(size_) + k];
-    std::sort(edges.begin(), edges.end(), [](const Partial& x, const Partial& y) { return x.node < y.node; });
+    std::sort(edges.begin(), edges.end(),
+              [](const Partial& x, const Partial& y) { return x.node < y.node; });
     return edges;
   }
 
@@ -61,8 +71,11 @@ class Elimination {
     depends_ = is_leaf_;
     for (int n = 0; n < size_; ++n) {
       const Recording::Node& node = recording_->node(n);
-      if (node.operation == Operation::kLeaf || node.operation == Operation::kLiteral || node.operation == Operation::kRound) continue;
-      if (depends_[to_index(node.a)] || (node.b >= 0 && depends_[to_index(node.b)])) depends_[to_index(n)] = true;
+      if (node.operation == Operation::kLeaf || node.operation == Operation::kLiteral ||
+          node.operation == Operation::kRound)
+        continue;
+      if (depends_[to_index(node.a)] || (node.b >= 0 && depends_[to_index(node.b)]))
+        depends_[to_index(n)] = true;
     }
   }
 
@@ -80,7 +93,8 @@ class Elimination {
   }
 
   static std::vector<Partial>::iterator edge_from(int from, std::vector<Partial>* edges) {
-    return std::find_if(edges->begin(), edges->end(), [from](const Partial& edge) { return edge.node == from; });
+    return std::find_if(edges->begin(), edges->end(),
+                        [from](const Partial& edge) { return edge.node == from; });
   }
 
   void remove(int n) {
@@ -102,13 +116,16 @@ class Elimination {
     if (!is_between(n)) return;
     for (int user : out_[to_index(n)]) {
       const Traced factor = edge_from(n, &in_[to_index(user)])->factor;
-      for (const Partial& edge : in_[to_index(n)]) connect(edge.node, user, product(recording_, factor, edge.factor));
+      for (const Partial& edge : in_[to_index(n)])
+        connect(edge.node, user, product(recording_, factor, edge.factor));
     }
     remove(n);
   }
 
   void eliminate_by_degree() {
-    const auto degree = [this](int n) { return in_[to_index(n)].size() * out_[to_index(n)].size(); };
+    const auto degree = [this](int n) {
+      return in_[to_index(n)].size() * out_[to_index(n)].size();
+    };
     std::set<std::pair<std::size_t, int>> waiting;
     std::vector<std::size_t> known(to_index(size_), 0);
     for (int n = 0; n < size_; ++n)
@@ -129,7 +146,7 @@ class Elimination {
   }
 
   Recording* recording_;
-  int size_;                              ///< nodes of the recording before those for derivatives were appended
+  int size_;  ///< nodes of the recording before those for derivatives were appended
   std::vector<std::vector<Partial>> in_;  ///< per vertex: its operands with the partial derivatives
   std::vector<std::vector<int>> out_;     ///< per vertex: its users
   std::vector<bool> is_leaf_;
@@ -139,12 +156,14 @@ class Elimination {
 using Parts = std::vector<Partial>;
 
 bool only_adds(Operation operation) {
-  return operation == Operation::kAdd || operation == Operation::kSubtract || operation == Operation::kNegate;
+  return operation == Operation::kAdd || operation == Operation::kSubtract ||
+         operation == Operation::kNegate;
 }
 
 class Accumulation {
  public:
-  Accumulation(Recording* recording, const std::vector<ValueTask::Output>& outputs, const std::vector<bool>& is_leaf)
+  Accumulation(Recording* recording, const std::vector<ValueTask::Output>& outputs,
+               const std::vector<bool>& is_leaf)
       : recording_(recording),
         outputs_(outputs),
         is_leaf_(is_leaf),
@@ -160,9 +179,11 @@ class Accumulation {
     count_uses();
     for (int n = 0; n < size_; ++n)
       if (active_[to_index(n)] && uses_[to_index(n)] > 0 && !is_leaf_[to_index(n)]) accumulate(n);
-    for (const ValueTask::Output& output : outputs_) append(-1, output, of(output.node, Traced(1.0)));
+    for (const ValueTask::Output& output : outputs_)
+      append(-1, output, of(output.node, Traced(1.0)));
     std::sort(program->factors.begin(), program->factors.end());
-    program->factors.erase(std::unique(program->factors.begin(), program->factors.end()), program->factors.end());
+    program->factors.erase(std::unique(program->factors.begin(), program->factors.end()),
+                           program->factors.end());
   }
 
  private:
@@ -170,10 +191,11 @@ class Accumulation {
     active_ = is_leaf_;
     for (int n = 0; n < size_; ++n) {
       const Recording::Node& node = recording_->node(n);
-      if (active_[to_index(n)] || node.operation == Operation::kLeaf || node.operation == Operation::kLiteral ||
-          node.operation == Operation::kRound)
+      if (active_[to_index(n)] || node.operation == Operation::kLeaf ||
+          node.operation == Operation::kLiteral || node.operation == Operation::kRound)
         continue;
-      active_[to_index(n)] = active_[to_index(node.a)] || (node.b >= 0 && active_[to_index(node.b)]);
+      active_[to_index(n)] =
+          active_[to_index(node.a)] || (node.b >= 0 && active_[to_index(node.b)]);
     }
   }
 
@@ -190,7 +212,8 @@ class Accumulation {
     }
   }
 
-  /// The derivative of `node` times `factor`, in terms of derivatives of leaves and of nodes with a sum.
+  /// The derivative of `node` times `factor`, in terms of derivatives of leaves and of nodes with a
+  /// sum.
   Parts of(int node, const Traced& factor) const {
     if (!active_[to_index(node)]) return {};
     if (is_leaf_[to_index(node)] || program_->row[to_index(node)] >= 0) return {{node, factor}};
@@ -202,7 +225,8 @@ class Accumulation {
   void accumulate(int n) {
     Parts sum;
     for (const Partial& partial : partials_of(recording_, n))
-      for (const Partial& part : of(partial.node, folded(recording_, partial.factor))) add(part, &sum);
+      for (const Partial& part : of(partial.node, folded(recording_, partial.factor)))
+        add(part, &sum);
     const bool inlined = sum.size() <= 1 || (uses_[to_index(n)] == 1 && only_added_[to_index(n)]);
     if (!inlined) {
       append(n, {}, sum);
@@ -227,7 +251,9 @@ class Accumulation {
       if (part.factor.is(0.0)) continue;
       Traced factor = part.factor;
       const bool negative =
-          factor.is_literal() ? factor.value() < 0.0 : recording_->node(factor.node_in(recording_)).operation == Operation::kNegate;
+          factor.is_literal()
+              ? factor.value() < 0.0
+              : recording_->node(factor.node_in(recording_)).operation == Operation::kNegate;
       if (negative) factor = -factor;
       const bool one = factor.is(1.0);
       const int factor_node = one ? -1 : factor.node_in(recording_);
@@ -294,19 +320,24 @@ Traced folded(Recording* recording, const Traced& x) {
 }
 
 Traced product(Recording* recording, const Traced& x, const Traced& y) {
-  const auto varies = [recording](const Traced& z) { return !z.is_literal() && recording->node(z.node()).varies; };
+  const auto varies = [recording](const Traced& z) {
+    return !z.is_literal() && recording->node(z.node()).varies;
+  };
   if (varies(x) == varies(y)) return folded(recording, x * y);
   const Traced &fixed = varies(x) ? y : x, &moving = varies(x) ? x : y;
   const Recording::Node node = recording->node(moving.node());
-  if (node.operation == Operation::kMultiply && recording->node(node.a).varies != recording->node(node.b).varies) {
+  if (node.operation == Operation::kMultiply &&
+      recording->node(node.a).varies != recording->node(node.b).varies) {
     const bool first = recording->node(node.a).varies;
-    const Traced inner(recording, first ? node.b : node.a), rest(recording, first ? node.a : node.b);
+    const Traced inner(recording, first ? node.b : node.a),
+        rest(recording, first ? node.a : node.b);
     return folded(recording, (fixed * folded(recording, inner)) * rest);
   }
   return folded(recording, x * y);
 }
 
-std::vector<Traced> derive_adjoints(Recording* recording, const std::vector<AdjointSeed>& seeds, const std::vector<bool>& is_target) {
+std::vector<Traced> derive_adjoints(Recording* recording, const std::vector<AdjointSeed>& seeds,
+                                    const std::vector<bool>& is_target) {
   const std::vector<bool> matters = nodes_after(*recording, is_target);
   std::vector<Traced> adjoints(matters.size(), Traced(0.0));
   const auto add = [&](int n, const Traced& x) {
@@ -323,7 +354,8 @@ std::vector<Traced> derive_adjoints(Recording* recording, const std::vector<Adjo
   return adjoints;
 }
 
-std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs, const std::vector<JacobianInput>& inputs,
+std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vector<int>& outputs,
+                                           const std::vector<JacobianInput>& inputs,
                                            EliminationOrder order) {
   Elimination elimination(recording, outputs, inputs);
   elimination.run(order);
@@ -338,13 +370,15 @@ std::vector<JacobianEntry> derive_jacobian(Recording* recording, const std::vect
     }
     for (const auto& [column, value] : row) {
       const Traced entry = folded(recording, value);
-      if (!entry.is_literal() || entry.value() != 0.0) entries.push_back({static_cast<int>(k), column, entry});
+      if (!entry.is_literal() || entry.value() != 0.0)
+        entries.push_back({static_cast<int>(k), column, entry});
     }
   }
   return entries;
 }
 
-TangentProgram::TangentProgram(Recording* recording, const std::vector<ValueTask::Output>& outputs, const std::vector<bool>& is_leaf) {
+TangentProgram::TangentProgram(Recording* recording, const std::vector<ValueTask::Output>& outputs,
+                               const std::vector<bool>& is_leaf) {
   Accumulation(recording, outputs, is_leaf).run(this);
 }
 

@@ -14,8 +14,8 @@
 
 namespace codesign {
 
-/// The result of one operation of a Recording. @param b ignored by operations with one operand. For kLeaf and kLiteral, which do not
-/// compute anything, the result is a.
+/// The result of one operation of a Recording. @param b ignored by operations with one operand. For
+/// kLeaf and kLiteral, which do not compute anything, the result is a.
 template <class T>
 T operate(Operation operation, const T& a, const T& b) {
   using std::asin, std::cos, std::exp, std::sin, std::sqrt, std::tanh;
@@ -53,17 +53,21 @@ T operate(Operation operation, const T& a, const T& b) {
   return a;
 }
 
-/// A ValueProgram that loops execute, each over instructions of one kind that follow from those before: for processors without machine
-/// code, for programs that are too long for it, for a few evaluations, and for complex numbers. With doubles the results equal those of the
-/// machine code to the last bit.
+/// A ValueProgram that loops execute, each over instructions of one kind that follow from those
+/// before: for processors without machine code, for programs that are too long for it, for a few
+/// evaluations, and for complex numbers. With doubles the results equal those of the machine code
+/// to the last bit.
 class Interpreter final : public ValueCode {
  public:
   /// @param slot_array as of ValueCode::compile().
-  Interpreter(const Recording& recording, const ValueTask& task, const ValueProgram& program, int slot_array);
+  Interpreter(const Recording& recording, const ValueTask& task, const ValueProgram& program,
+              int slot_array);
 
   /// @tparam T double or std::complex<double>; complex products are rounded before they are added.
-  /// @param arrays the address of each array, whose entries are of type T. The loop writes to its targets although they are declared const.
-  /// @return Guard::decision of the guard that does not hold and was decided first; -1 if all hold. The outputs are valid only then.
+  /// @param arrays the address of each array, whose entries are of type T. The loop writes to its
+  /// targets although they are declared const.
+  /// @return Guard::decision of the guard that does not hold and was decided first; -1 if all hold.
+  /// The outputs are valid only then.
   template <class T>
   int execute(const std::array<const T*, kCodeArrays>& arrays) const;
 
@@ -80,11 +84,13 @@ class Interpreter final : public ValueCode {
     Operation operation;
     std::size_t first, last;
   };
-  /// Puts instructions of one kind side by side. @param steps one or more per instruction, in the order of the program. @param slots the
-  /// number of entries of array `slot_array`, the only one of which steps read what other steps wrote.
+  /// Puts instructions of one kind side by side. @param steps one or more per instruction, in the
+  /// order of the program. @param slots the number of entries of array `slot_array`, the only one
+  /// of which steps read what other steps wrote.
   void arrange(const std::vector<std::pair<Batch, Step>>& steps, int slot_array, int slots);
   template <class T, class Value>
-  void compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays, const Value& value) const;
+  void compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays,
+               const Value& value) const;
   template <class T>
   void compute(const Batch& batch, const std::array<const T*, kCodeArrays>& arrays) const;
 
@@ -92,7 +98,9 @@ class Interpreter final : public ValueCode {
   std::vector<Batch> batches_;
 };
 
-/// A list of sums without start, scale and reciprocal that a loop computes, as StraightLine does to the last bit.
-std::unique_ptr<StraightLine> interpret_sums(std::vector<Sum> sums, int width, const StraightLine::RowLayouts& layouts);
+/// A list of sums without start, scale and reciprocal that a loop computes, as StraightLine does to
+/// the last bit.
+std::unique_ptr<StraightLine> interpret_sums(std::vector<Sum> sums, int width,
+                                             const StraightLine::RowLayouts& layouts);
 
 }  // namespace codesign

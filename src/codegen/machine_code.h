@@ -11,8 +11,9 @@
 
 namespace codesign {
 
-/// Base of the code generators: a function int(const double* const* arrays) of straight-line code on numbers in arrays, in the System V
-/// calling convention. rbx holds the argument. Its memory is writable until finish() only.
+/// Base of the code generators: a function int(const double* const* arrays) of straight-line code
+/// on numbers in arrays, in the System V calling convention. rbx holds the argument. Its memory is
+/// writable until finish() only.
 class MachineCode : protected Xbyak::CodeGenerator {
  public:
   MachineCode(const MachineCode&) = delete;
@@ -28,15 +29,18 @@ class MachineCode : protected Xbyak::CodeGenerator {
   }
 
  protected:
-  explicit MachineCode(std::size_t bytes) : Xbyak::CodeGenerator((bytes + 4095) / 4096 * 4096, Xbyak::DontSetProtectRWE) {}
+  explicit MachineCode(std::size_t bytes)
+      : Xbyak::CodeGenerator((bytes + 4095) / 4096 * 4096, Xbyak::DontSetProtectRWE) {}
 
-  /// Saves registers and loads the addresses of the arrays. Afterwards the stack is aligned for calls.
+  /// Saves registers and loads the addresses of the arrays. Afterwards the stack is aligned for
+  /// calls.
   void enter() {
     push(rbx), push(rbp), push(r13);
     mov(rbx, rdi);
     load_bases();
   }
-  /// Loads the addresses of the arrays; needed again after each call, which may change these registers.
+  /// Loads the addresses of the arrays; needed again after each call, which may change these
+  /// registers.
   void load_bases() {
     for (int k = 0; k < kCodeArrays; ++k) mov(base(k), ptr[rbx + 8 * k]);
   }
@@ -52,14 +56,15 @@ class MachineCode : protected Xbyak::CodeGenerator {
 
   Xbyak::Reg64 base(int array) const {
     using Register = Xbyak::Operand;
-    static constexpr int kBases[kCodeArrays] = {Register::RSI, Register::RDX, Register::RCX, Register::R8,  Register::R9, Register::R10,
-                                                Register::R11, Register::RAX, Register::RBP, Register::R13, Register::RDI};
+    static constexpr int kBases[kCodeArrays] = {
+        Register::RSI, Register::RDX, Register::RCX, Register::R8,  Register::R9, Register::R10,
+        Register::R11, Register::RAX, Register::RBP, Register::R13, Register::RDI};
     return Xbyak::Reg64(kBases[array]);
   }
   Xbyak::Address number(const Place& place) { return qword[base(place.array) + 8 * place.index]; }
 
-  // Pointers, not spans, here and in the callers: the code loads the addresses directly and contains the indices. It writes to its targets
-  // although the numbers are declared const.
+  // Pointers, not spans, here and in the callers: the code loads the addresses directly and
+  // contains the indices. It writes to its targets although the numbers are declared const.
   int call(const double* const* arrays) const { return run_(arrays); }
 
  private:

@@ -6,10 +6,11 @@
 #include "codegen/traced.h"
 #include "math/lanes.h"
 
-// Templates over the scalar that a .cc file defines are instantiated for these types; INSTANTIATE is a macro with the type as its argument.
+// Templates over the scalar that a .cc file defines are instantiated for these types; INSTANTIATE
+// is a macro with the type as its argument.
 
-/// The types in which numbers of a design and functions of time are evaluated: real numbers, the complex step, and several directions at
-/// once.
+/// The types in which numbers of a design and functions of time are evaluated: real numbers, the
+/// complex step, and several directions at once.
 #define CODESIGN_FOR_EACH_VALUE_TYPE(INSTANTIATE) \
   INSTANTIATE(double)                             \
   INSTANTIATE(std::complex<double>)               \

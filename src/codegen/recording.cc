@@ -37,7 +37,9 @@ int Recording::literal(double x) {
   return is_new ? append({Operation::kLiteral, -1, -1, x, false}) : known->second;
 }
 
-int Recording::supplied(const SourceId& source) { return leaf(kSupplied, find_or_append(source, &supplied_), false); }
+int Recording::supplied(const SourceId& source) {
+  return leaf(kSupplied, find_or_append(source, &supplied_), false);
+}
 
 int Recording::timed(const SourceId& source, int order) {
   return leaf(kTimed, kFunctionOrders * find_or_append(source, &timed_) + order, true);
@@ -46,7 +48,8 @@ int Recording::timed(const SourceId& source, int order) {
 int Recording::operate(Operation operation, int a, int b) {
   if ((operation == Operation::kAdd || operation == Operation::kMultiply) && a > b) std::swap(a, b);
   constexpr int kBits = 29;
-  const std::uint64_t key = (static_cast<std::uint64_t>(operation) << (2 * kBits)) | (static_cast<std::uint64_t>(a + 1) << kBits) |
+  const std::uint64_t key = (static_cast<std::uint64_t>(operation) << (2 * kBits)) |
+                            (static_cast<std::uint64_t>(a + 1) << kBits) |
                             static_cast<std::uint64_t>(b + 1);
   if (const auto [known, is_new] = operations_.find_or_add(key, size()); !is_new) return known;
   return append({operation, a, b, 0.0, node(a).varies || (b >= 0 && node(b).varies)});

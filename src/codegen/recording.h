@@ -14,8 +14,9 @@
 
 namespace codesign {
 
-/// Identifies the object that an input of a recording is computed from: an expression, or a function of time. The object keeps its type, so
-/// that code generation need not know it and its reader cannot take it for another. It must outlive the id.
+/// Identifies the object that an input of a recording is computed from: an expression, or a
+/// function of time. The object keeps its type, so that code generation need not know it and its
+/// reader cannot take it for another. It must outlive the id.
 class SourceId {
  public:
   template <class Source>
@@ -26,17 +27,21 @@ class SourceId {
   const Source* as() const {
     return type_ == typeid(Source) ? static_cast<const Source*>(address_) : nullptr;
   }
-  bool operator==(const SourceId& other) const { return address_ == other.address_ && type_ == other.type_; }
+  bool operator==(const SourceId& other) const {
+    return address_ == other.address_ && type_ == other.type_;
+  }
 
  private:
   const void* address_;
   std::type_index type_;
 };
 
-/// Nodes by a key other than zero: a hash table in one array, since a recording looks every operation up and most of them are new.
+/// Nodes by a key other than zero: a hash table in one array, since a recording looks every
+/// operation up and most of them are new.
 class NodeTable {
  public:
-  /// The node of a key, which becomes `node` if there is none. @return the node, and whether it is new.
+  /// The node of a key, which becomes `node` if there is none. @return the node, and whether it is
+  /// new.
   std::pair<int, bool> find_or_add(std::uint64_t key, int node) {
     if (2 * (count_ + 1) > entries_.size()) grow();
     Entry& entry = place_of(key);
@@ -91,9 +96,10 @@ enum class Operation : std::uint8_t {
   kArcTangent  ///< atan2(a, b)
 };
 
-/// The elementary operations of a computation as a computational graph (Griewank and Walther, Evaluating Derivatives, 2008, section 2.2).
-/// The nodes are in the order of computation, operands before the operations that use them; an operation that occurs again with the same
-/// operands gets no second node.
+/// The elementary operations of a computation as a computational graph (Griewank and Walther,
+/// Evaluating Derivatives, 2008, section 2.2). The nodes are in the order of computation, operands
+/// before the operations that use them; an operation that occurs again with the same operands gets
+/// no second node.
 class Recording {
  public:
   Recording() { nodes_.reserve(kUsualNodes); }
@@ -114,24 +120,31 @@ class Recording {
 
   // The next five functions return the index of a node.
 
-  /// The leaf for entry `index` of an input array. @param varies whether it changes between evaluations of one design.
+  /// The leaf for entry `index` of an input array. @param varies whether it changes between
+  /// evaluations of one design.
   int leaf(int array, int index, bool varies);
-  /// A constant. NaN, which stands for a value that must not be used while recording, makes the recording refused().
+  /// A constant. NaN, which stands for a value that must not be used while recording, makes the
+  /// recording refused().
   int literal(double x);
-  /// A leaf of array kSupplied that does not vary: the value of `source`, an expression, for the parameters of a design.
+  /// A leaf of array kSupplied that does not vary: the value of `source`, an expression, for the
+  /// parameters of a design.
   int supplied(const SourceId& source);
-  /// A leaf of array kTimed that varies: the derivative of the given order (0 to 3) of the function of time `source`.
+  /// A leaf of array kTimed that varies: the derivative of the given order (0 to 3) of the function
+  /// of time `source`.
   int timed(const SourceId& source, int order);
   /// @param b -1 for operations with one operand.
   int operate(Operation operation, int a, int b = -1);
 
-  /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of the outcomes to follow(), else `expected`.
+  /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of the
+  /// outcomes to follow(), else `expected`.
   /// @param place place_in_source() of the decision.
   bool decide(int a, int b, bool expected, unsigned place);
-  /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards of two recordings of one computation
-  /// with the same outcomes are the same, and so are their nodes.
+  /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards
+  /// of two recordings of one computation with the same outcomes are the same, and so are their
+  /// nodes.
   void follow(std::vector<bool> outcomes) { followed_ = std::move(outcomes); }
-  /// Later decisions at the places where `turned` is true have the outcome that is not expected, to see what else results can depend on.
+  /// Later decisions at the places where `turned` is true have the outcome that is not expected, to
+  /// see what else results can depend on.
   void turn(std::function<bool(unsigned place)> turned) { turned_ = std::move(turned); }
   /// The places of all decisions, each once, in the order of their first occurrence.
   const std::vector<unsigned>& places() const { return places_; }
@@ -160,7 +173,8 @@ class Recording {
   std::vector<Node> nodes_;
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
-  std::map<std::pair<int, int>, int> decided_;  ///< index among guards_, by the nodes that are compared
+  std::map<std::pair<int, int>, int>
+      decided_;  ///< index among guards_, by the nodes that are compared
   std::vector<int> decisions_;
   std::vector<bool> followed_;
   std::function<bool(unsigned)> turned_;

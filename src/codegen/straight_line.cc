@@ -16,7 +16,8 @@ namespace codesign {
 
 std::vector<Sum> with_starts(std::vector<Sum> sums) {
   for (Sum& sum : sums) {
-    const auto leading = std::find_if(sum.products.begin(), sum.products.end(), [](const Sum::Product& p) { return p.added; });
+    const auto leading = std::find_if(sum.products.begin(), sum.products.end(),
+                                      [](const Sum::Product& p) { return p.added; });
     if (sum.start.array >= 0 || leading == sum.products.end()) continue;
     sum.start = leading->row;
     sum.start_scale = leading->factor;
@@ -31,11 +32,11 @@ namespace {
 constexpr std::size_t kBytesPerOperation = 16;  // upper bound
 constexpr int kOne = 15;                        // register of the number 1 (width 1)
 constexpr int kSecond = 14;                     // register of the second partial sum (width 1)
-constexpr int kFactor = 15;                     // register with four copies of a factor (widths 4 and 8)
+constexpr int kFactor = 15;  // register with four copies of a factor (widths 4 and 8)
 constexpr int kNone = -1;
 
-/// Assigns registers to rows. It knows all reads in advance; the register that is freed is the one whose row is next read last (Belady's
-/// rule). Reads are numbered from 0 in the order of the sums.
+/// Assigns registers to rows. It knows all reads in advance; the register that is freed is the one
+/// whose row is next read last (Belady's rule). Reads are numbered from 0 in the order of the sums.
 class RowRegisters {
  public:
   RowRegisters(const std::vector<Sum>& sums, int count) : held_(to_index(count)) {
@@ -63,11 +64,12 @@ class RowRegisters {
     return kNone;
   }
 
-  /// Whether to load the row that is read now into a register: if two more reads of it follow soon, the first before the row that it would
-  /// replace is read.
+  /// Whether to load the row that is read now into a register: if two more reads of it follow soon,
+  /// the first before the row that it would replace is read.
   bool is_worth_loading(int busy) const {
     constexpr int kSoon = 48;
-    const int first = following_[now_], second = first == kNever ? kNever : following_[to_index(first)];
+    const int first = following_[now_],
+              second = first == kNever ? kNever : following_[to_index(first)];
     if (second == kNever || second > static_cast<int>(now_) + kSoon) return false;
     const Held& victim = held_[to_index(farthest(busy))];
     return victim.place.array < 0 || next_read(victim) > first;
@@ -94,7 +96,9 @@ class RowRegisters {
   };
   static constexpr int kNever = std::numeric_limits<int>::max();
 
-  static std::int64_t key(const Place& row) { return (static_cast<std::int64_t>(row.array) << 32) | row.index; }
+  static std::int64_t key(const Place& row) {
+    return (static_cast<std::int64_t>(row.array) << 32) | row.index;
+  }
 
   void add_read(const Place& row) {
     const auto count = static_cast<int>(rows_.size());
@@ -123,8 +127,8 @@ class RowRegisters {
   }
 
   std::unordered_map<std::int64_t, int> rows_;  ///< index of each row that is read
-  std::vector<int> reads_, following_;          ///< per read: the row, and the next read of the same row
-  std::vector<int> next_;                       ///< per row: the first read from now on
+  std::vector<int> reads_, following_;  ///< per read: the row, and the next read of the same row
+  std::vector<int> next_;               ///< per row: the first read from now on
   std::vector<Held> held_;
   std::size_t now_ = 0;
 };
@@ -144,7 +148,8 @@ class SumsCode final : public StraightLine, private MachineCode {
  private:
   Xbyak::Address row(const Place& place, int block) {
     const RowLayout& layout = layouts_[to_index(place.array)];
-    return yword[base(place.array) + 8 * (layout.stride * place.index + layout.offset) + 32 * block];
+    return yword[base(place.array) + 8 * (layout.stride * place.index + layout.offset) +
+                 32 * block];
   }
 
   void emit_all_ones(const std::vector<Sum>& sums) {
@@ -154,7 +159,8 @@ class SumsCode final : public StraightLine, private MachineCode {
     for (const Sum& sum : sums) emit_one(sum, &registers);
   }
 
-  // Long sums are computed as two partial sums side by side, since each addition must wait for the one before it.
+  // Long sums are computed as two partial sums side by side, since each addition must wait for the
+  // one before it.
   void emit_one(const Sum& sum, RowRegisters* registers) {
     const int target = registers->take(kNone);
     const Xbyak::Xmm result(target), second(kSecond);
@@ -209,7 +215,8 @@ class SumsCode final : public StraightLine, private MachineCode {
       else if (sum.start_scale.array < 0)
         held < 0 ? vmovupd(to, row(sum.start, block)) : vmovapd(to, part(held, block));
       else
-        held < 0 ? vmulpd(to, factor, row(sum.start, block)) : vmulpd(to, factor, part(held, block));
+        held < 0 ? vmulpd(to, factor, row(sum.start, block))
+                 : vmulpd(to, factor, part(held, block));
     }
   }
 
@@ -226,7 +233,8 @@ class SumsCode final : public StraightLine, private MachineCode {
     if (held < 0 && registers->is_worth_loading(result)) {
       held = registers->take(result);
       registers->hold(product.row, held);
-      for (int block = 0; block < blocks_; ++block) vmovupd(part(held, block), row(product.row, block));
+      for (int block = 0; block < blocks_; ++block)
+        vmovupd(part(held, block), row(product.row, block));
     }
     if (product.factor.array >= 0) vbroadcastsd(Xbyak::Ymm(kFactor), number(product.factor));
     for (int block = 0; block < blocks_; ++block) {
@@ -247,9 +255,11 @@ class SumsCode final : public StraightLine, private MachineCode {
     const Xbyak::Ymm factor(kFactor);
     if (sum.scale.array >= 0) {
       vbroadcastsd(factor, number(sum.scale));
-      for (int block = 0; block < blocks_; ++block) vmulpd(part(result, block), part(result, block), factor);
+      for (int block = 0; block < blocks_; ++block)
+        vmulpd(part(result, block), part(result, block), factor);
     }
-    for (int block = 0; block < blocks_; ++block) vmovupd(row(sum.target, block), part(result, block));
+    for (int block = 0; block < blocks_; ++block)
+      vmovupd(row(sum.target, block), part(result, block));
     registers->hold(sum.target, result);
   }
 
@@ -259,7 +269,8 @@ class SumsCode final : public StraightLine, private MachineCode {
 
 }  // namespace
 
-std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width, const RowLayouts& layouts,
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width,
+                                                    const RowLayouts& layouts,
                                                     std::size_t most_bytes) {
   std::size_t operations = 64;
   for (const Sum& sum : sums) operations += 8 + (1 + to_index(width + 3) / 4) * sum.products.size();
@@ -272,7 +283,10 @@ std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums
   }
 }
 #else
-std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int, const RowLayouts&, std::size_t) { return nullptr; }
+std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>&, int, const RowLayouts&,
+                                                    std::size_t) {
+  return nullptr;
+}
 #endif
 
 std::unique_ptr<StraightLine> StraightLine::compile(const std::vector<Sum>& sums, int width) {

@@ -9,18 +9,24 @@ namespace codesign {
 namespace {
 
 Traced record(Operation operation, const Traced& x) {
-  return {x.recording(), x.recording()->operate(operation, x.node()), operate(operation, x.value(), 0.0)};
+  return {x.recording(), x.recording()->operate(operation, x.node()),
+          operate(operation, x.value(), 0.0)};
 }
 
 Traced record(Operation operation, const Traced& x, const Traced& y) {
   Recording* const recording = x.is_literal() ? y.recording() : x.recording();
-  const int a = x.is_literal() ? recording->literal(x.value()) : x.node(), b = y.is_literal() ? recording->literal(y.value()) : y.node();
+  const int a = x.is_literal() ? recording->literal(x.value()) : x.node(),
+            b = y.is_literal() ? recording->literal(y.value()) : y.node();
   return {recording, recording->operate(operation, a, b), operate(operation, x.value(), y.value())};
 }
 
-bool is_negated(const Traced& x) { return !x.is_literal() && x.recording()->node(x.node()).operation == Operation::kNegate; }
+bool is_negated(const Traced& x) {
+  return !x.is_literal() && x.recording()->node(x.node()).operation == Operation::kNegate;
+}
 
-Traced without_sign(const Traced& x) { return {x.recording(), x.recording()->node(x.node()).a, -x.value()}; }
+Traced without_sign(const Traced& x) {
+  return {x.recording(), x.recording()->node(x.node()).a, -x.value()};
+}
 
 Traced apply(Operation operation, const Traced& x) {
   return x.is_literal() ? Traced(operate(operation, x.value(), 0.0)) : record(operation, x);

@@ -8,15 +8,20 @@
 
 namespace codesign {
 
-/// A scalar that records the operations applied to it, so that a formula written as a template over the scalar can be compiled for one
-/// mechanism. It is a literal (a constant known while recording) or a node of a Recording. Operations among literals, products by zero and
-/// one and sums with zero are simplified at once and record nothing.
+/// A scalar that records the operations applied to it, so that a formula written as a template over
+/// the scalar can be compiled for one mechanism. It is a literal (a constant known while recording)
+/// or a node of a Recording. Operations among literals, products by zero and one and sums with zero
+/// are simplified at once and record nothing.
 class Traced {
  public:
   Traced() = default;
-  Traced(double literal) : value_(literal) {}  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
-  /// @param value of a node that does not vary: its value for the design for which the recording is made.
-  Traced(Recording* recording, int node, double value = 0.0) : recording_(recording), node_(node), value_(value) {}
+  Traced(double literal)
+      : value_(literal) {
+  }  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
+  /// @param value of a node that does not vary: its value for the design for which the recording is
+  /// made.
+  Traced(Recording* recording, int node, double value = 0.0)
+      : recording_(recording), node_(node), value_(value) {}
 
   bool is_literal() const { return recording_ == nullptr; }
   /// Whether it is the literal x.
@@ -27,7 +32,9 @@ class Traced {
   /// The node; -1 for a literal.
   int node() const { return node_; }
   /// The node; a literal gets one in `recording`.
-  int node_in(Recording* recording) const { return is_literal() ? recording->literal(value_) : node_; }
+  int node_in(Recording* recording) const {
+    return is_literal() ? recording->literal(value_) : node_;
+  }
 
   Traced& operator+=(const Traced& y) { return *this = *this + y; }
   Traced& operator-=(const Traced& y) { return *this = *this - y; }
@@ -59,14 +66,18 @@ Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
 inline Traced nearest_integer(const Traced& x) { return round(x); }
 /// As nearest_turns() in math/elementary.h, also for a reference that varies.
-inline Traced nearest_turns(const Traced& reference, const Traced& angle) { return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI)); }
+inline Traced nearest_turns(const Traced& reference, const Traced& angle) {
+  return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI));
+}
 
-/// The value of a literal. For a node it returns 0 and makes the recording refused(): a branch on the value of a node can only be recorded
-/// by is_less().
+/// The value of a literal. For a node it returns 0 and makes the recording refused(): a branch on
+/// the value of a node can only be recorded by is_less().
 double value_of(const Traced& x);
 
-/// x < y for literals. Otherwise records a guard and returns its outcome: x < y at the present design if neither varies, else `likely`.
-bool is_less(const Traced& x, const Traced& y, bool likely, unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
+/// x < y for literals. Otherwise records a guard and returns its outcome: x < y at the present
+/// design if neither varies, else `likely`.
+bool is_less(const Traced& x, const Traced& y, bool likely,
+             unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
 
 }  // namespace codesign
 
@@ -79,7 +90,15 @@ struct NumTraits<codesign::Traced> : GenericNumTraits<double> {
   using Nested = codesign::Traced;
   using Literal = codesign::Traced;
   static Real dummy_precision() { return Real(1e-12); }
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };
 
 template <class Operation>

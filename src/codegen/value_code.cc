@@ -16,8 +16,9 @@ namespace codesign {
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
 
-constexpr std::size_t kMostBytes = 16 * 1024 * 1024;  // limit of the estimate, which is about four times the actual size
-constexpr std::size_t kBytesPerInstruction = 64;      // with loads, spills and stores
+constexpr std::size_t kMostBytes =
+    16 * 1024 * 1024;  // limit of the estimate, which is about four times the actual size
+constexpr std::size_t kBytesPerInstruction = 64;  // with loads, spills and stores
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;
 
@@ -37,23 +38,29 @@ class Uses {
     positions_.resize(last_.back());
     std::vector<std::size_t> end = next_;
     for (std::size_t k = 0; k < program.instructions.size(); ++k)
-      for (int n : {program.instructions[k].a, program.instructions[k].b, program.instructions[k].c})
+      for (int n :
+           {program.instructions[k].a, program.instructions[k].b, program.instructions[k].c})
         if (n >= 0) positions_[end[to_index(n)]++] = static_cast<int>(k);
   }
 
   /// The next instruction that reads the node, after those passed.
-  int next(int node) const { return is_read_again(node) ? positions_[next_[to_index(node)]] : std::numeric_limits<int>::max(); }
+  int next(int node) const {
+    return is_read_again(node) ? positions_[next_[to_index(node)]]
+                               : std::numeric_limits<int>::max();
+  }
   bool is_read_again(int node) const { return next_[to_index(node)] < last_[to_index(node)]; }
   void pass(int node) { ++next_[to_index(node)]; }
 
  private:
-  std::vector<int> positions_;            ///< of all nodes, one after the other
-  std::vector<std::size_t> next_, last_;  ///< per node: where its next position is, and where its positions end
+  std::vector<int> positions_;  ///< of all nodes, one after the other
+  std::vector<std::size_t> next_,
+      last_;  ///< per node: where its next position is, and where its positions end
 };
 
 class Code final : public ValueCode, private MachineCode {
  public:
-  Code(const Recording& recording, const ValueTask& task, const ValueProgram& program, int slot_array, std::size_t bytes)
+  Code(const Recording& recording, const ValueTask& task, const ValueProgram& program,
+       int slot_array, std::size_t bytes)
       : MachineCode(bytes),
         recording_(&recording),
         task_(&task),
@@ -66,7 +73,8 @@ class Code final : public ValueCode, private MachineCode {
     for (int n : task.kept) kept_[to_index(n)] = true;
     held_.fill(-1);
     enter();
-    for (std::size_t k = 0; k < program.instructions.size(); ++k) emit(program.instructions[k], program.stores[k]);
+    for (std::size_t k = 0; k < program.instructions.size(); ++k)
+      emit(program.instructions[k], program.stores[k]);
     mov(eax, 1);
     leave();
     L(failed_);
@@ -88,7 +96,9 @@ class Code final : public ValueCode, private MachineCode {
     const Place& home = task_->homes[to_index(node)];
     return home.array >= 0 ? home : Place{slot_array_, program_->slot[to_index(node)]};
   }
-  bool in_memory(int node) const { return task_->homes[to_index(node)].array >= 0 || stored_[to_index(node)]; }
+  bool in_memory(int node) const {
+    return task_->homes[to_index(node)].array >= 0 || stored_[to_index(node)];
+  }
   bool in_register(int node) const { return register_of_[to_index(node)] >= 0; }
   Xmm register_of(int node) const { return Xmm(register_of_[to_index(node)]); }
 
@@ -103,7 +113,8 @@ class Code final : public ValueCode, private MachineCode {
     stored_[to_index(node)] = true;
   }
 
-  /// A register to write to, not one that the present instruction uses. Its value is saved to memory if it is not there yet.
+  /// A register to write to, not one that the present instruction uses. Its value is saved to
+  /// memory if it is not there yet.
   int free_register() {
     int best = -1, farthest = -1;
     for (int r = 0; r < kRegisters; ++r) {
@@ -136,7 +147,8 @@ class Code final : public ValueCode, private MachineCode {
     return register_of(node);
   }
 
-  /// The node as an operand to read: a register if it is in one or is read again later, else its address in memory.
+  /// The node as an operand to read: a register if it is in one or is read again later, else its
+  /// address in memory.
   const Operand& operand(int node) {
     if (in_register(node) || uses_.is_read_again(node)) {
       operand_register_ = in_some_register(node);
@@ -260,7 +272,8 @@ class Code final : public ValueCode, private MachineCode {
     hold(i.node, result.getIdx());
   }
 
-  // a b + c, a b - c or c - a b. A fused instruction overwrites one operand: c if it is not read again, else a copy of c.
+  // a b + c, a b - c or c - a b. A fused instruction overwrites one operand: c if it is not read
+  // again, else a copy of c.
   void emit_product(const Instruction& i) {
     int first = i.a, second = i.b;
     if (!in_register(first) && in_register(second)) std::swap(first, second);
@@ -334,8 +347,9 @@ class Code final : public ValueCode, private MachineCode {
   const ValueProgram* program_;
   int slot_array_;
   Uses uses_;
-  std::vector<int> register_of_;         ///< per node: the register that holds it, -1 if none
-  std::vector<bool> stored_, kept_;      ///< per node: its value is in its slot; it must be there at the end
+  std::vector<int> register_of_;  ///< per node: the register that holds it, -1 if none
+  std::vector<bool> stored_,
+      kept_;  ///< per node: its value is in its slot; it must be there at the end
   std::array<int, kRegisters> held_{};   ///< the node in each register, -1 if none
   std::array<bool, kRegisters> busy_{};  ///< the present instruction reads or writes it
   int last_dropped_ = -1;
@@ -348,12 +362,14 @@ class Code final : public ValueCode, private MachineCode {
 
 bool ValueCode::is_available() { return MachineCode::can_run(); }
 
-std::unique_ptr<ValueCode> ValueCode::compile(const Recording& recording, const ValueTask& task, const ValueProgram& program,
-                                              int slot_array) {
+std::unique_ptr<ValueCode> ValueCode::compile(const Recording& recording, const ValueTask& task,
+                                              const ValueProgram& program, int slot_array) {
   std::size_t bytes = 1024;
-  for (std::size_t k = 0; k < program.instructions.size(); ++k) bytes += kBytesPerInstruction + 16 * program.stores[k].size();
+  for (std::size_t k = 0; k < program.instructions.size(); ++k)
+    bytes += kBytesPerInstruction + 16 * program.stores[k].size();
   for (const Instruction& i : program.instructions)
-    if (i.kind == Kind::kOperation && recording.node(i.node).operation >= Operation::kTanh) bytes += kBytesPerCall;
+    if (i.kind == Kind::kOperation && recording.node(i.node).operation >= Operation::kTanh)
+      bytes += kBytesPerCall;
   if (bytes > kMostBytes || !MachineCode::can_run()) return nullptr;
   try {
     return std::make_unique<Code>(recording, task, program, slot_array, bytes);
@@ -364,7 +380,10 @@ std::unique_ptr<ValueCode> ValueCode::compile(const Recording& recording, const 
 #else
 bool ValueCode::is_available() { return false; }
 
-std::unique_ptr<ValueCode> ValueCode::compile(const Recording&, const ValueTask&, const ValueProgram&, int) { return nullptr; }
+std::unique_ptr<ValueCode> ValueCode::compile(const Recording&, const ValueTask&,
+                                              const ValueProgram&, int) {
+  return nullptr;
+}
 #endif
 
 }  // namespace codesign

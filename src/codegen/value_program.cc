@@ -18,7 +18,8 @@ class Compiler {
         uses_(to_index(recording.size()), 0),
         fixed_(to_index(recording.size()), false),
         stores_(uses_.size()) {
-    for (const Recording::Guard& guard : task.guards) guards_.emplace(std::max(guard.a, guard.b), guard);
+    for (const Recording::Guard& guard : task.guards)
+      guards_.emplace(std::max(guard.a, guard.b), guard);
   }
 
   void run(ValueProgram* program) {
@@ -33,7 +34,9 @@ class Compiler {
       append_guards(n, program);
     }
     for (const ValueTask::Output& output : task_.outputs)
-      if (has_home(output.node)) append({ValueProgram::Kind::kCopy, output.node, output.node, -1, -1}, {output.place}, program);
+      if (has_home(output.node))
+        append({ValueProgram::Kind::kCopy, output.node, output.node, -1, -1}, {output.place},
+               program);
   }
 
  private:
@@ -63,7 +66,8 @@ class Compiler {
   }
 
   bool is_lone_product(int n) const {
-    return recording_.node(n).operation == Operation::kMultiply && !has_home(n) && uses_[to_index(n)] == 1 && !fixed_[to_index(n)];
+    return recording_.node(n).operation == Operation::kMultiply && !has_home(n) &&
+           uses_[to_index(n)] == 1 && !fixed_[to_index(n)];
   }
 
   /// Which operand of a sum is a product to be fused with it: 1 the first, 2 the second, 0 none.
@@ -81,7 +85,8 @@ class Compiler {
     const int user = user_[to_index(n)];
     if (user < 0) return false;
     const int operand = absorbed_operand(user);
-    return (operand == 1 && recording_.node(user).a == n) || (operand == 2 && recording_.node(user).b == n);
+    return (operand == 1 && recording_.node(user).a == n) ||
+           (operand == 2 && recording_.node(user).b == n);
   }
 
   void find_users() {
@@ -110,12 +115,14 @@ class Compiler {
   void append_guards(int n, ValueProgram* program) const {
     const auto [first, last] = guards_.equal_range(n);
     for (auto guard = first; guard != last; ++guard)
-      append({guard->second.outcome ? ValueProgram::Kind::kGuardLess : ValueProgram::Kind::kGuardGreaterEqual, guard->second.decision,
-              guard->second.a, guard->second.b, -1},
+      append({guard->second.outcome ? ValueProgram::Kind::kGuardLess
+                                    : ValueProgram::Kind::kGuardGreaterEqual,
+              guard->second.decision, guard->second.a, guard->second.b, -1},
              {}, program);
   }
 
-  static void append(const Instruction& instruction, std::vector<Place> stores, ValueProgram* program) {
+  static void append(const Instruction& instruction, std::vector<Place> stores,
+                     ValueProgram* program) {
     program->instructions.push_back(instruction);
     program->stores.push_back(std::move(stores));
   }
@@ -123,13 +130,17 @@ class Compiler {
   const Recording& recording_;
   const ValueTask& task_;
   std::vector<int> uses_, user_;
-  std::vector<bool> fixed_;  ///< must not be fused, since an output, the caller or a guard needs its value
+  std::vector<bool>
+      fixed_;  ///< must not be fused, since an output, the caller or a guard needs its value
   std::vector<std::vector<Place>> stores_;
-  std::multimap<int, Recording::Guard> guards_;  ///< by the later of its two nodes, after which it can be checked
+  std::multimap<int, Recording::Guard>
+      guards_;  ///< by the later of its two nodes, after which it can be checked
 };
 
 }  // namespace
 
-ValueProgram::ValueProgram(const Recording& recording, const ValueTask& task) { Compiler(recording, task).run(this); }
+ValueProgram::ValueProgram(const Recording& recording, const ValueTask& task) {
+  Compiler(recording, task).run(this);
+}
 
 }  // namespace codesign

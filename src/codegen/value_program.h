@@ -7,11 +7,14 @@
 
 namespace codesign {
 
-/// The place of a number: an index into one of the arrays that compiled code works on. Absent if array < 0.
+/// The place of a number: an index into one of the arrays that compiled code works on. Absent if
+/// array < 0.
 struct Place {
   int array = -1, index = 0;
 
-  friend bool operator==(const Place& x, const Place& y) { return x.array == y.array && x.index == y.index; }
+  friend bool operator==(const Place& x, const Place& y) {
+    return x.array == y.array && x.index == y.index;
+  }
 };
 
 /// The number of arrays that compiled code can address.
@@ -24,14 +27,15 @@ struct ValueTask {
     Place place;
   };
   std::vector<Output> outputs;
-  std::vector<int> kept;                 ///< nodes whose values the caller reads from their slots afterwards
-  std::vector<Place> homes;              ///< per node: the place that already has its value; absent if it is to be computed
+  std::vector<int> kept;  ///< nodes whose values the caller reads from their slots afterwards
+  std::vector<Place>
+      homes;  ///< per node: the place that already has its value; absent if it is to be computed
   std::vector<Recording::Guard> guards;  ///< that must hold for the outputs to be valid
-  int reserved_slots = 0;                ///< slots before the slots of the program, which does not change them
+  int reserved_slots = 0;  ///< slots before the slots of the program, which does not change them
 };
 
-/// A task as a list of instructions in order. Nodes that no output, kept node or guard needs are left out; a product that is used once, in
-/// a sum, becomes one fused instruction with it.
+/// A task as a list of instructions in order. Nodes that no output, kept node or guard needs are
+/// left out; a product that is used once, in a sum, becomes one fused instruction with it.
 struct ValueProgram {
   enum class Kind {
     kOperation,         ///< the operation of the recording's node on a and b
@@ -52,8 +56,9 @@ struct ValueProgram {
 
   std::vector<Instruction> instructions;
   std::vector<std::vector<Place>> stores;  ///< per instruction: the places of its result
-  std::vector<int> slot;                   ///< per node: its index in the array of intermediate values, -1 if not computed
-  int slots = 0;                           ///< size of that array, reserved slots included
+  std::vector<int>
+      slot;       ///< per node: its index in the array of intermediate values, -1 if not computed
+  int slots = 0;  ///< size of that array, reserved slots included
 };
 
 }  // namespace codesign

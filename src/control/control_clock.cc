@@ -7,13 +7,16 @@ namespace codesign {
 
 double ControlClock::Sampled::next() const {
   const double next_sample = period * static_cast<double>(sample);
-  return delay > 0.0 ? std::min(next_sample, period * static_cast<double>(apply) + delay) : next_sample;
+  return delay > 0.0 ? std::min(next_sample, period * static_cast<double>(apply) + delay)
+                     : next_sample;
 }
 
 ControlClock::ControlClock(const MotionStudy& study) {
   for (std::size_t c = 0; c < study.controllers.size(); ++c) {
     const ControlRealization& realization = study.controllers[c].realization;
-    if (realization.is_sampled()) controllers_.push_back({static_cast<int>(c), realization.sample_time, realization.delay, 0, 0});
+    if (realization.is_sampled())
+      controllers_.push_back(
+          {static_cast<int>(c), realization.sample_time, realization.delay, 0, 0});
   }
   start();
 }

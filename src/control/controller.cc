@@ -13,8 +13,9 @@ namespace codesign {
 namespace {
 
 bool reads(const Signal& signal, SignalKind kind, int controller) {
-  return std::any_of(signal.begin(), signal.end(),
-                     [&](const SignalReference& term) { return term.kind == kind && term.controller == controller; });
+  return std::any_of(signal.begin(), signal.end(), [&](const SignalReference& term) {
+    return term.kind == kind && term.controller == controller;
+  });
 }
 
 class Resolver {
@@ -24,8 +25,8 @@ class Resolver {
 
   std::vector<Controller> resolve(const std::vector<Signal>& observed, int* states) {
     for (std::size_t k = 0; k < controllers_.size(); ++k) resolve_signals(k);
-    // From the last to the first: a controller reads only earlier controllers, so that all readers of a rate are known before the rate is
-    // provided.
+    // From the last to the first: a controller reads only earlier controllers, so that all readers
+    // of a rate are known before the rate is provided.
     for (std::size_t k = controllers_.size(); k-- > 0;) provide_rate(k);
     for (std::size_t k = 0; k < controllers_.size(); ++k)
       if (needs_integral(static_cast<int>(k), observed)) controllers_[k].state = (*states)++;
@@ -38,24 +39,30 @@ class Resolver {
  private:
   std::string element(std::size_t k) const { return "controllers." + study_.controllers[k].name; }
 
-  Signal readable(const SignalDescription& description, std::size_t k, const std::string& key) const {
+  Signal readable(const SignalDescription& description, std::size_t k,
+                  const std::string& key) const {
     Signal signal = resolve_signal(description, robot_, topology_, study_.controllers);
     for (const SignalReference& term : signal)
       if (term.controller >= static_cast<int>(k) || reads_effort(term, k))
         throw InputError({study_.controllers[k].where, element(k) + key,
-                          "a controller cannot read an effort, a reaction of a joint that it drives, itself or a later controller",
+                          "a controller cannot read an effort, a reaction of a joint that it "
+                          "drives, itself or a later controller",
                           description.text, "controllers defined before it"});
     return signal;
   }
 
-  /// Whether a term contains the output of the k-th controller or of a later one. A reaction does if one of them drives its joint.
+  /// Whether a term contains the output of the k-th controller or of a later one. A reaction does
+  /// if one of them drives its joint.
   bool reads_effort(const SignalReference& term, std::size_t k) const {
-    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kJointEffortRate || term.kind == SignalKind::kActuatorPower)
+    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kJointEffortRate ||
+        term.kind == SignalKind::kActuatorPower)
       return true;
-    if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque) return false;
+    if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque)
+      return false;
     const auto drives = [&](const ControllerDescription& controller) {
       for (std::size_t j = 0; j < robot_.joints.size(); ++j)
-        if (robot_.joints[j].name == controller.output && topology_.joint_pair[j] == term.pair) return true;
+        if (robot_.joints[j].name == controller.output && topology_.joint_pair[j] == term.pair)
+          return true;
       return false;
     };
     return std::any_of(study_.controllers.begin() + to_signed(k), study_.controllers.end(), drives);
@@ -66,12 +73,15 @@ class Resolver {
     Controller& controller = controllers_[k];
     controller.kind = description.kind;
     if (description.kind->has_error()) controller.input = readable(description.input, k, ".input");
-    for (const FeedbackTerm& term : description.feedback) controller.feedback.push_back(readable(term.signal, k, ".feedback"));
+    for (const FeedbackTerm& term : description.feedback)
+      controller.feedback.push_back(readable(term.signal, k, ".feedback"));
     if (description.output.empty()) return;
-    const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
-                                    [&description](const JointDescription& j) { return j.name == description.output; });
+    const auto joint = std::find_if(
+        robot_.joints.begin(), robot_.joints.end(),
+        [&description](const JointDescription& j) { return j.name == description.output; });
     if (joint == robot_.joints.end()) return;
-    const SignalDescription output{joint->name + "/velocity", {{1.0, joint->name, "velocity", ""}}, description.where};
+    const SignalDescription output{
+        joint->name + "/velocity", {{1.0, joint->name, "velocity", ""}}, description.where};
     const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers);
     controller.pair = resolved.front().pair;
     controller.element = resolved.front().element;
@@ -82,28 +92,35 @@ class Resolver {
     if (!description.kind->has_error()) return;
     // A sampled or filtered PID needs only the error.
     const ControlRealization& realization = description.realization;
-    const bool by_error = description.kind->is_pid && (realization.is_sampled() || realization.derivative_filter);
+    const bool by_error =
+        description.kind->is_pid && (realization.is_sampled() || realization.derivative_filter);
     bool wanted = description.kind->reads_rate && !description.d.is_zero() && !by_error;
     for (const Controller& other : controllers_)
-      wanted = wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
+      wanted =
+          wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
     if (!wanted) return;
     refuse_kinked_integral(k);
-    controllers_[k].input_rate = differentiate(controllers_[k].input, description.input, element(k) + ".input");
+    controllers_[k].input_rate =
+        differentiate(controllers_[k].input, description.input, element(k) + ".input");
   }
 
   /// The rate of an integral is the error only if nothing clamps or samples it.
   bool is_plain_integral(const SignalReference& term) const {
     if (term.kind != SignalKind::kControllerIntegral) return true;
-    const ControlRealization& realization = study_.controllers[to_index(term.controller)].realization;
+    const ControlRealization& realization =
+        study_.controllers[to_index(term.controller)].realization;
     return !realization.antiwindup && !realization.is_sampled();
   }
 
   void refuse_kinked_integral(std::size_t k) const {
     for (const SignalReference& term : controllers_[k].input)
       if (!is_plain_integral(term))
-        throw InputError({study_.controllers[k].where, element(k) + ".input",
-                          "the time derivative of the integral of a sampled or clamped controller is not available",
-                          study_.controllers[k].input.text, "sums of joint or link positions and velocities; or a derivative_filter"});
+        throw InputError(
+            {study_.controllers[k].where, element(k) + ".input",
+             "the time derivative of the integral of a sampled or clamped controller is not "
+             "available",
+             study_.controllers[k].input.text,
+             "sums of joint or link positions and velocities; or a derivative_filter"});
   }
 
   void place_states(std::size_t k, int* states) {
@@ -119,8 +136,8 @@ class Resolver {
     if (realization.time_constant) places.lag = (*states)++;
   }
 
-  /// A sampled controller must not read accelerations and forces: its output determines them at the instant of the sample. The same holds
-  /// for a filter, whose state begins at its input.
+  /// A sampled controller must not read accelerations and forces: its output determines them at the
+  /// instant of the sample. The same holds for a filter, whose state begins at its input.
   void refuse_rates(std::size_t k) const {
     const auto is_rate = [](const SignalReference& term) {
       switch (term.kind) {
@@ -145,8 +162,10 @@ class Resolver {
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))
         throw InputError({study_.controllers[k].where, element(k),
-                          "a controller with sample_time or derivative_filter cannot read accelerations, forces and powers",
-                          description.text, "positions, velocities, orientations, energies and controllers"});
+                          "a controller with sample_time or derivative_filter cannot read "
+                          "accelerations, forces and powers",
+                          description.text,
+                          "positions, velocities, orientations, energies and controllers"});
     };
     check(controllers_[k].input, study_.controllers[k].input);
     for (std::size_t term = 0; term < controllers_[k].feedback.size(); ++term)
@@ -166,11 +185,14 @@ class Resolver {
       return rate.has_value();
     };
     const auto is_free = [](const Signal& signal) {
-      return std::all_of(signal.begin(), signal.end(), [](const SignalReference& term) { return term.controller < 0; });
+      return std::all_of(signal.begin(), signal.end(),
+                         [](const SignalReference& term) { return term.controller < 0; });
     };
     if (controller.kind->is_pid) {
       const bool twice = !description.d.is_zero() && !description.realization.derivative_filter;
-      if (!is_free(controller.input) || !add(controller.input) || (twice && !add(Signal(rates.front())))) return;
+      if (!is_free(controller.input) || !add(controller.input) ||
+          (twice && !add(Signal(rates.front()))))
+        return;
     } else if (controller.kind->input == ControlInput::kFeedback) {
       for (const Signal& signal : controller.feedback)
         if (!is_free(signal) || !add(signal)) return;
@@ -183,28 +205,37 @@ class Resolver {
 
   bool needs_integral(int k, const std::vector<Signal>& observed) const {
     if (!study_.controllers[to_index(k)].i.is_zero()) return true;
-    const auto integral = [k](const Signal& signal) { return reads(signal, SignalKind::kControllerIntegral, k); };
+    const auto integral = [k](const Signal& signal) {
+      return reads(signal, SignalKind::kControllerIntegral, k);
+    };
     return std::any_of(observed.begin(), observed.end(), integral) ||
-           std::any_of(controllers_.begin(), controllers_.end(), [&integral](const Controller& other) {
-             return integral(other.input) || std::any_of(other.feedback.begin(), other.feedback.end(), integral);
-           });
+           std::any_of(controllers_.begin(), controllers_.end(),
+                       [&integral](const Controller& other) {
+                         return integral(other.input) ||
+                                std::any_of(other.feedback.begin(), other.feedback.end(), integral);
+                       });
   }
 
   void grow_tree(std::size_t k) {
     Controller& controller = controllers_[k];
     const bool torque = controller.kind->load == ControlLoad::kDemanded;
     if (controller.kind->load == ControlLoad::kNone) return;
-    controller.tree = driven_tree(topology_, controller.pair, torque, study_.controllers[k].where, element(k) + ".output");
+    controller.tree = driven_tree(topology_, controller.pair, torque, study_.controllers[k].where,
+                                  element(k) + ".output");
     if (!torque) return;
     for (std::size_t other = 0; other < k; ++other)
-      if (controllers_[other].kind->load == ControlLoad::kDemanded && controllers_[other].pair == controller.pair)
-        throw InputError({study_.controllers[k].where, element(k) + ".output", "a joint can have only one computed torque",
-                          study_.controllers[k].output, "a joint that " + study_.controllers[other].name + " does not drive"});
+      if (controllers_[other].kind->load == ControlLoad::kDemanded &&
+          controllers_[other].pair == controller.pair)
+        throw InputError({study_.controllers[k].where, element(k) + ".output",
+                          "a joint can have only one computed torque", study_.controllers[k].output,
+                          "a joint that " + study_.controllers[other].name + " does not drive"});
     for (DrivenTree::Node& node : controller.tree.nodes)
       for (std::size_t other = 0; other < controllers_.size(); ++other)
-        if (controllers_[other].kind->load == ControlLoad::kDemanded && controllers_[other].pair == node.pair)
+        if (controllers_[other].kind->load == ControlLoad::kDemanded &&
+            controllers_[other].pair == node.pair)
           node.controller = static_cast<int>(other);
-    for (DrivenTree::Node& node : controller.tree.nodes) node.rotor = node.moved && has_rotor(node.pair);
+    for (DrivenTree::Node& node : controller.tree.nodes)
+      node.rotor = node.moved && has_rotor(node.pair);
   }
 
   bool has_rotor(int pair) const {
@@ -221,23 +252,27 @@ class Resolver {
 
 }  // namespace
 
-std::string find_impossible(const ControllerDescription& description, const ControllerConstants<double>& constants) {
+std::string find_impossible(const ControllerDescription& description,
+                            const ControllerConstants<double>& constants) {
   const ControlRealization& realization = description.realization;
   const struct {
     const char* name;
     bool exists;
     double value;
-  } numbers[] = {{"i_clamp", realization.i_clamp.has_value(), constants.i_clamp},
-                 {"derivative_filter", realization.derivative_filter.has_value(), constants.derivative_filter},
-                 {"output_limit", realization.output_limit.has_value(), constants.output_limit},
-                 {"time_constant", realization.time_constant.has_value(), constants.time_constant}};
+  } numbers[] = {
+      {"i_clamp", realization.i_clamp.has_value(), constants.i_clamp},
+      {"derivative_filter", realization.derivative_filter.has_value(), constants.derivative_filter},
+      {"output_limit", realization.output_limit.has_value(), constants.output_limit},
+      {"time_constant", realization.time_constant.has_value(), constants.time_constant}};
   for (const auto& number : numbers)
     if (number.exists && !(number.value > 0.0))
-      return "controllers." + description.name + "." + number.name + " is " + to_decimal(number.value) + ", it must be positive";
+      return "controllers." + description.name + "." + number.name + " is " +
+             to_decimal(number.value) + ", it must be positive";
   return "";
 }
 
-std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot, const Topology& topology,
+std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot,
+                                            const Topology& topology,
                                             const std::vector<Signal>& observed, int* states) {
   return Resolver(study, robot, topology).resolve(observed, states);
 }

@@ -27,10 +27,13 @@ struct ControllerConstants {
   T i_clamp{0.0}, derivative_filter{0.0}, output_limit{0.0}, time_constant{0.0};
 };
 
-/// Evaluates a description at `parameters`, all named parameters. The description must outlive the result.
-/// @param result new, or of the same description at other parameters; overwritten, its memory is used again.
+/// Evaluates a description at `parameters`, all named parameters. The description must outlive the
+/// result.
+/// @param result new, or of the same description at other parameters; overwritten, its memory is
+/// used again.
 template <class T>
-void controller_constants(const ControllerDescription& description, const std::vector<T>& parameters, ControllerConstants<T>* result) {
+void controller_constants(const ControllerDescription& description,
+                          const std::vector<T>& parameters, ControllerConstants<T>* result) {
   ControllerConstants<T>& c = *result;
   c.setpoint.set(description.setpoint, parameters);
   c.feedforward.set(description.feedforward, parameters);
@@ -45,39 +48,46 @@ void controller_constants(const ControllerDescription& description, const std::v
   }
   const ControlRealization& realization = description.realization;
   if (realization.i_clamp) c.i_clamp = realization.i_clamp->at(parameters);
-  if (realization.derivative_filter) c.derivative_filter = realization.derivative_filter->at(parameters);
+  if (realization.derivative_filter)
+    c.derivative_filter = realization.derivative_filter->at(parameters);
   if (realization.output_limit) c.output_limit = realization.output_limit->at(parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
   if (description.kind->input == ControlInput::kShape) c.shape.set(description.basis, parameters);
 }
 template <class T>
-ControllerConstants<T> controller_constants(const ControllerDescription& description, const std::vector<T>& parameters) {
+ControllerConstants<T> controller_constants(const ControllerDescription& description,
+                                            const std::vector<T>& parameters) {
   ControllerConstants<T> constants;
   controller_constants(description, parameters, &constants);
   return constants;
 }
 
-/// A sentence about a number of a controller that is impossible at this design; empty if there is none. Gains may be anything.
-std::string find_impossible(const ControllerDescription& description, const ControllerConstants<double>& constants);
+/// A sentence about a number of a controller that is impossible at this design; empty if there is
+/// none. Gains may be anything.
+std::string find_impossible(const ControllerDescription& description,
+                            const ControllerConstants<double>& constants);
 
 /// Indices of the extra states of a controller as a robot runs it, theory (50)-(53), or -1.
 struct ControllerStates {
   int filter = -1;  ///< the filtered error; for a sampled controller the filtered rate of the error
   int last = -1;    ///< sampled: the error at the last sample
   int held = -1;    ///< sampled: the output in effect
-  int queue = -1;   ///< sampled: the first of the waiting outputs, whose number is ControlRealization::queued()
+  int queue = -1;   ///< sampled: the first of the waiting outputs, whose number is
+                    ///< ControlRealization::queued()
   int lag = -1;     ///< the effort after the lag of the drive
 };
 
 /// A controller with its names resolved to indices; ControlLaw describes the laws.
 struct Controller {
   ControllerKind kind = ControllerKind::kPid;
-  Signal input, input_rate;      ///< only if kind->has_error(); input_rate is empty if it is not needed
+  Signal input, input_rate;  ///< only if kind->has_error(); input_rate is empty if it is not needed
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
-  int pair = -1, element = -1;   ///< the driven coordinate: index in Topology::pairs and in the pair's chain
-  int state = -1;                ///< index of its integral among the extra states, or -1
-  ControllerStates states;       ///< the other states
-  /// The rates of signals that the rate of the output needs, theory (54): the rates of `input` and of `input_rate`, or of `feedback`.
+  int pair = -1,
+      element = -1;  ///< the driven coordinate: index in Topology::pairs and in the pair's chain
+  int state = -1;    ///< index of its integral among the extra states, or -1
+  ControllerStates states;  ///< the other states
+  /// The rates of signals that the rate of the output needs, theory (54): the rates of `input` and
+  /// of `input_rate`, or of `feedback`.
   std::vector<Signal> output_rate;
   bool has_output_rate = false;
   DrivenTree tree;  ///< only of laws with a ControlLoad
@@ -86,8 +96,10 @@ struct Controller {
 /// Resolves all controllers of a study, in its order.
 /// @param observed other signals that may read controllers: the signals of the objective.
 /// @param states number of extra states; grows by one for each integral that is needed.
-/// @throws InputError for unknown names, signals that a controller cannot read, and joints that it cannot drive.
-std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot, const Topology& topology,
+/// @throws InputError for unknown names, signals that a controller cannot read, and joints that it
+/// cannot drive.
+std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot,
+                                            const Topology& topology,
                                             const std::vector<Signal>& observed, int* states);
 
 }  // namespace codesign

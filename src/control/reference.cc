@@ -11,26 +11,32 @@
 namespace codesign {
 namespace {
 
-// Velocities that are not given, theory (C2): the slope of the parabola through a way-point and its neighbours; zero at both ends.
+// Velocities that are not given, theory (C2): the slope of the parabola through a way-point and its
+// neighbours; zero at both ends.
 template <class T>
 void choose_velocities(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
   for (std::size_t k = 1; k + 1 < knots->size(); ++k) {
-    const double before = times[k] - times[k - 1], after = times[k + 1] - times[k], both = before + after;
+    const double before = times[k] - times[k - 1], after = times[k + 1] - times[k],
+                 both = before + after;
     const T left = ((*knots)[k].position - (*knots)[k - 1].position) / T(before);
     const T right = ((*knots)[k + 1].position - (*knots)[k].position) / T(after);
     (*knots)[k].velocity = (T(after) * left + T(before) * right) / T(both);
   }
 }
 
-// Accelerations that are not given, theory (C2): the mean of the accelerations of the two cubic pieces that meet at a way-point; zero at
-// both ends.
+// Accelerations that are not given, theory (C2): the mean of the accelerations of the two cubic
+// pieces that meet at a way-point; zero at both ends.
 template <class T>
 void choose_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
   for (std::size_t k = 1; k + 1 < knots->size(); ++k) {
     const Knot<T>&a = (*knots)[k - 1], &b = (*knots)[k], &c = (*knots)[k + 1];
     const T before(times[k] - times[k - 1]), after(times[k + 1] - times[k]);
-    const T left = (T(2.0) * a.velocity + T(4.0) * b.velocity - T(6.0) * (b.position - a.position) / before) / before;
-    const T right = (T(6.0) * (c.position - b.position) / after - T(4.0) * b.velocity - T(2.0) * c.velocity) / after;
+    const T left =
+        (T(2.0) * a.velocity + T(4.0) * b.velocity - T(6.0) * (b.position - a.position) / before) /
+        before;
+    const T right =
+        (T(6.0) * (c.position - b.position) / after - T(4.0) * b.velocity - T(2.0) * c.velocity) /
+        after;
     (*knots)[k].acceleration = T(0.5) * (left + right);
   }
 }
@@ -43,10 +49,11 @@ T limited(const T& x, const T& a, const T& b) {
   return less(x, low) ? low : less(high, x) ? high : x;
 }
 
-/// Calls limit(knot, duration h to a neighbour, negative for the earlier one, slope d of the chord) for both neighbours of each inner
-/// way-point.
+/// Calls limit(knot, duration h to a neighbour, negative for the earlier one, slope d of the chord)
+/// for both neighbours of each inner way-point.
 template <class T, class Limit>
-void limit_by_neighbours(const std::vector<double>& times, std::vector<Knot<T>>* knots, const Limit& limit) {
+void limit_by_neighbours(const std::vector<double>& times, std::vector<Knot<T>>* knots,
+                         const Limit& limit) {
   for (std::size_t k = 1; k + 1 < knots->size(); ++k)
     for (const std::size_t other : {k - 1, k + 1}) {
       const T h(times[other] - times[k]);
@@ -57,13 +64,15 @@ void limit_by_neighbours(const std::vector<double>& times, std::vector<Knot<T>>*
 // The limits of theory (C2), within which no polynomial leaves the values of its two way-points.
 template <class T>
 void limit_velocities(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
-  limit_by_neighbours(times, knots,
-                      [](Knot<T>* knot, const T&, const T& d) { knot->velocity = limited(knot->velocity, T(0.0), T(T(1.25) * d)); });
+  limit_by_neighbours(times, knots, [](Knot<T>* knot, const T&, const T& d) {
+    knot->velocity = limited(knot->velocity, T(0.0), T(T(1.25) * d));
+  });
 }
 template <class T>
 void limit_accelerations(const std::vector<double>& times, std::vector<Knot<T>>* knots) {
   limit_by_neighbours(times, knots, [](Knot<T>* knot, const T& h, const T& d) {
-    knot->acceleration = limited(knot->acceleration, T(T(-4.0) * knot->velocity / h), T((T(10.0) * d - T(8.0) * knot->velocity) / h));
+    knot->acceleration = limited(knot->acceleration, T(T(-4.0) * knot->velocity / h),
+                                 T((T(10.0) * d - T(8.0) * knot->velocity) / h));
   });
 }
 
@@ -126,12 +135,14 @@ typename Reference<T>::Piece Reference<T>::hold(double start, const T& value) {
 }
 
 template <class T>
-void Reference<T>::set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters) {
+void Reference<T>::set_waypoints(const WaypointsDescription& description,
+                                 const std::vector<T>& parameters) {
   const std::vector<double>& times = description.times;
   std::vector<Knot<T>>& knots = knots_;
   knots.assign(times.size(), Knot<T>());
   const auto take = [&](const std::vector<Quantity>& quantities, T Knot<T>::*member) {
-    for (std::size_t k = 0; k < quantities.size(); ++k) knots[k].*member = quantities[k].at(parameters);
+    for (std::size_t k = 0; k < quantities.size(); ++k)
+      knots[k].*member = quantities[k].at(parameters);
   };
   take(description.positions, &Knot<T>::position);
   const bool is_monotone = description.interpolation == Interpolation::kMonotone;
@@ -144,7 +155,8 @@ void Reference<T>::set_waypoints(const WaypointsDescription& description, const 
   pieces_.clear();
   pieces_.push_back(hold(-std::numeric_limits<double>::infinity(), knots.front().position));
   for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-    pieces_.push_back({times[k], waypoint_polynomial(description.interpolation, knots[k], knots[k + 1], times[k + 1] - times[k])});
+    pieces_.push_back({times[k], waypoint_polynomial(description.interpolation, knots[k],
+                                                     knots[k + 1], times[k + 1] - times[k])});
   pieces_.push_back(hold(times.back(), knots.back().position));
 }
 
@@ -193,13 +205,17 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return motion;
   }
   if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
-  if (kind_ == ReferenceDescription::Kind::kLive) return live_->commanded ? commanded_at(*live_, t) : planned_->at(t);
+  if (kind_ == ReferenceDescription::Kind::kLive)
+    return live_->commanded ? commanded_at(*live_, t) : planned_->at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
-    const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle), c = amplitude_ * cos(angle);
+    const T angle = angular_frequency_ * T(t) + phase_, s = amplitude_ * sin(angle),
+            c = amplitude_ * cos(angle);
     const T square = angular_frequency_ * angular_frequency_;
     return {offset_ + s, angular_frequency_ * c, -(square * s), -(square * angular_frequency_ * c)};
   }
-  const auto next = std::upper_bound(pieces_.begin(), pieces_.end(), t, [](double time, const Piece& piece) { return time < piece.start; });
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), t,
+                       [](double time, const Piece& piece) { return time < piece.start; });
   const Piece& piece = *std::prev(next);
   if (!std::isfinite(piece.start)) {
     motion.value = piece.c[0];
@@ -208,14 +224,17 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
   return along(piece, t);
 }
 
-void Reference<Traced>::set(const ReferenceDescription& description, const std::vector<Traced>& parameters) {
+void Reference<Traced>::set(const ReferenceDescription& description,
+                            const std::vector<Traced>& parameters) {
   motion_ = {};
   if (description.kind == ReferenceDescription::Kind::kConstant) {
     motion_.value = description.constant.at(parameters);
     return;
   }
   Recording* const recording = parameters.front().recording();
-  const auto order = [&](int k) { return Traced(recording, recording->timed(SourceId(description), k)); };
+  const auto order = [&](int k) {
+    return Traced(recording, recording->timed(SourceId(description), k));
+  };
   motion_ = {order(0), order(1), order(2), order(3)};
 }
 
@@ -227,7 +246,8 @@ template <class T>
 void ShapedInput<T>::set(const BasisDescription& basis, const std::vector<T>& parameters) {
   basis_ = &basis;
   coefficients_.clear();
-  for (const Quantity& coefficient : basis.coefficients) coefficients_.push_back(coefficient.at(parameters));
+  for (const Quantity& coefficient : basis.coefficients)
+    coefficients_.push_back(coefficient.at(parameters));
 }
 
 template <class T>
@@ -242,7 +262,8 @@ ReferenceMotion<T> ShapedInput<T>::at(double t) const {
   return motion;
 }
 
-void ShapedInput<Traced>::set(const BasisDescription& basis, const std::vector<Traced>& parameters) {
+void ShapedInput<Traced>::set(const BasisDescription& basis,
+                              const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
   motion_.value = Traced(recording, recording->timed(SourceId(basis), 0));
   motion_.rate = Traced(recording, recording->timed(SourceId(basis), 1));
@@ -258,14 +279,17 @@ Course held(double value, double start) {
   return {piece};
 }
 
-Course trajectory_course(const std::vector<CoursePoint>& points, double now, const Knot<double>& from) {
+Course trajectory_course(const std::vector<CoursePoint>& points, double now,
+                         const Knot<double>& from) {
   Course course;
   CourseEnd before{now, from, true, true};
   for (const CoursePoint& point : points) {
     const CourseEnd next = end_at(point);
     const double duration = next.time - before.time;
     if (next.time > now && duration > 0.0)
-      course.push_back({true, before.time, waypoint_polynomial(degree(before, next), before.knot, next.knot, duration)});
+      course.push_back(
+          {true, before.time,
+           waypoint_polynomial(degree(before, next), before.knot, next.knot, duration)});
     before = next;
   }
   course.push_back(held(points.back().position, points.back().time).front());
@@ -274,7 +298,8 @@ Course trajectory_course(const std::vector<CoursePoint>& points, double now, con
 
 Course rate_of(Course course) {
   for (LiveFunction& piece : course) {
-    for (std::size_t k = 0; k + 1 < piece.c.size(); ++k) piece.c[k] = static_cast<double>(k + 1) * piece.c[k + 1];
+    for (std::size_t k = 0; k + 1 < piece.c.size(); ++k)
+      piece.c[k] = static_cast<double>(k + 1) * piece.c[k + 1];
     piece.c.back() = 0.0;
   }
   return course;

@@ -18,11 +18,14 @@ struct Knot {
   T position{0.0}, velocity{0.0}, acceleration{0.0};
 };
 
-/// Coefficients c_k of the polynomial sum c_k tau^k from one way-point to the next, `duration` [s] later; theory (C2).
+/// Coefficients c_k of the polynomial sum c_k tau^k from one way-point to the next, `duration` [s]
+/// later; theory (C2).
 template <class T>
-std::array<T, 6> waypoint_polynomial(Interpolation interpolation, const Knot<T>& from, const Knot<T>& to, double duration) {
+std::array<T, 6> waypoint_polynomial(Interpolation interpolation, const Knot<T>& from,
+                                     const Knot<T>& to, double duration) {
   const T h(duration), zero(0.0), rise = to.position - from.position;
-  if (interpolation == Interpolation::kLinear) return {from.position, rise / h, zero, zero, zero, zero};
+  if (interpolation == Interpolation::kLinear)
+    return {from.position, rise / h, zero, zero, zero, zero};
   if (interpolation == Interpolation::kCubic)
     return {from.position,
             from.velocity,
@@ -30,9 +33,11 @@ std::array<T, 6> waypoint_polynomial(Interpolation interpolation, const Knot<T>&
             (from.velocity + to.velocity - T(2.0) * rise / h) / (h * h),
             zero,
             zero};
-  // D, V, A of theory (C2): the errors of the Taylor polynomial of the start at the end, in position, velocity and acceleration.
+  // D, V, A of theory (C2): the errors of the Taylor polynomial of the start at the end, in
+  // position, velocity and acceleration.
   const T half = T(0.5) * from.acceleration;
-  const T D = rise - h * (from.velocity + h * half), V = h * (to.velocity - from.velocity - h * from.acceleration),
+  const T D = rise - h * (from.velocity + h * half),
+          V = h * (to.velocity - from.velocity - h * from.acceleration),
           A = T(0.5) * h * h * (to.acceleration - from.acceleration), h3 = h * h * h;
   return {from.position,
           from.velocity,
@@ -48,15 +53,17 @@ struct ReferenceMotion {
   T value{0.0}, rate{0.0}, acceleration{0.0}, jerk{0.0};
 };
 
-/// A prescribed function of time for one design; doc/theory.md (C1), (C2), or a commanded function, which is read at each call. T: double,
-/// std::complex<double>, Lanes<N>, Traced.
+/// A prescribed function of time for one design; doc/theory.md (C1), (C2), or a commanded function,
+/// which is read at each call. T: double, std::complex<double>, Lanes<N>, Traced.
 template <class T>
 class Reference {
  public:
   Reference() = default;
-  Reference(const ReferenceDescription& description, const std::vector<T>& parameters) { set(description, parameters); }
-  /// Becomes what the constructor makes. Uses its memory again, so that the same description at other parameters allocates nothing, unless
-  /// it is commanded.
+  Reference(const ReferenceDescription& description, const std::vector<T>& parameters) {
+    set(description, parameters);
+  }
+  /// Becomes what the constructor makes. Uses its memory again, so that the same description at
+  /// other parameters allocates nothing, unless it is commanded.
   void set(const ReferenceDescription& description, const std::vector<T>& parameters);
 
   /// The function at time t [s]. At a way-point the derivatives of the following piece hold.
@@ -78,19 +85,24 @@ class Reference {
 
   ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
-  std::shared_ptr<const SampledFunction> samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
+  std::shared_ptr<const SampledFunction>
+      samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
   std::shared_ptr<const LiveFunction> live_;
   std::shared_ptr<const Reference<T>> planned_;  ///< in effect until a command sets live_
   std::vector<Knot<T>> knots_;                   ///< workspace of set()
-  std::vector<Piece> pieces_;                    ///< by ascending start; the first begins at minus infinity, the last never ends
+  std::vector<Piece>
+      pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
 };
 
-/// For recorded equations: a constant, or inputs that are supplied for each instant (Recording::timed()).
+/// For recorded equations: a constant, or inputs that are supplied for each instant
+/// (Recording::timed()).
 template <>
 class Reference<Traced> {
  public:
   Reference() = default;
-  Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) { set(description, parameters); }
+  Reference(const ReferenceDescription& description, const std::vector<Traced>& parameters) {
+    set(description, parameters);
+  }
   void set(const ReferenceDescription& description, const std::vector<Traced>& parameters);
 
   ReferenceMotion<Traced> at(double) const { return motion_; }
@@ -105,7 +117,9 @@ class ShapedInput {
  public:
   ShapedInput() = default;
   /// @param basis must outlive the object.
-  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters) { set(basis, parameters); }
+  ShapedInput(const BasisDescription& basis, const std::vector<T>& parameters) {
+    set(basis, parameters);
+  }
   /// Becomes what the constructor makes; uses its memory again.
   void set(const BasisDescription& basis, const std::vector<T>& parameters);
 
@@ -124,7 +138,9 @@ template <>
 class ShapedInput<Traced> {
  public:
   ShapedInput() = default;
-  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) { set(basis, parameters); }
+  ShapedInput(const BasisDescription& basis, const std::vector<Traced>& parameters) {
+    set(basis, parameters);
+  }
   void set(const BasisDescription& basis, const std::vector<Traced>& parameters);
 
   ReferenceMotion<Traced> at(double) const { return motion_; }
@@ -139,17 +155,20 @@ struct CoursePoint {
   std::optional<double> velocity, acceleration;
 };
 
-/// The pieces of a commanded function of time, by ascending start: each is in effect until the next one begins, the last one has no end.
+/// The pieces of a commanded function of time, by ascending start: each is in effect until the next
+/// one begins, the last one has no end.
 using Course = std::vector<LiveFunction>;
 
 /// A course that holds a value from `start` [s] on.
 Course held(double value, double start);
 
-/// The course through points, theory (C2): of fifth degree between points with accelerations, cubic between points with velocities, else
-/// linear. After the last point its position holds.
-/// @param points by ascending time, at least one. @param now [s]: pieces that end before it are left out. @param from the motion in effect
-/// at `now`, from which the first piece begins if all points are later.
-Course trajectory_course(const std::vector<CoursePoint>& points, double now, const Knot<double>& from);
+/// The course through points, theory (C2): of fifth degree between points with accelerations, cubic
+/// between points with velocities, else linear. After the last point its position holds.
+/// @param points by ascending time, at least one. @param now [s]: pieces that end before it are
+/// left out. @param from the motion in effect at `now`, from which the first piece begins if all
+/// points are later.
+Course trajectory_course(const std::vector<CoursePoint>& points, double now,
+                         const Knot<double>& from);
 
 /// The rate of a course, as a course.
 Course rate_of(Course course);

@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// x within -bound to bound, as a program on a robot clamps it. Piecewise differentiable: at the bound itself the derivative has the value
-/// inside.
+/// x within -bound to bound, as a program on a robot clamps it. Piecewise differentiable: at the
+/// bound itself the derivative has the value inside.
 /// @param bound not negative, in the unit of x.
 template <class T>
 T clamp(const T& x, const T& bound) {
@@ -18,11 +18,13 @@ T clamp(const T& x, const T& bound) {
   return x;
 }
 
-/// Anti-windup of a continuous integral, theory (50): with y = |i| s / bound and d = bound / (100 s |i|),
+/// Anti-windup of a continuous integral, theory (50): with y = |i| s / bound and d = bound / (100 s
+/// |i|),
 ///   s' = e - y^8 (e + sgn(y) (e^2 + d^2)^(1/2)) / 2,
-/// which is e if s moves towards zero, and e (1 - y^8) if it moves towards the bound, except for errors as small as d. The integral term i
-/// s stays within -bound to bound and leaves the bound at once when e changes its sign. Smooth: a kink at e = 0 would be a jump in the
-/// sensitivities' rates.
+/// which is e if s moves towards zero, and e (1 - y^8) if it moves towards the bound, except for
+/// errors as small as d. The integral term i s stays within -bound to bound and leaves the bound at
+/// once when e changes its sign. Smooth: a kink at e = 0 would be a jump in the sensitivities'
+/// rates.
 /// @param bound positive [unit of the output].
 template <class T>
 T clamped_integral_rate(const T& e, const T& s, const T& i, const T& bound) {
@@ -55,10 +57,12 @@ struct SampledPidNumbers {
   bool antiwindup = false;
 };
 
-/// One sample of a PID, theory (51), in the order of control_toolbox's Pid::computeCommand(): updates the memory and returns the output
-/// before its limit. At the first sample the error has no rate.
+/// One sample of a PID, theory (51), in the order of control_toolbox's Pid::computeCommand():
+/// updates the memory and returns the output before its limit. At the first sample the error has no
+/// rate.
 template <class T>
-T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, bool is_first, SampledPidMemory<T>* memory) {
+T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, bool is_first,
+             SampledPidMemory<T>* memory) {
   const T period(numbers.sample_time);
   memory->integral += period * error;
   T integral_term = numbers.gains.i * memory->integral;

@@ -20,64 +20,85 @@ std::optional<int> find_named(const Items& items, const std::string& name) {
 
 const std::map<std::string, SignalKind>& joint_kinds() {
   static const std::map<std::string, SignalKind> kinds{
-      {"position", SignalKind::kJointPosition},         {"velocity", SignalKind::kJointVelocity},
-      {"acceleration", SignalKind::kJointAcceleration}, {"effort", SignalKind::kJointEffort},
-      {"effort_rate", SignalKind::kJointEffortRate},    {"friction", SignalKind::kJointFriction},
-      {"normal_force", SignalKind::kJointNormalForce},  {"sliding_velocity", SignalKind::kJointSlidingVelocity},
-      {"friction_power", SignalKind::kFrictionPower},   {"damping_power", SignalKind::kDampingPower},
-      {"actuator_power", SignalKind::kActuatorPower},   {"load_power", SignalKind::kLoadPower},
-      {"reaction_force", SignalKind::kReactionForce},   {"reaction_torque", SignalKind::kReactionTorque}};
+      {"position", SignalKind::kJointPosition},
+      {"velocity", SignalKind::kJointVelocity},
+      {"acceleration", SignalKind::kJointAcceleration},
+      {"effort", SignalKind::kJointEffort},
+      {"effort_rate", SignalKind::kJointEffortRate},
+      {"friction", SignalKind::kJointFriction},
+      {"normal_force", SignalKind::kJointNormalForce},
+      {"sliding_velocity", SignalKind::kJointSlidingVelocity},
+      {"friction_power", SignalKind::kFrictionPower},
+      {"damping_power", SignalKind::kDampingPower},
+      {"actuator_power", SignalKind::kActuatorPower},
+      {"load_power", SignalKind::kLoadPower},
+      {"reaction_force", SignalKind::kReactionForce},
+      {"reaction_torque", SignalKind::kReactionTorque}};
   return kinds;
 }
 
-int axis_of(const std::string& component) { return component == "x" ? 0 : component == "y" ? 1 : 2; }
+int axis_of(const std::string& component) {
+  return component == "x" ? 0 : component == "y" ? 1 : 2;
+}
 
 const std::map<std::string, SignalKind>& mechanism_kinds() {
   static const std::map<std::string, SignalKind> kinds{
-      {"kinetic_energy", SignalKind::kKineticEnergy}, {"potential_energy", SignalKind::kPotentialEnergy},
-      {"total_energy", SignalKind::kTotalEnergy},     {"friction_power", SignalKind::kFrictionPower},
-      {"damping_power", SignalKind::kDampingPower},   {"actuator_power", SignalKind::kActuatorPower},
+      {"kinetic_energy", SignalKind::kKineticEnergy},
+      {"potential_energy", SignalKind::kPotentialEnergy},
+      {"total_energy", SignalKind::kTotalEnergy},
+      {"friction_power", SignalKind::kFrictionPower},
+      {"damping_power", SignalKind::kDampingPower},
+      {"actuator_power", SignalKind::kActuatorPower},
       {"load_power", SignalKind::kLoadPower}};
   return kinds;
 }
 
-/// Throws InputError: the child of the joint has no mass and transmits the reaction to the next joint, where it can be read.
-[[noreturn]] void refuse_reaction(const SignalTerm& term, const Pair& pair, const SignalDescription& signal, const RobotDescription& robot,
+/// Throws InputError: the child of the joint has no mass and transmits the reaction to the next
+/// joint, where it can be read.
+[[noreturn]] void refuse_reaction(const SignalTerm& term, const Pair& pair,
+                                  const SignalDescription& signal, const RobotDescription& robot,
                                   const Topology& topology) {
   std::string allowed;
   for (const ChainElement& element : pair.chain) {
     const JointDescription& other = robot.joints[to_index(element.joint)];
     if (topology.link_body[to_index(other.child)] == Topology::kMassless) continue;
-    allowed = other.name + "/" + term.quantity + "/" + term.component + ", in the frame of that joint";
+    allowed =
+        other.name + "/" + term.quantity + "/" + term.component + ", in the frame of that joint";
   }
   throw InputError({signal.where, "signal",
-                    "the joint's child has no <inertial>: the joint is folded with the next one, where the reaction can be read",
+                    "the joint's child has no <inertial>: the joint is folded with the next one, "
+                    "where the reaction can be read",
                     signal.text, allowed});
 }
 
-SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal, const RobotDescription& robot,
-                              const Topology& topology) {
+SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal,
+                              const RobotDescription& robot, const Topology& topology) {
   SignalReference reference;
   reference.kind = joint_kinds().at(term.quantity);
   reference.pair = topology.joint_pair[to_index(joint)];
   if (reference.pair < 0)
     throw InputError(
-        {signal.where, "signal", "the joint moves only a link without <inertial>, so it has no dynamics to read", signal.text, ""});
+        {signal.where, "signal",
+         "the joint moves only a link without <inertial>, so it has no dynamics to read",
+         signal.text, ""});
   const Pair& pair = topology.pairs[to_index(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
   if (is_reaction(term)) {
     reference.axis = axis_of(term.component);
     const int child = robot.joints[to_index(joint)].child;
-    if (topology.link_body[to_index(child)] == Topology::kMassless) refuse_reaction(term, pair, signal, robot, topology);
+    if (topology.link_body[to_index(child)] == Topology::kMassless)
+      refuse_reaction(term, pair, signal, robot, topology);
   }
   if (pair.friction_joint != joint || !slips_isotropically(pair.kind)) return reference;
   if (reference.kind == SignalKind::kJointFriction) reference.kind = SignalKind::kContactFriction;
-  if (reference.kind == SignalKind::kJointSlidingVelocity) reference.kind = SignalKind::kContactSpeed;
+  if (reference.kind == SignalKind::kJointSlidingVelocity)
+    reference.kind = SignalKind::kContactSpeed;
   return reference;
 }
 
-SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescription& signal, const Topology& topology) {
+SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescription& signal,
+                             const Topology& topology) {
   SignalReference reference;
   reference.link = link;
   reference.axis = axis_of(term.component);
@@ -85,10 +106,12 @@ SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescr
                    : term.quantity == "velocity"    ? SignalKind::kLinkVelocity
                    : term.quantity == "orientation" ? SignalKind::kLinkOrientation
                                                     : SignalKind::kLinkAngularVelocity;
-  if (reference.kind == SignalKind::kLinkOrientation) reference.axis = term.component == "w" ? 0 : 1 + axis_of(term.component);
+  if (reference.kind == SignalKind::kLinkOrientation)
+    reference.axis = term.component == "w" ? 0 : 1 + axis_of(term.component);
   if (topology.link_body[to_index(link)] == Topology::kMassless)
-    throw InputError(
-        {signal.where, "signal", "the link has no <inertial>, so it is folded into a joint and cannot be read", signal.text, ""});
+    throw InputError({signal.where, "signal",
+                      "the link has no <inertial>, so it is folded into a joint and cannot be read",
+                      signal.text, ""});
   return reference;
 }
 
@@ -126,7 +149,8 @@ std::optional<SignalKind> derivative_kind(SignalKind kind) {
 
 }  // namespace
 
-Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot, const Topology& topology,
+Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot,
+                      const Topology& topology,
                       const std::vector<ControllerDescription>& controllers) {
   check_signal(signal, robot, controllers, "signal");
   Signal resolved;
@@ -136,10 +160,12 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
       reference.kind = mechanism_kinds().at(term.quantity);
     } else if (const auto controller = find_named(controllers, term.object)) {
       reference = resolve_controller(term, *controller);
-    } else if (const auto joint = find_named(robot.joints, term.object); joint && (term.component.empty() || is_reaction(term))) {
+    } else if (const auto joint = find_named(robot.joints, term.object);
+               joint && (term.component.empty() || is_reaction(term))) {
       reference = resolve_joint(term, *joint, signal, robot, topology);
     } else {
-      reference = resolve_link(term, find_named(robot.links, term.object).value(), signal, topology);
+      reference =
+          resolve_link(term, find_named(robot.links, term.object).value(), signal, topology);
     }
     reference.factor = term.factor;
     resolved.push_back(reference);
@@ -157,11 +183,12 @@ std::optional<Signal> differentiate(const Signal& resolved) {
   return derivative;
 }
 
-Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element) {
+Signal differentiate(const Signal& resolved, const SignalDescription& signal,
+                     const std::string& element) {
   std::optional<Signal> derivative = differentiate(resolved);
   if (!derivative)
-    throw InputError({signal.where, element, "the time derivative of this signal is not available", signal.text,
-                      "sums of joint or link positions and velocities"});
+    throw InputError({signal.where, element, "the time derivative of this signal is not available",
+                      signal.text, "sums of joint or link positions and velocities"});
   return std::move(*derivative);
 }
 

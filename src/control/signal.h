@@ -31,8 +31,10 @@ enum class SignalKind {
   kLinkVelocity,
   kLinkAcceleration,
   kLinkAngularVelocity,
-  kLinkOrientation,  ///< component w, x, y or z of the quaternion in the root link's frame; axis 0 is w
-  kReactionForce,    ///< on the child of a joint, in the axes of the joint frame that the child carries; theory (11a)
+  kLinkOrientation,  ///< component w, x, y or z of the quaternion in the root link's frame; axis 0
+                     ///< is w
+  kReactionForce,    ///< on the child of a joint, in the axes of the joint frame that the child
+                     ///< carries; theory (11a)
   kReactionTorque,   ///< likewise, about the origin of that frame
   kKineticEnergy,    ///< of the whole mechanism; theory (14b)
   kPotentialEnergy,
@@ -55,22 +57,26 @@ struct SignalReference {
   SignalKind kind = SignalKind::kJointPosition;
   int pair = -1, element = -1;  ///< of a joint: index in Topology::pairs and in the pair's chain
   int link = -1;                ///< index of a link
-  int axis = 0;                 ///< component of a vector (x, y, z) or a quaternion (w, x, y, z), from 0
-  int controller = -1;          ///< index of a controller
+  int axis = 0;         ///< component of a vector (x, y, z) or a quaternion (w, x, y, z), from 0
+  int controller = -1;  ///< index of a controller
 };
 
 /// A sum of resolved terms.
 using Signal = std::vector<SignalReference>;
 
-/// Resolves the names of a signal. @throws InputError for unknown names and for quantities that cannot be read.
-Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot, const Topology& topology,
+/// Resolves the names of a signal. @throws InputError for unknown names and for quantities that
+/// cannot be read.
+Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot,
+                      const Topology& topology,
                       const std::vector<ControllerDescription>& controllers);
 
-/// The time derivative of a resolved signal; std::nullopt if the derivative of a term is not available.
+/// The time derivative of a resolved signal; std::nullopt if the derivative of a term is not
+/// available.
 std::optional<Signal> differentiate(const Signal& resolved);
 
 /// As above, with an error. @param signal, element for messages.
 /// @throws InputError for a quantity whose derivative is not available.
-Signal differentiate(const Signal& resolved, const SignalDescription& signal, const std::string& element);
+Signal differentiate(const Signal& resolved, const SignalDescription& signal,
+                     const std::string& element);
 
 }  // namespace codesign

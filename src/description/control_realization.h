@@ -7,16 +7,21 @@
 
 namespace codesign {
 
-/// How a robot runs a controller, theory (50)-(54): bounds, sampling and the lag of the drive. Absent numbers have no effect.
+/// How a robot runs a controller, theory (50)-(54): bounds, sampling and the lag of the drive.
+/// Absent numbers have no effect.
 struct ControlRealization {
-  std::optional<Quantity> i_clamp;            ///< kPid: largest magnitude of the integral term [unit of the output]
-  bool antiwindup = false;                    ///< kPid: the integral itself stays within i_clamp, not its term alone
-  std::optional<Quantity> derivative_filter;  ///< kPid: time constant of the low-pass filter on the error's rate [s]
-  std::optional<Quantity> output_limit;       ///< largest magnitude of the output [unit of the output]
-  std::optional<Quantity> time_constant;      ///< of the drive, from the output to the effort [s]
-  double sample_time = 0.0;                   ///< [s]; 0: the controller is continuous
-  double delay = 0.0;                         ///< from a sample to the output that follows from it [s]; sampled controllers only
-  double quantization = 0.0;                  ///< resolution of the measured input, in its unit; 0: none; sampled kPid only
+  std::optional<Quantity>
+      i_clamp;              ///< kPid: largest magnitude of the integral term [unit of the output]
+  bool antiwindup = false;  ///< kPid: the integral itself stays within i_clamp, not its term alone
+  std::optional<Quantity>
+      derivative_filter;  ///< kPid: time constant of the low-pass filter on the error's rate [s]
+  std::optional<Quantity> output_limit;   ///< largest magnitude of the output [unit of the output]
+  std::optional<Quantity> time_constant;  ///< of the drive, from the output to the effort [s]
+  double sample_time = 0.0;               ///< [s]; 0: the controller is continuous
+  double delay =
+      0.0;  ///< from a sample to the output that follows from it [s]; sampled controllers only
+  double quantization =
+      0.0;  ///< resolution of the measured input, in its unit; 0: none; sampled kPid only
 
   bool is_sampled() const { return sample_time > 0.0; }
   /// Number of outputs that wait at most: computed, but not yet in effect.

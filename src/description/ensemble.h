@@ -14,12 +14,13 @@
 
 namespace codesign {
 
-// The blocks of a study about several runs of one design, about parameters that are not known exactly, and about several starts of the
-// search; doc/study.md describes the blocks.
+// The blocks of a study about several runs of one design, about parameters that are not known
+// exactly, and about several starts of the search; doc/study.md describes the blocks.
 
 struct Study;
 
-/// Points in the open unit cube (0, 1)^d: pseudo-random, a Latin hypercube, or a scrambled Sobol sequence.
+/// Points in the open unit cube (0, 1)^d: pseudo-random, a Latin hypercube, or a scrambled Sobol
+/// sequence.
 enum class SamplerKind { kSobol, kLatinHypercube, kRandom };
 constexpr std::array<const char*, 3> kSamplerNames{"sobol", "latin_hypercube", "random"};
 
@@ -33,26 +34,33 @@ enum class DistributionKind {
 /// The distribution of one number.
 struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
-  double mean = 0.0, deviation = 0.0;                       ///< kNormal; a deviation of zero: the mean, within the bounds
+  double mean = 0.0,
+         deviation = 0.0;  ///< kNormal; a deviation of zero: the mean, within the bounds
   double lower = -std::numeric_limits<double>::infinity();  ///< kUniform; truncation of kNormal
   double upper = std::numeric_limits<double>::infinity();   ///< likewise
-  std::vector<double> choices;                              ///< kChoice; for friction laws, the indices of `laws` of UncertainQuantity
+  std::vector<double>
+      choices;  ///< kChoice; for friction laws, the indices of `laws` of UncertainQuantity
 };
 
-/// How the mean of a normal distribution moves with another number, x_j: by slope (x_j - mean of x_j).
+/// How the mean of a normal distribution moves with another number, x_j: by slope (x_j - mean of
+/// x_j).
 struct MeanSlope {
-  std::size_t quantity = 0;  ///< j, an earlier entry of the list of uncertain quantities, with a normal distribution
+  std::size_t quantity =
+      0;  ///< j, an earlier entry of the list of uncertain quantities, with a normal distribution
   double slope = 0.0;
 };
 
-/// One entry of `uncertain:`: a parameter of the model or the study that is not tuned, or the friction law of all joints.
+/// One entry of `uncertain:`: a parameter of the model or the study that is not tuned, or the
+/// friction law of all joints.
 struct UncertainQuantity {
   std::string name;    ///< of the parameter; "friction_law" for the law
   int parameter = -1;  ///< index in Study::parameters; -1: the friction law
   Distribution distribution;
-  std::vector<std::string> laws;  ///< names of the friction laws to choose from; empty for a parameter
+  std::vector<std::string>
+      laws;  ///< names of the friction laws to choose from; empty for a parameter
   SourceLocation where;
-  /// For a number that depends on others: `distribution` is its distribution given these others; doc/theory.md (24h).
+  /// For a number that depends on others: `distribution` is its distribution given these others;
+  /// doc/theory.md (24h).
   std::vector<MeanSlope> slopes{};
   bool is_identified = false;  ///< from a file that an identification wrote
   double spread = 0.0;         ///< for an identified number: its marginal standard deviation
@@ -65,12 +73,14 @@ enum class RobustMeasure {
   kCvar,              ///< mean of the worst fraction 1 - level (conditional value at risk)
   kMeanPlusDeviation  ///< mean + factor * standard deviation
 };
-constexpr std::array<const char*, 4> kRobustMeasureNames{"mean", "worst", "cvar", "mean_plus_deviation"};
+constexpr std::array<const char*, 4> kRobustMeasureNames{"mean", "worst", "cvar",
+                                                         "mean_plus_deviation"};
 
 /// The treatment of a sample that cannot be integrated.
 enum class FailedSamples {
   kRefuse,  ///< the trial point is refused
-  kTail     ///< the sample counts as the worst of the others, with its weight; at most the fraction 1 - level may fail
+  kTail  ///< the sample counts as the worst of the others, with its weight; at most the fraction 1
+         ///< - level may fail
 };
 constexpr std::array<const char*, 2> kFailedSamplesNames{"refuse", "tail"};
 
@@ -92,7 +102,8 @@ struct RunDescription {
   std::string name;
   double weight = 1.0;                              ///< positive; relative to the other runs
   std::vector<std::pair<std::string, double>> set;  ///< values of parameters that are not tuned
-  std::shared_ptr<const Study> study;               ///< the study with the run's changes; null if it changes only `set`
+  std::shared_ptr<const Study>
+      study;  ///< the study with the run's changes; null if it changes only `set`
   SourceLocation where;
 };
 
@@ -101,7 +112,7 @@ struct MultistartOptions {
   int starts = 0;  ///< local searches; 0: no multistart
   SamplerKind sampler = SamplerKind::kSobol;
   std::uint32_t seed = 1;
-  int screen = 0;         ///< points whose objective is evaluated to choose the starts; at least `starts`
+  int screen = 0;  ///< points whose objective is evaluated to choose the starts; at least `starts`
   double cluster = 1e-4;  ///< results nearer than this in scaled parameters count as one optimum
   SourceLocation where;
 };
@@ -116,7 +127,8 @@ constexpr std::array<const char*, 3> kEngineNames{"serial", "threads", "mpi"};
 struct EngineOptions {
   EngineKind kind = EngineKind::kThreads;
   int workers = 0;         ///< of kThreads; 0: one per processor
-  SourceLocation where{};  ///< place of `engine:` in the study; an empty file if the study has none: under mpirun the engine is then kMpi
+  SourceLocation where{};  ///< place of `engine:` in the study; an empty file if the study has
+                           ///< none: under mpirun the engine is then kMpi
 };
 
 /// Everything of a study that is about more than one run.

@@ -12,7 +12,8 @@
 
 namespace codesign {
 
-// The block `excite:` of a study: the motion that an identification is to be recorded from; doc/study.md describes the keys.
+// The block `excite:` of a study: the motion that an identification is to be recorded from;
+// doc/study.md describes the keys.
 
 /// The kind of shapes of a trajectory; doc/theory.md (45).
 enum class TrajectoryKind {
@@ -42,7 +43,8 @@ struct ExcitedJoint {
 
 /// The whole block.
 struct ExcitationDescription {
-  std::vector<ExcitedJoint> joints;               ///< as many as there are degrees of freedom, independent of each other
+  std::vector<ExcitedJoint>
+      joints;  ///< as many as there are degrees of freedom, independent of each other
   std::vector<MotionLimitDescription> followers;  ///< limits of other joints
   TrajectoryKind trajectory = TrajectoryKind::kFourier;
   double period = 10.0;        ///< [s]
@@ -57,13 +59,15 @@ struct ExcitationDescription {
   SourceLocation where;
 };
 
-/// Where the robot keeps the gains of one controller of the study: an entry of `hardware:`. doc/study.md describes it and the parameters
-/// that control_toolbox::Pid reads there.
+/// Where the robot keeps the gains of one controller of the study: an entry of `hardware:`.
+/// doc/study.md describes it and the parameters that control_toolbox::Pid reads there.
 struct HardwareGains {
   std::string controller;           ///< a `pid` or `pd_gravity` of the study
-  std::string name_space;           ///< of ROS parameters, without a slash at either end: "arm_controller/gains/elbow"
-  std::optional<Quantity> i_clamp;  ///< largest effort of the integral term [N m or N]; present if the controller has an `i` gain
-  bool antiwindup = false;          ///< whether the integral of the error itself stays within i_clamp / i
+  std::string name_space;           ///< of ROS parameters, without a slash at either end:
+                                    ///< "arm_controller/gains/elbow"
+  std::optional<Quantity> i_clamp;  ///< largest effort of the integral term [N m or N]; present if
+                                    ///< the controller has an `i` gain
+  bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i
   SourceLocation where;
 };
 

@@ -20,9 +20,12 @@ Complex extreme(In<Complex> z, double sign) {
   return best;
 }
 
-/// value + i slope Im z: a function with this value and slope, applied to a complex step, to first order. Unlike the analytic continuation
-/// this gives an infinite derivative at an end of the domain where the slope is infinite.
-Complex first_order(const Complex& z, double value, double slope) { return {value, z.imag() == 0.0 ? 0.0 : slope * z.imag()}; }
+/// value + i slope Im z: a function with this value and slope, applied to a complex step, to first
+/// order. Unlike the analytic continuation this gives an infinite derivative at an end of the
+/// domain where the slope is infinite.
+Complex first_order(const Complex& z, double value, double slope) {
+  return {value, z.imag() == 0.0 ? 0.0 : slope * z.imag()};
+}
 
 Complex square_root(In<Complex> z) {
   const double x = z[0].real(), root = std::sqrt(x);
@@ -31,17 +34,20 @@ Complex square_root(In<Complex> z) {
 
 Complex arc_sine(In<Complex> z) {
   const double x = z[0].real();
-  return std::abs(x) <= 1.0 ? first_order(z[0], std::asin(x), 1.0 / std::sqrt(1.0 - x * x)) : std::asin(z[0]);
+  return std::abs(x) <= 1.0 ? first_order(z[0], std::asin(x), 1.0 / std::sqrt(1.0 - x * x))
+                            : std::asin(z[0]);
 }
 
 Complex arc_cosine(In<Complex> z) {
   const double x = z[0].real();
-  return std::abs(x) <= 1.0 ? first_order(z[0], std::acos(x), -1.0 / std::sqrt(1.0 - x * x)) : std::acos(z[0]);
+  return std::abs(x) <= 1.0 ? first_order(z[0], std::acos(x), -1.0 / std::sqrt(1.0 - x * x))
+                            : std::acos(z[0]);
 }
 
 Complex arc_tangent2(In<Complex> z) {
   const double y = z[0].real(), x = z[1].real();
-  if (z[0].imag() == 0.0 && z[1].imag() == 0.0) return std::atan2(y, x);  // defined at the origin too, where the derivative is not
+  if (z[0].imag() == 0.0 && z[1].imag() == 0.0)
+    return std::atan2(y, x);  // defined at the origin too, where the derivative is not
   return {std::atan2(y, x), (x * z[0].imag() - y * z[1].imag()) / (x * x + y * y)};
 }
 
@@ -58,7 +64,8 @@ Complex combine(Code code, const Complex& a, const Complex& b) {
     case Code::kSubtract:
       return a - b;
     case Code::kMultiply:
-      return a.imag() == 0.0 && b.imag() == 0.0 ? Complex(a.real() * b.real()) : a * b;  // complex products lose the sign of zero
+      return a.imag() == 0.0 && b.imag() == 0.0 ? Complex(a.real() * b.real())
+                                                : a * b;  // complex products lose the sign of zero
     case Code::kDivide:
       return expression_quotient(a, b);
     case Code::kPower:
@@ -103,11 +110,14 @@ UsedNumbers<Complex> complex_numbers(In<double> values) {
   return numbers;
 }
 
-double real_part(const Complex& value) { return value.imag() == 0.0 ? value.real() : std::numeric_limits<double>::quiet_NaN(); }
+double real_part(const Complex& value) {
+  return value.imag() == 0.0 ? value.real() : std::numeric_limits<double>::quiet_NaN();
+}
 
 using Code = ExpressionStep::Code;
 
-/// The range of four products or quotients of ends; all numbers if one is undefined, such as 0 * infinity.
+/// The range of four products or quotients of ends; all numbers if one is undefined, such as 0 *
+/// infinity.
 ValueRange hull(std::initializer_list<double> ends) {
   if (std::any_of(ends.begin(), ends.end(), [](double end) { return std::isnan(end); })) return {};
   return {std::min(ends), std::max(ends)};
@@ -133,8 +143,11 @@ std::complex<double> expression_power(In<std::complex<double>> z) {
   const Complex base = z[0], exponent = z[1];
   const double n = exponent.real();
   if (exponent.imag() == 0.0 && base.imag() == 0.0) return std::pow(base.real(), n);
-  // n x^(n-1) keeps the derivative of an integer power exact at zero and for negative bases, where exp(n log x) is not.
-  if (exponent.imag() == 0.0) return {std::pow(base.real(), n), n == 0.0 ? 0.0 : n * std::pow(base.real(), n - 1.0) * base.imag()};
+  // n x^(n-1) keeps the derivative of an integer power exact at zero and for negative bases, where
+  // exp(n log x) is not.
+  if (exponent.imag() == 0.0)
+    return {std::pow(base.real(), n),
+            n == 0.0 ? 0.0 : n * std::pow(base.real(), n - 1.0) * base.imag()};
   return std::pow(base, exponent);
 }
 
@@ -178,7 +191,8 @@ int find_expression_function(const std::string& name) {
   return -1;
 }
 
-// The two branches of `?:` are counted as if both were executed, which gives one number more than is needed.
+// The two branches of `?:` are counted as if both were executed, which gives one number more than
+// is needed.
 int stack_size(const ExpressionSteps& steps) {
   int size = 0, largest = 0;
   for (const ExpressionStep& step : steps) {
@@ -188,7 +202,8 @@ int stack_size(const ExpressionSteps& steps) {
   return largest;
 }
 
-std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables, Out<std::complex<double>> stack) {
+std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables,
+                         Out<std::complex<double>> stack) {
   Complex* top = stack.data();  // past the topmost number
   for (std::size_t at = 0; at < steps.size(); ++at) {
     const ExpressionStep& step = steps[at];
@@ -204,7 +219,8 @@ std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> 
         break;
       case Code::kCall: {
         top -= step.count;
-        const Complex value = expression_function_table()[to_index(step.index)].law({top, step.count});
+        const Complex value =
+            expression_function_table()[to_index(step.index)].law({top, step.count});
         *top++ = value;
         break;
       }
@@ -234,8 +250,11 @@ struct Expression::Program {
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& names)
     : Expression(text, ExpressionScope{[&names](const std::string& name) {
-                                         const auto found = std::find(names.begin(), names.end(), name);
-                                         return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+                                         const auto found =
+                                             std::find(names.begin(), names.end(), name);
+                                         return found == names.end()
+                                                    ? -1
+                                                    : static_cast<int>(found - names.begin());
                                        },
                                        [&names] { return names; }}) {}
 
@@ -249,20 +268,25 @@ Expression::Expression(const std::string& text, const ExpressionScope& scope) : 
 Expression::~Expression() = default;
 
 double Expression::value(const std::vector<double>& parameters) const {
-  return real_part(program_->evaluate(used<Complex>(parameters, [](double parameter) { return parameter; })));
+  return real_part(
+      program_->evaluate(used<Complex>(parameters, [](double parameter) { return parameter; })));
 }
 
 std::complex<double> Expression::value(const std::vector<std::complex<double>>& parameters) const {
-  return program_->evaluate(used<Complex>(parameters, [](const Complex& parameter) { return parameter; }));
+  return program_->evaluate(
+      used<Complex>(parameters, [](const Complex& parameter) { return parameter; }));
 }
 
 double Expression::derivative(int index, const std::vector<double>& parameters) const {
   const auto found = std::lower_bound(dependencies_.begin(), dependencies_.end(), index);
   if (found == dependencies_.end() || *found != index) return 0.0;
-  return derivative_of(to_index(found - dependencies_.begin()), used<double>(parameters, [](double parameter) { return parameter; }));
+  return derivative_of(to_index(found - dependencies_.begin()),
+                       used<double>(parameters, [](double parameter) { return parameter; }));
 }
 
-double Expression::value_of(In<double> values) const { return real_part(program_->evaluate(complex_numbers(values))); }
+double Expression::value_of(In<double> values) const {
+  return real_part(program_->evaluate(complex_numbers(values)));
+}
 
 ValueRange Expression::range(const std::vector<ValueRange>& parameters) const {
   std::vector<ValueRange> values;

@@ -12,8 +12,8 @@
 
 namespace codesign {
 
-/// A function that expressions may call. All functions propagate a complex step exactly to first order; those that are not analytic (abs,
-/// min, max, floor, ...) branch by the real part.
+/// A function that expressions may call. All functions propagate a complex step exactly to first
+/// order; those that are not analytic (abs, min, max, floor, ...) branch by the real part.
 struct ExpressionFunction {
   using Law = std::complex<double> (*)(In<std::complex<double>> arguments);
   const char* name;
@@ -33,7 +33,8 @@ std::complex<double> expression_power(In<std::complex<double>> z);
 /// a / b. Real numbers are divided as doubles, infinities and NaN included.
 std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);
 
-/// One operation of a stack machine on numbers. Operators replace their operands on the stack by the result; comparisons give 1 or 0.
+/// One operation of a stack machine on numbers. Operators replace their operands on the stack by
+/// the result; comparisons give 1 or 0.
 struct ExpressionStep {
   enum class Code : unsigned char {
     kConstant,  ///< pushes `number`
@@ -65,20 +66,25 @@ using ExpressionSteps = std::vector<ExpressionStep>;
 /// An upper bound of the numbers on the stack at any time.
 int stack_size(const ExpressionSteps& steps);
 
-/// Executes the steps and returns the result. @param variables their values, by index. @param stack memory for stack_size() numbers.
-std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables, Out<std::complex<double>> stack);
+/// Executes the steps and returns the result. @param variables their values, by index. @param stack
+/// memory for stack_size() numbers.
+std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables,
+                         Out<std::complex<double>> stack);
 
 /// Numbers from `lower` to `upper`, both included; by default all.
 struct ValueRange {
-  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  double lower = -std::numeric_limits<double>::infinity(),
+         upper = std::numeric_limits<double>::infinity();
 };
 
-/// A range that contains every value of an expression whose variables lie in given ranges, by interval arithmetic (Moore 1966) on sums,
-/// differences, products and quotients. With any other operation the range is all numbers. Rounding is not taken into account.
+/// A range that contains every value of an expression whose variables lie in given ranges, by
+/// interval arithmetic (Moore 1966) on sums, differences, products and quotients. With any other
+/// operation the range is all numbers. Rounding is not taken into account.
 /// @param variables by index.
 ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
 
-/// The parameters that an expression may use, as functions, so that no expression needs a copy of all names.
+/// The parameters that an expression may use, as functions, so that no expression needs a copy of
+/// all names.
 struct ExpressionScope {
   std::function<int(const std::string&)> find;      ///< index of a parameter, -1 if there is none
   std::function<std::vector<std::string>()> names;  ///< all names, for messages
@@ -90,15 +96,17 @@ using UsedNumbers = ShortVector<T, 32>;
 
 /// An arithmetic expression of named parameters, in xacro's syntax inside `${...}`.
 ///
-/// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual functions (sqrt, sin, cos, tan, asin,
-/// acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow, abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to
-/// evaluate from several threads. Evaluation allocates nothing unless an expression uses more than 32 parameters or nests deeper than 32
-/// numbers.
+/// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual
+/// functions (sqrt, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow,
+/// abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to evaluate from several
+/// threads. Evaluation allocates nothing unless an expression uses more than 32 parameters or nests
+/// deeper than 32 numbers.
 class Expression {
  public:
   /// @param text the expression without the `${` `}`.
   /// @param names the parameters that may appear; their order is the order of the vectors below.
-  /// @throws std::invalid_argument with a sentence that names the position, or the unknown name and the nearest known one.
+  /// @throws std::invalid_argument with a sentence that names the position, or the unknown name and
+  /// the nearest known one.
   Expression(const std::string& text, const std::vector<std::string>& names);
   Expression(const std::string& text, const ExpressionScope& scope);
   ~Expression();
@@ -110,29 +118,34 @@ class Expression {
   /// Indices of the parameters that appear in the expression, ascending.
   const std::vector<int>& dependencies() const { return dependencies_; }
 
-  /// Value at `parameters`, which may hold more entries than the names given at construction (the surplus is ignored).
-  /// NaN where the expression has no real value (square root or logarithm of a negative number, 0/0).
+  /// Value at `parameters`, which may hold more entries than the names given at construction (the
+  /// surplus is ignored). NaN where the expression has no real value (square root or logarithm of a
+  /// negative number, 0/0).
   double value(const std::vector<double>& parameters) const;
   std::complex<double> value(const std::vector<std::complex<double>>& parameters) const;
 
   /// Partial derivative with respect to parameter `index`, by a complex step (exact to rounding).
   double derivative(int index, const std::vector<double>& parameters) const;
 
-  /// Value, and derivative by parameter dependencies()[k], from only the parameters that appear: `values[k]` is the value of parameter
-  /// dependencies()[k]. The cost does not grow with the number of parameters that the expression does not use.
+  /// Value, and derivative by parameter dependencies()[k], from only the parameters that appear:
+  /// `values[k]` is the value of parameter dependencies()[k]. The cost does not grow with the
+  /// number of parameters that the expression does not use.
   double value_of(In<double> values) const;
   double derivative_of(std::size_t k, In<double> values) const;
 
-  /// The numbers of the parameters that appear, in the order of dependencies(). @param number (Entry) -> T, the number of a parameter.
+  /// The numbers of the parameters that appear, in the order of dependencies(). @param number
+  /// (Entry) -> T, the number of a parameter.
   /// @throws std::out_of_range if there are fewer parameters than names.
   template <class T, class Entry, class Number>
   UsedNumbers<T> used(const std::vector<Entry>& parameters, const Number& number) const {
     UsedNumbers<T> values(dependencies_.size());
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = number(parameters.at(to_index(dependencies_[k])));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = number(parameters.at(to_index(dependencies_[k])));
     return values;
   }
 
-  /// A range that contains the value wherever all parameters lie in theirs. @param parameters in the order of the names.
+  /// A range that contains the value wherever all parameters lie in theirs. @param parameters in
+  /// the order of the names.
   ValueRange range(const std::vector<ValueRange>& parameters) const;
 
  private:
@@ -143,7 +156,8 @@ class Expression {
   std::unique_ptr<const Program> program_;
 };
 
-/// Why `name` cannot be the name of a parameter (not an identifier, `pi`, or a function's name), as a sentence; empty if it can.
+/// Why `name` cannot be the name of a parameter (not an identifier, `pi`, or a function's name), as
+/// a sentence; empty if it can.
 std::string identifier_fault(const std::string& name);
 
 }  // namespace codesign

@@ -23,7 +23,8 @@ constexpr int kDeepest = 200;  // recursive calls of the parser; bounds its use 
 
 std::vector<std::string> function_names() {
   std::vector<std::string> names;
-  for (const ExpressionFunction& function : expression_function_table()) names.emplace_back(function.name);
+  for (const ExpressionFunction& function : expression_function_table())
+    names.emplace_back(function.name);
   return names;
 }
 
@@ -46,7 +47,8 @@ class Parser {
    public:
     explicit Level(Parser* parser) : parser_(parser) {
       if (++parser_->depth_ > kDeepest)
-        parser_->scanner_.fail("brackets, powers or conditions nested too deeply", parser_->scanner_.token().at);
+        parser_->scanner_.fail("brackets, powers or conditions nested too deeply",
+                               parser_->scanner_.token().at);
     }
     ~Level() { --parser_->depth_; }
     Level(const Level&) = delete;
@@ -61,7 +63,8 @@ class Parser {
     const std::size_t begin = scanner_.token().at;
     const Type type = comparison();
     if (!scanner_.is("?")) return type;
-    if (type != Type::kTruth) scanner_.fail("a number stands before '?' where a comparison is needed", begin);
+    if (type != Type::kTruth)
+      scanner_.fail("a number stands before '?' where a comparison is needed", begin);
     scanner_.next();
     const std::size_t to_second = add({Code::kJumpUnless, 0, 0, 0.0});
     number(&Parser::conditional);
@@ -74,9 +77,10 @@ class Parser {
   }
 
   Type comparison() {
-    static const std::map<std::string, Code> kCodes = {{"<", Code::kLess},    {"<=", Code::kLessOrEqual},
-                                                       {">", Code::kGreater}, {">=", Code::kGreaterOrEqual},
-                                                       {"==", Code::kEqual},  {"!=", Code::kNotEqual}};
+    static const std::map<std::string, Code> kCodes = {
+        {"<", Code::kLess},    {"<=", Code::kLessOrEqual},
+        {">", Code::kGreater}, {">=", Code::kGreaterOrEqual},
+        {"==", Code::kEqual},  {"!=", Code::kNotEqual}};
     const std::size_t begin = scanner_.token().at;
     const Type type = sum();
     const auto found = kCodes.find(scanner_.token().text);
@@ -84,7 +88,8 @@ class Parser {
     need_number(type, begin);
     scanner_.next();
     number(&Parser::sum);
-    if (kCodes.count(scanner_.token().text) > 0) scanner_.fail("a comparison stands where a number is needed", scanner_.token().at);
+    if (kCodes.count(scanner_.token().text) > 0)
+      scanner_.fail("a comparison stands where a number is needed", scanner_.token().at);
     add({found->second, 0, 0, 0.0});
     return Type::kTruth;
   }
@@ -93,7 +98,8 @@ class Parser {
   Type product() { return chain("*", Code::kMultiply, "/", Code::kDivide, &Parser::signs); }
 
   /// `part {symbol part}`, left associative.
-  Type chain(const char* first, Code first_code, const char* second, Code second_code, Type (Parser::*part)()) {
+  Type chain(const char* first, Code first_code, const char* second, Code second_code,
+             Type (Parser::*part)()) {
     const std::size_t begin = scanner_.token().at;
     const Type type = (this->*part)();
     while (scanner_.is(first) || scanner_.is(second)) {
@@ -180,7 +186,8 @@ class Parser {
     }
     expect(")", "a comma or a closing parenthesis");
     if (wanted >= 0 ? count != wanted : count < 1)
-      scanner_.fail("the function '" + token.text + "' takes " + (wanted < 0 ? "at least 1" : std::to_string(wanted)) + " argument" +
+      scanner_.fail("the function '" + token.text + "' takes " +
+                        (wanted < 0 ? "at least 1" : std::to_string(wanted)) + " argument" +
                         (wanted == 2 ? "s" : "") + ", not " + std::to_string(count),
                     token.at);
     add({Code::kCall, function, count, 0.0});
@@ -196,12 +203,15 @@ class Parser {
   }
 
   void expect(const char* symbol, const char* what) {
-    if (!scanner_.is(symbol)) scanner_.fail(std::string("expected ") + what + found(), scanner_.token().at);
+    if (!scanner_.is(symbol))
+      scanner_.fail(std::string("expected ") + what + found(), scanner_.token().at);
     scanner_.next();
   }
 
   std::string found() const {
-    return scanner_.token().kind == Kind::kEnd ? ", found the end" : ", found '" + scanner_.token().text.substr(0, 40) + "'";
+    return scanner_.token().kind == Kind::kEnd
+               ? ", found the end"
+               : ", found '" + scanner_.token().text.substr(0, 40) + "'";
   }
 
   [[noreturn]] void unexpected() const {
@@ -211,13 +221,16 @@ class Parser {
     if (token.text == ")") scanner_.fail("a closing parenthesis without its opening one", token.at);
     if (token.text == ":") scanner_.fail("a ':' without its '?'", token.at);
     const bool operand = token.kind != Kind::kSymbol || token.text == "(";
-    if (operand) scanner_.fail("an operator is missing before '" + token.text.substr(0, 40) + "'", token.at);
+    if (operand)
+      scanner_.fail("an operator is missing before '" + token.text.substr(0, 40) + "'", token.at);
     scanner_.fail("a number is missing before '" + token.text + "'", token.at);
   }
 
-  [[noreturn]] void unknown(const std::string& kind, const ExpressionToken& token, const std::vector<std::string>& known) const {
+  [[noreturn]] void unknown(const std::string& kind, const ExpressionToken& token,
+                            const std::vector<std::string>& known) const {
     const std::string near = nearest_name(token.text, known);
-    const std::string hint = near.empty() ? " (known: " + list_names(known) + ")" : ", did you mean '" + near + "'?";
+    const std::string hint =
+        near.empty() ? " (known: " + list_names(known) + ")" : ", did you mean '" + near + "'?";
     scanner_.fail("unknown " + kind + " '" + token.text.substr(0, 60) + "'" + hint, token.at);
   }
 
@@ -254,15 +267,19 @@ class Parser {
 
 }  // namespace
 
-bool starts_identifier(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool starts_identifier(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
 bool continues_identifier(char c) { return starts_identifier(c) || is_digit(c); }
 
 void ExpressionScanner::fail(const std::string& what, std::size_t at) const {
   constexpr std::size_t kWhole = 120, kBefore = 30, kShown = 60;
   const std::size_t first = text_.size() <= kWhole || at < kBefore ? 0 : at - kBefore;
   const std::size_t count = text_.size() <= kWhole ? text_.size() : kShown;
-  const std::string shown = (first > 0 ? "..." : "") + text_.substr(first, count) + (first + count < text_.size() ? "..." : "");
-  throw std::invalid_argument(what + " at position " + std::to_string(at + 1) + " of '" + shown + "'");
+  const std::string shown = (first > 0 ? "..." : "") + text_.substr(first, count) +
+                            (first + count < text_.size() ? "..." : "");
+  throw std::invalid_argument(what + " at position " + std::to_string(at + 1) + " of '" + shown +
+                              "'");
 }
 
 void ExpressionScanner::next() {
@@ -294,7 +311,8 @@ void ExpressionScanner::read_number() {
   }
   token_.kind = ExpressionToken::Kind::kNumber;
   token_.text = text_.substr(token_.at, at_ - token_.at);
-  if (continues_identifier(peek()) || peek() == '.' || token_.text == ".") fail("malformed number", token_.at);
+  if (continues_identifier(peek()) || peek() == '.' || token_.text == ".")
+    fail("malformed number", token_.at);
   const std::optional<double> number = parse_number(token_.text);
   if (!number) fail("number too large or too small for floating point", token_.at);
   token_.number = *number;
@@ -305,16 +323,22 @@ void ExpressionScanner::read_symbol() {
   const char c = peek();
   // Show all bytes of a UTF-8 character.
   std::size_t length = 1;
-  while (static_cast<unsigned char>(c) >= 0x80 && (static_cast<unsigned char>(peek(length)) & 0xC0) == 0x80) ++length;
-  if (kAllowed.find(c) == std::string::npos) fail("unexpected character '" + text_.substr(at_, length) + "'", at_);
+  while (static_cast<unsigned char>(c) >= 0x80 &&
+         (static_cast<unsigned char>(peek(length)) & 0xC0) == 0x80)
+    ++length;
+  if (kAllowed.find(c) == std::string::npos)
+    fail("unexpected character '" + text_.substr(at_, length) + "'", at_);
   const bool compares = (c == '=' || c == '!' || c == '<' || c == '>') && peek(1) == '=';
-  if ((c == '=' || c == '!') && !compares) fail(std::string("unexpected '") + c + "' (comparisons are == != < <= > >=)", at_);
+  if ((c == '=' || c == '!') && !compares)
+    fail(std::string("unexpected '") + c + "' (comparisons are == != < <= > >=)", at_);
   at_ += compares || (c == '*' && peek(1) == '*') ? 2 : 1;
   token_.kind = ExpressionToken::Kind::kSymbol;
   token_.text = text_.substr(token_.at, at_ - token_.at);
 }
 
-ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope) { return Parser(text, scope).run(); }
+ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope) {
+  return Parser(text, scope).run();
+}
 
 std::string identifier_fault(const std::string& name) {
   if (name.empty()) return "the name is empty";

@@ -18,23 +18,28 @@ struct ExpressionToken {
   std::size_t at = 0;  ///< byte where it begins, from 0
 };
 
-/// Splits an expression into tokens. White space and line breaks separate tokens. It keeps a reference to the text.
+/// Splits an expression into tokens. White space and line breaks separate tokens. It keeps a
+/// reference to the text.
 class ExpressionScanner {
  public:
   /// Reads the first token. @throws std::invalid_argument if it is invalid.
   explicit ExpressionScanner(const std::string& text) : text_(text) { next(); }
 
   const ExpressionToken& token() const { return token_; }
-  bool is(const char* symbol) const { return token_.kind == ExpressionToken::Kind::kSymbol && token_.text == symbol; }
+  bool is(const char* symbol) const {
+    return token_.kind == ExpressionToken::Kind::kSymbol && token_.text == symbol;
+  }
   /// Reads the next token. @throws std::invalid_argument if it is invalid.
   void next();
 
-  /// Throws std::invalid_argument with the sentence `what at position N of 'text'`; N counts from 1, and of a text of more than 120 bytes
-  /// only the part around the position is shown.
+  /// Throws std::invalid_argument with the sentence `what at position N of 'text'`; N counts from
+  /// 1, and of a text of more than 120 bytes only the part around the position is shown.
   [[noreturn]] void fail(const std::string& what, std::size_t at) const;
 
  private:
-  char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  char peek(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
   void read_number();
   void read_symbol();
 
@@ -43,7 +48,8 @@ class ExpressionScanner {
   ExpressionToken token_;
 };
 
-/// Whether an identifier may begin with this character (a letter or _), or contain it (also digits).
+/// Whether an identifier may begin with this character (a letter or _), or contain it (also
+/// digits).
 bool starts_identifier(char c);
 bool continues_identifier(char c);
 
@@ -53,8 +59,9 @@ struct ParsedExpression {
   ExpressionSteps steps;          ///< variable k is parameter dependencies[k]
 };
 
-/// Parses an expression. Operators by ascending precedence: `sum < sum ? conditional : conditional`, `+ -`, `* /`, signs, `** ^` (right
-/// associative), then numbers, names, calls and parentheses; doc/decisions/0040-expressions-parsed-by-ourselves.md.
+/// Parses an expression. Operators by ascending precedence: `sum < sum ? conditional :
+/// conditional`, `+ -`, `* /`, signs, `** ^` (right associative), then numbers, names, calls and
+/// parentheses; doc/decisions/0040-expressions-parsed-by-ourselves.md.
 /// @throws std::invalid_argument with a sentence that names the error and its position.
 ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);
 

@@ -11,13 +11,16 @@
 
 namespace codesign {
 
-// The block `identify:` of a study: which recordings a model is fitted to, and how; doc/study.md describes the keys.
+// The block `identify:` of a study: which recordings a model is fitted to, and how; doc/study.md
+// describes the keys.
 
-/// The recorded quantities of a joint, in the units of the joint: [rad or m], [rad/s or m/s], [N m or N].
+/// The recorded quantities of a joint, in the units of the joint: [rad or m], [rad/s or m/s], [N m
+/// or N].
 enum class MeasuredQuantity { kPosition, kVelocity, kEffort };
 constexpr std::array<const char*, 3> kMeasuredQuantityNames{"position", "velocity", "effort"};
 
-/// A column of a table of numbers, by its name or its number. Its value is scale * (number as written) + offset.
+/// A column of a table of numbers, by its name or its number. Its value is scale * (number as
+/// written) + offset.
 struct ColumnDescription {
   std::string name;     ///< empty: the column has the number `number`
   int number = 0;       ///< from 1; 0: the column has the name `name`
@@ -36,13 +39,15 @@ struct MeasuredColumn {
 
 /// The delimiter between the cells of a row.
 enum class CellDelimiter {
-  kAuto,  ///< the first of tab, semicolon and comma that the first row contains; white space if none is there
+  kAuto,  ///< the first of tab, semicolon and comma that the first row contains; white space if
+          ///< none is there
   kComma,
   kSemicolon,
   kTab,
   kSpace  ///< any white space
 };
-constexpr std::array<const char*, 5> kCellDelimiterNames{"auto", "comma", "semicolon", "tab", "space"};
+constexpr std::array<const char*, 5> kCellDelimiterNames{"auto", "comma", "semicolon", "tab",
+                                                         "space"};
 
 /// Which time of a message counts.
 enum class StampKind {
@@ -69,7 +74,8 @@ struct FittedNumber {
   SourceLocation where;
 };
 
-/// Where a joint is at the first sample of a recording that holds its velocity but no positions [rad or m].
+/// Where a joint is at the first sample of a recording that holds its velocity but no positions
+/// [rad or m].
 struct StartPosition {
   std::string joint;
   FittedNumber position;
@@ -84,23 +90,27 @@ struct RecordedSetting {
 /// What priors of free inertias are about: `prior: {mass: 0.3}`.
 constexpr std::array<const char*, 3> kFreeInertiaParts{"mass", "centre", "inertia"};
 
-/// What is known of a tuned parameter before the fit: a normal distribution about its start; doc/theory.md (39b).
+/// What is known of a tuned parameter before the fit: a normal distribution about its start;
+/// doc/theory.md (39b).
 struct PriorDescription {
   std::string parameter;   ///< its name, or one of kFreeInertiaParts for all free inertias
   double deviation = 0.0;  ///< standard deviation, relative to the start
   SourceLocation where;
 };
 
-/// One entry of `identify.data` or `identify.holdout`: a topic of a bag, or a table of numbers as text.
+/// One entry of `identify.data` or `identify.holdout`: a topic of a bag, or a table of numbers as
+/// text.
 struct RecordingDescription {
   std::string file;  ///< as written; relative to the folder of the study
   bool is_bag = false;
-  std::string topic;                                       ///< of a bag: sensor_msgs/JointState
-  StampKind stamp = StampKind::kHeader;                    ///< of a bag
-  CellDelimiter delimiter = CellDelimiter::kAuto;          ///< of a table
-  std::optional<ColumnDescription> time;                   ///< of a table; without columns they are found by their names
+  std::string topic;                               ///< of a bag: sensor_msgs/JointState
+  StampKind stamp = StampKind::kHeader;            ///< of a bag
+  CellDelimiter delimiter = CellDelimiter::kAuto;  ///< of a table
+  std::optional<ColumnDescription>
+      time;  ///< of a table; without columns they are found by their names
   std::vector<MeasuredColumn> columns;                     ///< of a table
-  double from = -std::numeric_limits<double>::infinity();  ///< part to use [s]: of the time column, or from the bag's first message
+  double from = -std::numeric_limits<double>::infinity();  ///< part to use [s]: of the time column,
+                                                           ///< or from the bag's first message
   double to = std::numeric_limits<double>::infinity();
   GapRule gaps = GapRule::kRefuse;
   std::vector<StartPosition> starts;      ///< of joints whose positions are integrated
@@ -109,13 +119,14 @@ struct RecordingDescription {
   SourceLocation where;
 };
 
-/// The relation between the effort tau(t) on a joint and its recorded effort e: effort_scale e(t + delay) = tau(t) + offset; doc/theory.md
-/// (28c).
+/// The relation between the effort tau(t) on a joint and its recorded effort e: effort_scale e(t +
+/// delay) = tau(t) + offset; doc/theory.md (28c).
 struct JointCalibration {
   std::string joint;
   FittedNumber effort_scale{1.0};  ///< e.g. torque constant times gear ratio; not 0
-  FittedNumber delay{0.0};         ///< by which the recorded effort is late beside the recorded motion [s]; negative: early
-  FittedNumber offset{0.0};        ///< recorded beyond the effort that the mechanism needs [N m or N]
+  FittedNumber delay{0.0};   ///< by which the recorded effort is late beside the recorded motion
+                             ///< [s]; negative: early
+  FittedNumber offset{0.0};  ///< recorded beyond the effort that the mechanism needs [N m or N]
   SourceLocation where;
 };
 
@@ -128,14 +139,15 @@ constexpr std::array<const char*, 2> kResidualNames{"effort", "motion"};
 
 /// Zero-phase low-pass filters and the rate of fitted samples; doc/theory.md (29)-(31).
 struct FilterOptions {
-  double cutoff = 0.0;           ///< of measured motion before it is differentiated [Hz]; 0: no filter
+  double cutoff = 0.0;  ///< of measured motion before it is differentiated [Hz]; 0: no filter
   double residual_cutoff = 0.0;  ///< of measured and computed efforts alike [Hz]; 0: no filter
   int order = 4;                 ///< of the Butterworth filter, which runs forward and backward
   int decimate = 1;              ///< of the filtered samples, every decimate-th one is fitted
   SourceLocation where;
 };
 
-/// A loss that lets outliers count less. `scale` is in units of the spread of the residuals of each joint.
+/// A loss that lets outliers count less. `scale` is in units of the spread of the residuals of each
+/// joint.
 enum class LossKind {
   kNone,   ///< sum of squares
   kHuber,  ///< quadratic up to `scale`, linear beyond
@@ -157,7 +169,8 @@ constexpr std::array<const char*, 3> kNoiseNames{"white", "correlated", "bootstr
 struct IntervalOptions {
   double level = 0.95;  ///< in (0, 1)
   NoiseModel noise = NoiseModel::kCorrelated;
-  int lag = 0;            ///< of the kernel, or length of the blocks, in fitted samples; 0: chosen automatically
+  int lag =
+      0;  ///< of the kernel, or length of the blocks, in fitted samples; 0: chosen automatically
   bool profiles = false;  ///< intervals of the profile likelihood, too
 };
 

@@ -24,11 +24,14 @@ struct InitialJointState {
   std::string joint;
   std::optional<Quantity> position;  ///< value of an independent coordinate [rad or m]
   std::optional<Quantity> velocity;  ///< [rad/s or m/s]
-  std::optional<double> guess;       ///< start of the assembly for a dependent coordinate, which selects the branch [rad or m]
-  // For planar and floating joints only, in the joint frame at zero position, which is fixed in the parent. A planar joint turns about its
-  // normal only: its rotation and angular_velocity use the last component.
-  std::optional<QuantityVector> translation;       ///< of the child's frame [m]
-  std::optional<QuantityVector> rotation;          ///< of the child: fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
+  std::optional<double> guess;  ///< start of the assembly for a dependent coordinate, which selects
+                                ///< the branch [rad or m]
+  // For planar and floating joints only, in the joint frame at zero position, which is fixed in the
+  // parent. A planar joint turns about its normal only: its rotation and angular_velocity use the
+  // last component.
+  std::optional<QuantityVector> translation;  ///< of the child's frame [m]
+  std::optional<QuantityVector>
+      rotation;  ///< of the child: fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
   std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
   std::optional<QuantityVector> angular_velocity;  ///< of the child [rad/s]
   SourceLocation where;
@@ -45,10 +48,11 @@ struct FeedbackTerm {
 struct ControllerDescription {
   std::string name;
   ControllerKind kind = ControllerKind::kPid;
-  SignalDescription input;             ///< only if kind->has_error()
-  ReferenceDescription setpoint;       ///< only if kind->has_error()
-  std::string output;                  ///< the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
-  Quantity p, i, d;                    ///< gains; only those that kind->gains names
+  SignalDescription input;        ///< only if kind->has_error()
+  ReferenceDescription setpoint;  ///< only if kind->has_error()
+  std::string output;  ///< the joint it drives, by a torque [N m] or a force [N]; empty: only other
+                       ///< controllers read it
+  Quantity p, i, d;    ///< gains; only those that kind->gains names
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis
@@ -63,7 +67,8 @@ struct LoadDescription {
   Quantity effort;               ///< of a joint, along its coordinate [N m or N]
   QuantityVector force, torque;  ///< on a link [N], [N m]
   QuantityVector point;          ///< where the force acts, in the link's frame [m]
-  bool in_link_frame = false;    ///< components of force and torque in the link's axes, turning with it; else in the root link's axes
+  bool in_link_frame = false;  ///< components of force and torque in the link's axes, turning with
+                               ///< it; else in the root link's axes
   SourceLocation where;
 };
 
@@ -75,18 +80,22 @@ struct ObjectiveTerm {
   SourceLocation where;
 };
 
-/// Which limits of URDF's `<limit>` are enforced, and the properties of the stops; theory (13c), (13d).
+/// Which limits of URDF's `<limit>` are enforced, and the properties of the stops; theory (13c),
+/// (13d).
 struct LimitOptions {
-  bool effort = false;       ///< saturates the controllers' output
-  bool position = false;     ///< adds stops at `lower` and `upper`
-  double stiffness = 1e4;    ///< k of a stop [N/m or N m/rad]
-  double dissipation = 1.0;  ///< c of a stop: relative increase of its force per speed [s/m or s/rad]
-  double width = 1e-3;       ///< w: depth over which the force sets in smoothly [m or rad]
+  bool effort = false;     ///< saturates the controllers' output
+  bool position = false;   ///< adds stops at `lower` and `upper`
+  double stiffness = 1e4;  ///< k of a stop [N/m or N m/rad]
+  double dissipation =
+      1.0;              ///< c of a stop: relative increase of its force per speed [s/m or s/rad]
+  double width = 1e-3;  ///< w: depth over which the force sets in smoothly [m or rad]
 };
 
-/// What of a study the equations of motion, their start, their integration and their gradients read.
+/// What of a study the equations of motion, their start, their integration and their gradients
+/// read.
 struct MotionStudy {
-  // Defined in one file: the members of all lists would else be compiled wherever one is copied or destroyed.
+  // Defined in one file: the members of all lists would else be compiled wherever one is copied or
+  // destroyed.
   MotionStudy();
   MotionStudy(const MotionStudy&);
   MotionStudy(MotionStudy&&) noexcept;
@@ -97,20 +106,22 @@ struct MotionStudy {
   double duration = 0.0;                           ///< [s]
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
-  /// Extra states at the start, in the order of Layout::states; missing entries at the end are zero. No file gives them: a study starts
-  /// from zero, a segment of a recording from anywhere.
+  /// Extra states at the start, in the order of Layout::states; missing entries at the end are
+  /// zero. No file gives them: a study starts from zero, a segment of a recording from anywhere.
   std::vector<Quantity> initial_extra_states;
   std::vector<ControllerDescription> controllers;
   std::vector<LoadDescription> loads;
-  /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]` is rho_k.
+  /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]`
+  /// is rho_k.
   std::vector<Parameter> parameters;
-  /// Indices of the parameters that a number of model or study depends on. Dependence of constraints does not count: a constraint alone has
-  /// no effect on the motion.
+  /// Indices of the parameters that a number of model or study depends on. Dependence of
+  /// constraints does not count: a constraint alone has no effect on the motion.
   std::set<int> used_parameters;
   std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
   std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g; theory (21)
   std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)
-  std::vector<WatchedSignal> watched;   ///< constraints on signals and peaks in the objective; theory (21a)
+  std::vector<WatchedSignal>
+      watched;  ///< constraints on signals and peaks in the objective; theory (21a)
   LimitOptions limits;
   SolverOptions solver;
   std::string file;  ///< the file it was read from, for messages

@@ -9,9 +9,10 @@ std::string path_of(const FileAddress& address, const std::string& folder) {
   const std::filesystem::path path(address.file);
   if (path.is_absolute()) return address.file;
   if (folder.empty())
-    throw InputError({address.where, address.element,
-                      "a relative path is allowed only in a study file, not in a study on the parameter server", address.file,
-                      "an absolute path"});
+    throw InputError(
+        {address.where, address.element,
+         "a relative path is allowed only in a study file, not in a study on the parameter server",
+         address.file, "an absolute path"});
   return (std::filesystem::path(folder) / path).lexically_normal().string();
 }
 
@@ -21,11 +22,14 @@ FileLoader files_in(const std::string& folder) {
     try {
       return read_source(path);
     } catch (const InputError& error) {
-      throw InputError({address.where, address.element, error.fault().message, path, error.fault().allowed});
+      throw InputError(
+          {address.where, address.element, error.fault().message, path, error.fault().allowed});
     }
   };
 }
 
-FileLoader files_beside(const std::string& study) { return files_in(std::filesystem::absolute(study).parent_path().string()); }
+FileLoader files_beside(const std::string& study) {
+  return files_in(std::filesystem::absolute(study).parent_path().string());
+}
 
 }  // namespace codesign

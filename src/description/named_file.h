@@ -11,12 +11,13 @@ namespace codesign {
 
 /// A file that a study names.
 struct FileAddress {
-  std::string file;      ///< as written: an absolute path, or one relative to the folder of the study
+  std::string file;  ///< as written: an absolute path, or one relative to the folder of the study
   SourceLocation where;  ///< the place in the study that names it, for messages
   std::string element;   ///< likewise
 };
 
-/// Where the file is. @param folder of the study; empty: only absolute paths are accepted. @throws InputError
+/// Where the file is. @param folder of the study; empty: only absolute paths are accepted. @throws
+/// InputError
 std::string path_of(const FileAddress& address, const std::string& folder);
 
 /// Callback that reads a text that a study names. @throws InputError if it cannot be read.

@@ -7,7 +7,8 @@ namespace codesign {
 
 Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
   Recording* const recording = parameters.front().recording();
-  const UsedNumbers<double> values = expression.used<double>(parameters, [](const Traced& parameter) { return parameter.value(); });
+  const UsedNumbers<double> values = expression.used<double>(
+      parameters, [](const Traced& parameter) { return parameter.value(); });
   return {recording, recording->supplied(SourceId(expression)), expression.value_of(values)};
 }
 

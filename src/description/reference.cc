@@ -17,8 +17,10 @@ double knot(const BasisDescription& basis, int i) {
   return basis.duration * std::clamp(i - basis.degree(), 0, spans) / spans;
 }
 
-/// The degree + 1 B-splines of `degree` that are not zero on the knot span `span`, at t, by de Boor's recurrence.
-void spline_values(const BasisDescription& basis, int span, int degree, double t, Out<double> values) {
+/// The degree + 1 B-splines of `degree` that are not zero on the knot span `span`, at t, by de
+/// Boor's recurrence.
+void spline_values(const BasisDescription& basis, int span, int degree, double t,
+                   Out<double> values) {
   values[0] = 1.0;
   for (int d = 1; d <= degree; ++d) {
     double carried = 0.0;
@@ -60,7 +62,8 @@ void add(const ReferenceDescription& description, Found* found) {
       add(description.waypoints.accelerations, found);
       break;
     case ReferenceDescription::Kind::kSampled:
-      add({description.sampled.scale, description.sampled.delay, description.sampled.offset}, found);
+      add({description.sampled.scale, description.sampled.delay, description.sampled.offset},
+          found);
       break;
     case ReferenceDescription::Kind::kLive:
       add(*description.live.planned, found);
@@ -71,7 +74,8 @@ void add(const ReferenceDescription& description, Found* found) {
 }  // namespace
 
 std::array<double, 2> BasisDescription::support(int k) const {
-  const double end = k == count() - 1 ? std::numeric_limits<double>::infinity() : knot(*this, k + degree() + 1);
+  const double end =
+      k == count() - 1 ? std::numeric_limits<double>::infinity() : knot(*this, k + degree() + 1);
   return {knot(*this, k), end};
 }
 
@@ -79,7 +83,8 @@ BasisWeights basis_weights(const BasisDescription& basis, double t) {
   const int degree = basis.degree(), spans = basis.count() - degree;
   const double inside = std::clamp(t, 0.0, basis.duration);
   BasisWeights weights;
-  weights.first = std::clamp(static_cast<int>(std::floor(inside / basis.duration * spans)), 0, spans - 1);
+  weights.first =
+      std::clamp(static_cast<int>(std::floor(inside / basis.duration * spans)), 0, spans - 1);
   weights.count = degree + 1;
   const int span = weights.first + degree;
   spline_values(basis, span, degree, inside, weights.value);
@@ -88,7 +93,8 @@ BasisWeights basis_weights(const BasisDescription& basis, double t) {
   double lower[4];
   spline_values(basis, span, degree - 1, inside, lower);
   for (int r = 0; r < degree; ++r) {
-    const double share = degree * lower[r] / (knot(basis, span + r + 1) - knot(basis, span + r + 1 - degree));
+    const double share =
+        degree * lower[r] / (knot(basis, span + r + 1) - knot(basis, span + r + 1 - degree));
     weights.rate[to_index(r)] -= share;
     weights.rate[to_index(r) + 1] += share;
   }

@@ -17,8 +17,9 @@ namespace codesign {
 /// Degree of the B-splines: 1 or 3.
 enum class BasisShape { kLinear, kCubic };
 
-/// A shaped input u(t) = sum_k c_k B_k(t) for 0 <= t <= duration; afterwards the last value is held; theory (C8).
-/// B_k are B-splines on equal spans whose end knots are repeated, so that u starts at the first coefficient and ends at the last.
+/// A shaped input u(t) = sum_k c_k B_k(t) for 0 <= t <= duration; afterwards the last value is
+/// held; theory (C8). B_k are B-splines on equal spans whose end knots are repeated, so that u
+/// starts at the first coefficient and ends at the last.
 struct BasisDescription {
   BasisShape shape = BasisShape::kLinear;
   double duration = 0.0;               ///< [s]
@@ -27,29 +28,32 @@ struct BasisDescription {
   int degree() const { return shape == BasisShape::kLinear ? 1 : 3; }
   int count() const { return static_cast<int>(coefficients.size()); }
 
-  /// The interval of time [s] in which coefficient k has influence; its end is infinite for the last one, which is held.
+  /// The interval of time [s] in which coefficient k has influence; its end is infinite for the
+  /// last one, which is held.
   std::array<double, 2> support(int k) const;
 };
 
 /// The B_k that are not zero at an instant.
 struct BasisWeights {
-  int first = 0, count = 0;               ///< B_first, ..., B_(first + count - 1)
-  std::array<double, 4> value{}, rate{};  ///< B_k and its time derivative [1/s]; the first `count` entries
+  int first = 0, count = 0;  ///< B_first, ..., B_(first + count - 1)
+  std::array<double, 4> value{},
+      rate{};  ///< B_k and its time derivative [1/s]; the first `count` entries
 };
 
 /// The weights at time t [s]; rates are zero after the duration.
 BasisWeights basis_weights(const BasisDescription& basis, double t);
 
-/// A function of time that the owner of a run can replace during the run: sum c_k (t - start)^k in the unit of the signal, after the first
-/// command. After each change the run must be continued by Integrator::go_on(). Not thread-safe.
+/// A function of time that the owner of a run can replace during the run: sum c_k (t - start)^k in
+/// the unit of the signal, after the first command. After each change the run must be continued by
+/// Integrator::go_on(). Not thread-safe.
 struct LiveFunction {
   bool commanded = false;  ///< false: the planned function is in effect
   double start = 0.0;      ///< [s]
   std::array<double, 6> c{};
 };
 
-/// The polynomials between way-points: of fifth, third or first degree; kMonotone: of fifth degree, between the values of each two
-/// neighbours; theory (C2).
+/// The polynomials between way-points: of fifth, third or first degree; kMonotone: of fifth degree,
+/// between the values of each two neighbours; theory (C2).
 enum class Interpolation { kQuintic, kCubic, kLinear, kMonotone };
 
 /// offset + amplitude sin(2 pi f t + phase); theory (C1).
@@ -76,19 +80,21 @@ struct SampledDescription {
 
 struct ReferenceDescription;
 
-/// A function that commands set during a run, and the planned function until the first command; both not null.
+/// A function that commands set during a run, and the planned function until the first command;
+/// both not null.
 struct LiveDescription {
   std::shared_ptr<const LiveFunction> function;
   std::shared_ptr<const ReferenceDescription> planned;
 };
 
-/// A prescribed function of time: the setpoint of a controller or the reference of an objective's term. Of the alternatives the one
-/// that `kind` names is used.
+/// A prescribed function of time: the setpoint of a controller or the reference of an objective's
+/// term. Of the alternatives the one that `kind` names is used.
 struct ReferenceDescription {
   enum class Kind { kConstant, kSine, kWaypoints, kSampled, kLive };
 
   ReferenceDescription(Quantity value = 0.0)
-      : constant(std::move(value)) {}                      // NOLINT(google-explicit-constructor): a number is a constant reference
+      : constant(std::move(value)) {
+  }  // NOLINT(google-explicit-constructor): a number is a constant reference
   ReferenceDescription(double value) : constant(value) {}  // NOLINT(google-explicit-constructor)
 
   Kind kind = Kind::kConstant;
@@ -106,17 +112,19 @@ struct TrajectoryAddress {
   std::string element;   ///< likewise
 };
 
-/// The way-points of one joint of a recorded trajectory: times [s], then one value per time in the joint's units. Velocities and
-/// accelerations may be empty.
+/// The way-points of one joint of a recorded trajectory: times [s], then one value per time in the
+/// joint's units. Velocities and accelerations may be empty.
 struct RecordedTrajectory {
   std::vector<double> times, positions, velocities, accelerations;
 };
 
-/// Callback that reads a recorded trajectory. The caller provides it, since this library does not depend on ROS, which reads bags.
+/// Callback that reads a recorded trajectory. The caller provides it, since this library does not
+/// depend on ROS, which reads bags.
 /// @throws InputError if the trajectory cannot be read.
 using TrajectoryLoader = std::function<RecordedTrajectory(const TrajectoryAddress&)>;
 
-/// Indices of the parameters that appear in the numbers of a function of time, ascending, each once.
+/// Indices of the parameters that appear in the numbers of a function of time, ascending, each
+/// once.
 std::vector<int> dependencies(const ReferenceDescription& description);
 std::vector<int> dependencies(const BasisDescription& description);
 

@@ -17,8 +17,9 @@
 
 namespace codesign {
 
-/// The tables of laws whose names a model and its study may use. A program adds a row of its own to a copy of standard_laws() and reads its
-/// models with it; the row must outlive everything that is read.
+/// The tables of laws whose names a model and its study may use. A program adds a row of its own to
+/// a copy of standard_laws() and reads its models with it; the row must outlive everything that is
+/// read.
 struct Laws {
   std::vector<FrictionModel> friction;
   std::vector<RowReference<JointLaw>> joints;
@@ -38,14 +39,18 @@ std::vector<std::string> names_of(const std::vector<Row>& rows) {
   return names;
 }
 
-/// `<codesign:friction>`. Numbers that the model does not give keep the `standard` of their rule; lengths and arms are then zero.
+/// `<codesign:friction>`. Numbers that the model does not give keep the `standard` of their rule;
+/// lengths and arms are then zero.
 struct FrictionDescription : FrictionNumbers<Quantity> {
   FrictionDescription() {
-    visit_friction_numbers([](const FrictionNumberRule& rule, Quantity& number) { number = Quantity(rule.standard); }, this);
+    visit_friction_numbers(
+        [](const FrictionNumberRule& rule, Quantity& number) { number = Quantity(rule.standard); },
+        this);
   }
 
   FrictionModel model = FrictionModel::kBrownMcPhee;
-  bool is_directional = false;                           ///< a number for motion against the axis is given; else they are unused
+  bool is_directional =
+      false;  ///< a number for motion against the axis is given; else they are unused
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };
@@ -69,7 +74,8 @@ struct InertialDescription {
   PoseDescription origin;           ///< centre of mass and axes of the inertia, in the link frame
   Quantity mass;                    ///< [kg]
   std::array<Quantity, 6> inertia;  ///< about `origin`: ixx ixy ixz iyy iyz izz [kg m^2]
-  /// If present, mass, centre and inertia are computed from `shapes` with this density [kg/m^3]; the three fields above are unused.
+  /// If present, mass, centre and inertia are computed from `shapes` with this density [kg/m^3];
+  /// the three fields above are unused.
   std::optional<Quantity> density;
   std::vector<ShapeDescription> shapes;
   SourceLocation where;
@@ -82,7 +88,8 @@ struct LinkDescription {
   SourceLocation where;
 };
 
-/// `<limit>`. Exporters write zeros for unknown limits; the three bounds_ functions tell which limits count.
+/// `<limit>`. Exporters write zeros for unknown limits; the three bounds_ functions tell which
+/// limits count.
 struct LimitDescription {
   Quantity lower, upper;      ///< position [rad or m]
   Quantity effort, velocity;  ///< [N m or N], [rad/s or m/s]
@@ -93,23 +100,27 @@ struct LimitDescription {
   bool bounds_velocity() const { return !velocity.is_zero(); }
 };
 
-/// `<mimic>`: theta = multiplier * theta_joint + offset, with theta_joint of the joint that is followed; theory (8a).
+/// `<mimic>`: theta = multiplier * theta_joint + offset, with theta_joint of the joint that is
+/// followed; theory (8a).
 struct MimicDescription {
   std::string joint;
   Quantity multiplier{1.0}, offset{0.0};
   SourceLocation where;
 };
 
-/// `<codesign:torsion_spring>`: load stiffness * (theta - free_position) + damping * theta' against the coordinate; theory (13).
+/// `<codesign:torsion_spring>`: load stiffness * (theta - free_position) + damping * theta' against
+/// the coordinate; theory (13).
 struct TorsionSpringDescription {
-  Quantity stiffness, damping, free_position;  ///< [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
+  Quantity stiffness, damping,
+      free_position;  ///< [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
 };
 
-/// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint; theory (9a). The rotor is carried by the
-/// parent link and turns about the joint's axis.
+/// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint; theory
+/// (9a). The rotor is carried by the parent link and turns about the joint's axis.
 struct ActuatorDescription {
   Quantity gear_ratio{1.0};  ///< n, rotor rate per joint rate [-, or rad/m on a prismatic joint]
-  Quantity rotor_inertia;    ///< J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
+  Quantity
+      rotor_inertia;  ///< J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
   SourceLocation where;
 };
 
@@ -119,35 +130,43 @@ struct JointDescription {
   JointType type = JointType::kFixed;
   std::optional<PairKind> own_kind;  ///< kOther: the row that the file names
   bool is_loop = false;
-  int parent = -1, child = -1;                ///< indices into RobotDescription::links; of a loop: predecessor, successor
-  PoseDescription origin;                     ///< joint frame at zero position in the parent's link frame
-  PoseDescription child_origin;               ///< joint frame in the child's link frame; the identity for a tree joint
-  QuantityVector axis{1.0, 0.0, 0.0};         ///< in the joint frame, not necessarily of unit length
-  QuantityVector second_axis{0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
-  Quantity distance;                          ///< kDistance: the length [m]
+  int parent = -1,
+      child = -1;  ///< indices into RobotDescription::links; of a loop: predecessor, successor
+  PoseDescription origin;  ///< joint frame at zero position in the parent's link frame
+  PoseDescription
+      child_origin;  ///< joint frame in the child's link frame; the identity for a tree joint
+  QuantityVector axis{1.0, 0.0, 0.0};  ///< in the joint frame, not necessarily of unit length
+  QuantityVector second_axis{
+      0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
+  Quantity distance;   ///< kDistance: the length [m]
   std::optional<FrictionDescription> friction;
   Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
   std::optional<LimitDescription> limit;
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;
   std::optional<ActuatorDescription> actuator;
-  /// kFloating: the child's orientation at zero turning coordinates, as rpy in the joint frame [rad]; taken from the study's initial state.
+  /// kFloating: the child's orientation at zero turning coordinates, as rpy in the joint frame
+  /// [rad]; taken from the study's initial state.
   QuantityVector start_rotation;
   SourceLocation where;
 
   /// The element for messages: `<joint name="crank_joint">` or `<loop name="close">`.
-  std::string element() const { return (is_loop ? "<loop name=\"" : "<joint name=\"") + name + "\">"; }
+  std::string element() const {
+    return (is_loop ? "<loop name=\"" : "<joint name=\"") + name + "\">";
+  }
 };
 
 /// The kind of pair that a single joint or loop makes.
 PairKind kind_of(const JointDescription& joint);
 
-/// Whether `<limit lower upper>` bounds the joint's position. On a continuous joint URDF ignores both.
+/// Whether `<limit lower upper>` bounds the joint's position. On a continuous joint URDF ignores
+/// both.
 inline bool has_stops(const JointDescription& joint) {
   return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
 }
 
-/// URDF+ `<coupling>`: the joints up to the successor move `ratio` times as far as the joints up to the predecessor; theory (8a).
+/// URDF+ `<coupling>`: the joints up to the successor move `ratio` times as far as the joints up to
+/// the predecessor; theory (8a).
 struct CouplingDescription {
   std::string name;
   int predecessor = -1, successor = -1;  ///< links
@@ -158,15 +177,17 @@ struct CouplingDescription {
 /// `<codesign:spring_damper>` between a point of each of two links; theory (13b).
 struct SpringDamperDescription {
   std::string name;
-  int predecessor = -1, successor = -1;                  ///< links
-  PoseDescription predecessor_origin, successor_origin;  ///< the points, in the frames of the links; rpy is unused
-  Quantity stiffness, damping, free_length;              ///< [N/m], [N s/m], [m]
+  int predecessor = -1, successor = -1;  ///< links
+  PoseDescription predecessor_origin,
+      successor_origin;  ///< the points, in the frames of the links; rpy is unused
+  Quantity stiffness, damping, free_length;  ///< [N/m], [N s/m], [m]
   SourceLocation where;
 };
 
 /// A mechanism as the annotated URDF describes it; nothing is derived from it yet.
 struct RobotDescription {
-  // Defined in one file: the members of all lists would else be compiled wherever one is copied or destroyed.
+  // Defined in one file: the members of all lists would else be compiled wherever one is copied or
+  // destroyed.
   RobotDescription();
   RobotDescription(const RobotDescription&);
   RobotDescription(RobotDescription&&) noexcept;
@@ -176,7 +197,8 @@ struct RobotDescription {
 
   std::string name;
   std::vector<Parameter> parameters;
-  std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file depends, visuals included
+  std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file
+                                  ///< depends, visuals included
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order

@@ -11,7 +11,8 @@ namespace codesign {
 namespace {
 
 constexpr const char* kFormOfSignal =
-    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, and sums and differences of them";
+    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, and sums and "
+    "differences of them";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
@@ -21,14 +22,16 @@ std::string trimmed(const std::string& text) {
 
 bool is_quantity(const std::string& word) {
   static const std::set<std::string> kQuantities{
-      "position",        "velocity",       "acceleration",  "effort",         "friction",         "normal_force", "sliding_velocity",
-      "error",           "setpoint",       "integral",      "output",         "angular_velocity", "orientation",  "reaction_force",
-      "reaction_torque", "friction_power", "damping_power", "actuator_power", "load_power"};
+      "position",       "velocity",         "acceleration",   "effort",         "friction",
+      "normal_force",   "sliding_velocity", "error",          "setpoint",       "integral",
+      "output",         "angular_velocity", "orientation",    "reaction_force", "reaction_torque",
+      "friction_power", "damping_power",    "actuator_power", "load_power"};
   return kQuantities.count(word) != 0;
 }
 
-/// Parses from left to right. An operator can only follow a quantity or a component, which consist of a-z and _, so that
-/// `a-b/velocity-c-d/velocity` is the difference of the velocities of joints `a-b` and `c-d`.
+/// Parses from left to right. An operator can only follow a quantity or a component, which consist
+/// of a-z and _, so that `a-b/velocity-c-d/velocity` is the difference of the velocities of joints
+/// `a-b` and `c-d`.
 class SignalParser {
  public:
   SignalParser(const std::string& text, const SourceLocation& where, const std::string& element)
@@ -51,33 +54,45 @@ class SignalParser {
   bool next_is(char c) const { return position_ < text_.size() && text_[position_] == c; }
 
   void skip_space() {
-    while (position_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[position_])) != 0) ++position_;
+    while (position_ < text_.size() &&
+           std::isspace(static_cast<unsigned char>(text_[position_])) != 0)
+      ++position_;
   }
 
   double read_operator() {
-    if (!next_is('+') && !next_is('-')) fail("expected + or - at column " + std::to_string(position_ + 1) + " of the signal");
+    if (!next_is('+') && !next_is('-'))
+      fail("expected + or - at column " + std::to_string(position_ + 1) + " of the signal");
     return text_[position_++] == '-' ? -1.0 : 1.0;
   }
 
   std::string read_word(const char* what) {
     const std::size_t first = position_;
-    while (position_ < text_.size() && (std::islower(static_cast<unsigned char>(text_[position_])) != 0 || next_is('_'))) ++position_;
-    if (position_ == first) fail(std::string("expected a ") + what + " at column " + std::to_string(first + 1) + " of the signal");
+    while (position_ < text_.size() &&
+           (std::islower(static_cast<unsigned char>(text_[position_])) != 0 || next_is('_')))
+      ++position_;
+    if (position_ == first)
+      fail(std::string("expected a ") + what + " at column " + std::to_string(first + 1) +
+           " of the signal");
     return text_.substr(first, position_ - first);
   }
 
-  // Names may contain slashes, as `left/elbow`. The name then ends at the first slash after which a known quantity ends the term.
+  // Names may contain slashes, as `left/elbow`. The name then ends at the first slash after which a
+  // known quantity ends the term.
   std::size_t name_end() const {
     const std::size_t first = text_.find('/', position_);
-    if (first == std::string::npos || closes(first, false) || std::isspace(static_cast<unsigned char>(behind_word(first))) != 0)
+    if (first == std::string::npos || closes(first, false) ||
+        std::isspace(static_cast<unsigned char>(behind_word(first))) != 0)
       return first;
-    for (std::size_t slash = text_.find('/', first + 1); slash != std::string::npos; slash = text_.find('/', slash + 1))
+    for (std::size_t slash = text_.find('/', first + 1); slash != std::string::npos;
+         slash = text_.find('/', slash + 1))
       if (closes(slash, true)) return slash;
     return first;
   }
 
   std::size_t word_end(std::size_t at) const {
-    while (at < text_.size() && (std::islower(static_cast<unsigned char>(text_[at])) != 0 || text_[at] == '_')) ++at;
+    while (at < text_.size() &&
+           (std::islower(static_cast<unsigned char>(text_[at])) != 0 || text_[at] == '_'))
+      ++at;
     return at;
   }
 
@@ -86,10 +101,12 @@ class SignalParser {
     return end < text_.size() ? text_[end] : ' ';
   }
 
-  /// Whether a quantity follows this slash, with a component of one letter or without, and then an operator or the end of the text.
+  /// Whether a quantity follows this slash, with a component of one letter or without, and then an
+  /// operator or the end of the text.
   bool closes(std::size_t slash, bool known_only) const {
     std::size_t end = word_end(slash + 1);
-    if (end == slash + 1 || (known_only && !is_quantity(text_.substr(slash + 1, end - slash - 1)))) return false;
+    if (end == slash + 1 || (known_only && !is_quantity(text_.substr(slash + 1, end - slash - 1))))
+      return false;
     if (end + 1 < text_.size() && text_[end] == '/' && word_end(end + 1) == end + 2) end += 2;
     end = std::min(text_.find_first_not_of(" \t\n", end), text_.size());
     return end == text_.size() || text_[end] == '+' || text_[end] == '-';
@@ -97,7 +114,8 @@ class SignalParser {
 
   SignalTerm read_term(double factor) {
     const std::size_t slash = name_end();
-    if (slash == std::string::npos) fail("a signal needs a quantity after its name, such as crank_joint/velocity");
+    if (slash == std::string::npos)
+      fail("a signal needs a quantity after its name, such as crank_joint/velocity");
     SignalTerm term;
     term.factor = factor;
     term.object = trimmed(text_.substr(position_, slash - position_));
@@ -112,7 +130,9 @@ class SignalParser {
     return term;
   }
 
-  [[noreturn]] void fail(const std::string& message) const { throw InputError({where_, element_, message, text_, kFormOfSignal}); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError({where_, element_, message, text_, kFormOfSignal});
+  }
 
   const std::string& text_;
   const SourceLocation& where_;
@@ -122,13 +142,15 @@ class SignalParser {
 
 }  // namespace
 
-SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element) {
+SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
+                               const std::string& element) {
   return {text, SignalParser(text, where, element).parse(), where};
 }
 
 bool is_equality(const WatchedSignal& watched) {
   if (watched.role != WatchedSignal::Role::kFinal || !watched.lower || !watched.upper) return false;
-  return watched.lower->is_constant() && watched.upper->is_constant() && watched.lower->nominal() == watched.upper->nominal();
+  return watched.lower->is_constant() && watched.upper->is_constant() &&
+         watched.lower->nominal() == watched.upper->nominal();
 }
 
 void require_ordered_bounds(const WatchedSignal& watched, const std::vector<double>& parameters) {
@@ -136,8 +158,10 @@ void require_ordered_bounds(const WatchedSignal& watched, const std::vector<doub
   const double lower = watched.lower->at(parameters), upper = watched.upper->at(parameters);
   const bool equal_allowed = watched.role == WatchedSignal::Role::kFinal;
   if (lower < upper || (lower == upper && equal_allowed)) return;
-  throw InputError({watched.where, watched.element, "the lower bound must be less than the upper one",
-                    to_decimal(lower) + ", " + to_decimal(upper), equal_allowed ? "lower <= upper" : "lower < upper"});
+  throw InputError({watched.where, watched.element,
+                    "the lower bound must be less than the upper one",
+                    to_decimal(lower) + ", " + to_decimal(upper),
+                    equal_allowed ? "lower <= upper" : "lower < upper"});
 }
 
 }  // namespace codesign

@@ -13,10 +13,11 @@ namespace codesign {
 
 /// One term of a signal: `+ crank_joint/velocity`, `- plate/position/x`.
 struct SignalTerm {
-  double factor = 1.0;    ///< +1 or -1
-  std::string object;     ///< name of a joint, loop, link or controller
-  std::string quantity;   ///< position, velocity, effort, friction, ...; the list is in doc/study.md
-  std::string component;  ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
+  double factor = 1.0;   ///< +1 or -1
+  std::string object;    ///< name of a joint, loop, link or controller
+  std::string quantity;  ///< position, velocity, effort, friction, ...; the list is in doc/study.md
+  std::string
+      component;  ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
 };
 
 /// A sum or difference of named signals, see doc/study.md.
@@ -28,9 +29,11 @@ struct SignalDescription {
 
 /// Splits `a/position/x - b/position/x` into terms. Names are not checked here; see check_signal().
 /// @throws InputError if the text does not have the form of a signal.
-SignalDescription parse_signal(const std::string& text, const SourceLocation& where, const std::string& element);
+SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
+                               const std::string& element);
 
-/// A signal whose extreme values within an interval of time count: in a constraint (`path:`, `final:`) or in the objective
+/// A signal whose extreme values within an interval of time count: in a constraint (`path:`,
+/// `final:`) or in the objective
 /// (`objective.peak`); theory (21a).
 struct WatchedSignal {
   enum class Role {
@@ -41,19 +44,22 @@ struct WatchedSignal {
 
   Role role = Role::kPath;
   SignalDescription signal;
-  ReferenceDescription reference;        ///< 0 unless given
-  std::optional<Quantity> lower, upper;  ///< of kPath and kFinal, at least one of them; in the unit of the signal
-  std::optional<double> tolerance;       ///< violation of a bound that counts as met, positive; empty: from the range of the signal
-  double weight = 1.0;                   ///< of kPeak, positive
-  double after = 0.0, before = 0.0;      ///< the interval [s]; for kFinal both are the duration
-  std::string element;                   ///< its place in the study, for messages: `path[0]`
+  ReferenceDescription reference;  ///< 0 unless given
+  std::optional<Quantity> lower,
+      upper;  ///< of kPath and kFinal, at least one of them; in the unit of the signal
+  std::optional<double> tolerance;   ///< violation of a bound that counts as met, positive; empty:
+                                     ///< from the range of the signal
+  double weight = 1.0;               ///< of kPeak, positive
+  double after = 0.0, before = 0.0;  ///< the interval [s]; for kFinal both are the duration
+  std::string element;               ///< its place in the study, for messages: `path[0]`
   SourceLocation where;
 };
 
 /// Whether a watched signal must have one value: `final:` with equal bounds, both constant.
 bool is_equality(const WatchedSignal& watched);
 
-/// Checks the order of the bounds at the start of a search: lower < upper, or lower <= upper for kFinal. @param parameters all named ones.
+/// Checks the order of the bounds at the start of a search: lower < upper, or lower <= upper for
+/// kFinal. @param parameters all named ones.
 /// @throws InputError
 void require_ordered_bounds(const WatchedSignal& watched, const std::vector<double>& parameters);
 

@@ -24,7 +24,8 @@ struct ParameterConstraint {
 
 /// A study as its file describes it: the simulations and optimizations of a mechanism.
 struct Study : MotionStudy {
-  // Defined in one file: the members of all lists would else be compiled wherever one is copied or destroyed.
+  // Defined in one file: the members of all lists would else be compiled wherever one is copied or
+  // destroyed.
   Study();
   Study(const Study&);
   Study(Study&&) noexcept;

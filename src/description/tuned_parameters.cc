@@ -11,16 +11,19 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kFormOfConstraint = "<expression> >= <expression> or <expression> <= <expression>";
+constexpr const char* kFormOfConstraint =
+    "<expression> >= <expression> or <expression> <= <expression>";
 
-/// Positions of the `>=` and `<=` outside parentheses. Those inside belong to conditional expressions.
+/// Positions of the `>=` and `<=` outside parentheses. Those inside belong to conditional
+/// expressions.
 std::vector<std::size_t> find_operators(const std::string& text) {
   std::vector<std::size_t> positions;
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '(') ++depth;
     if (text[i] == ')') --depth;
-    const bool is_operator = (text[i] == '<' || text[i] == '>') && i + 1 < text.size() && text[i + 1] == '=';
+    const bool is_operator =
+        (text[i] == '<' || text[i] == '>') && i + 1 < text.size() && text[i + 1] == '=';
     if (is_operator && depth == 0) positions.push_back(i);
   }
   return positions;
@@ -28,10 +31,12 @@ std::vector<std::size_t> find_operators(const std::string& text) {
 
 }  // namespace
 
-ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names, const SourceLocation& where,
-                                     const std::string& element) {
+ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names,
+                                     const SourceLocation& where, const std::string& element) {
   const std::vector<std::size_t> operators = find_operators(text);
-  if (operators.size() != 1) throw InputError({where, element, "a constraint needs exactly one >= or <=", text, kFormOfConstraint});
+  if (operators.size() != 1)
+    throw InputError(
+        {where, element, "a constraint needs exactly one >= or <=", text, kFormOfConstraint});
   const std::string left = text.substr(0, operators[0]);
   const std::string right = text.substr(operators[0] + 2);
   try {
@@ -42,18 +47,24 @@ ParameterConstraint parse_constraint(const std::string& text, const std::vector<
   }
 }
 
-ParameterConstraint make_constraint(const std::string& text, const std::string& less, const std::string& more,
-                                    const std::vector<std::string>& names, const SourceLocation& where, const std::string& element) {
-  // Check each side by itself: an empty or unbalanced side could still give a valid expression together with the other side.
+ParameterConstraint make_constraint(const std::string& text, const std::string& less,
+                                    const std::string& more, const std::vector<std::string>& names,
+                                    const SourceLocation& where, const std::string& element) {
+  // Check each side by itself: an empty or unbalanced side could still give a valid expression
+  // together with the other side.
   for (const std::string& side : {less, more}) static_cast<void>(Expression(side, names));
   auto margin = std::make_shared<const Expression>("(" + more + ") - (" + less + ")", names);
-  if (margin->dependencies().empty()) throw std::invalid_argument("no parameter appears in the constraint");
+  if (margin->dependencies().empty())
+    throw std::invalid_argument("no parameter appears in the constraint");
   return {text, std::move(margin), where, element};
 }
 
 bool has_objective(const MotionStudy& study) {
-  const auto is_peak = [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; };
-  return !study.integral.empty() || !study.terminal.empty() || std::any_of(study.watched.begin(), study.watched.end(), is_peak);
+  const auto is_peak = [](const WatchedSignal& watched) {
+    return watched.role == WatchedSignal::Role::kPeak;
+  };
+  return !study.integral.empty() || !study.terminal.empty() ||
+         std::any_of(study.watched.begin(), study.watched.end(), is_peak);
 }
 
 std::vector<double> start_parameters(const MotionStudy& study) {
@@ -69,15 +80,18 @@ std::vector<double> parameters_at(const MotionStudy& study, const Eigen::VectorX
   return values;
 }
 
-void parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho, std::vector<double>* values) {
+void parameters_at(const MotionStudy& study, const Eigen::VectorXd& rho,
+                   std::vector<double>* values) {
   values->clear();
   for (const Parameter& parameter : study.parameters) values->push_back(parameter.value);
-  for (std::size_t k = 0; k < study.tuned.size(); ++k) (*values)[to_index(study.tuned[k])] = rho[to_signed(k)];
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    (*values)[to_index(study.tuned[k])] = rho[to_signed(k)];
 }
 
 Eigen::VectorXd start_of(const MotionStudy& study) {
   Eigen::VectorXd rho(to_signed(study.tuned.size()));
-  for (std::size_t k = 0; k < study.tuned.size(); ++k) rho[to_signed(k)] = study.parameters[to_index(study.tuned[k])].value;
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    rho[to_signed(k)] = study.parameters[to_index(study.tuned[k])].value;
   return rho;
 }
 
@@ -85,34 +99,45 @@ const ControllerDescription* find_rounded(const Study& study) {
   for (const ControllerDescription& controller : study.controllers)
     if (controller.realization.quantization > 0.0) return &controller;
   for (const RunDescription& run : study.ensemble.runs)
-    if (const ControllerDescription* controller = run.study ? find_rounded(*run.study) : nullptr) return controller;
+    if (const ControllerDescription* controller = run.study ? find_rounded(*run.study) : nullptr)
+      return controller;
   return nullptr;
 }
 
 void require_differentiable(const Study& study) {
   if (const ControllerDescription* rounded = find_rounded(study))
     throw InputError({rounded->where, "controllers." + rounded->name + ".quantization",
-                      "a measurement that is rounded has no derivative: it can be simulated, but neither differentiated nor optimized",
+                      "a measurement that is rounded has no derivative: it can be simulated, but "
+                      "neither differentiated nor optimized",
                       to_decimal(rounded->realization.quantization), "no quantization, or 0"});
 }
 
 void require_tuned(const Study& study) {
   require_differentiable(study);
   if (study.tuned.empty())
-    throw InputError({{study.file, 1}, "parameters", "the study tunes no parameter", "", "at least one parameter to tune"});
+    throw InputError({{study.file, 1},
+                      "parameters",
+                      "the study tunes no parameter",
+                      "",
+                      "at least one parameter to tune"});
 }
 
-std::string range_of(const Parameter& parameter) { return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"; }
+std::string range_of(const Parameter& parameter) {
+  return "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]";
+}
 
-InputError tuned_error(const SourceLocation& where, const std::string& element, const std::string& name) {
-  return InputError({where, element, "this parameter is tuned, so its value is the search's", name, "a parameter that is not tuned"});
+InputError tuned_error(const SourceLocation& where, const std::string& element,
+                       const std::string& name) {
+  return InputError({where, element, "this parameter is tuned, so its value is the search's", name,
+                     "a parameter that is not tuned"});
 }
 
 std::optional<InputFault> find_missing_bounds(const Parameter& parameter) {
   if (std::isfinite(parameter.lower) && std::isfinite(parameter.upper)) return std::nullopt;
   return InputFault{parameter.where, "parameter " + parameter.name,
-                    "multistart needs finite bounds of all tuned parameters, and this one has " + range_of(parameter), "",
-                    "lower and upper, both given"};
+                    "multistart needs finite bounds of all tuned parameters, and this one has " +
+                        range_of(parameter),
+                    "", "lower and upper, both given"};
 }
 
 std::vector<std::string> tuned_names(const MotionStudy& study) {

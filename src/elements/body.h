@@ -7,30 +7,37 @@
 
 namespace codesign {
 
-// The rows of one free body: inertia, theory (9), gravity, the loads that other elements added to the workspace, theory (7), and the
-// constraint row (p^T p - 1)/2 = 0 with its multiplier.
+// The rows of one free body: inertia, theory (9), gravity, the loads that other elements added to
+// the workspace, theory (7), and the constraint row (p^T p - 1)/2 = 0 with its multiplier.
 
-/// Inertia forces of (9), on the left of G: m r'' on the rows of r [N], and 4 G^T J G p'' + 8 G'^T J G p' on the rows of p [N m].
+/// Inertia forces of (9), on the left of G: m r'' on the rows of r [N], and 4 G^T J G p'' + 8 G'^T
+/// J G p' on the rows of p [N m].
 template <class T>
-void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vector3<T>* on_r, Vector4<T>* on_p) {
-  const Vector3<T> y = 4.0 * (body.J * body_rate(k.p, k.pdd)), w = 8.0 * (body.J * body_rate(k.p, k.pd));
+void inertia_force(const BodyConstants<T>& body, const BodyKinematics<T>& k, Vector3<T>* on_r,
+                   Vector4<T>* on_p) {
+  const Vector3<T> y = 4.0 * (body.J * body_rate(k.p, k.pdd)),
+                   w = 8.0 * (body.J * body_rate(k.p, k.pd));
   *on_r = body.mass * k.rdd;
   *on_p = body_rate_transposed(k.p, y) + body_rate_transposed(k.pd, w);
 }
 
-/// Adds m (r'' - g) + f to the rows of r [N] and 4 G^T J G p'' + 8 G'^T J G p' + K(W) p + lambda p to the rows of p [N m], theory (7), (9).
-/// Does nothing for a body of the forest. Sets the body's norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace`
-/// before.
+/// Adds m (r'' - g) + f to the rows of r [N] and 4 G^T J G p'' + 8 G'^T J G p' + K(W) p + lambda p
+/// to the rows of p [N m], theory (7), (9). Does nothing for a body of the forest. Sets the body's
+/// norm row to p^T p'' + p'^T p' [1/s^2]. All loads on bodies must be in `workspace` before.
 template <class T>
-void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t b, VectorX<T>* G) {
+void body_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t b,
+                   VectorX<T>* G) {
   const BodyKinematics<T>& k = view.kinematics[b];
   if (!view.layout.is_free(static_cast<int>(b))) return;
-  const int c = view.layout.column(static_cast<int>(b)), norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
+  const int c = view.layout.column(static_cast<int>(b)),
+            norm = view.layout.lambda_column(view.layout.norm_row(static_cast<int>(b)));
   Vector3<T> on_r;
   Vector4<T> on_p;
   inertia_force(view.design.constants.bodies[b], k, &on_r, &on_p);
-  G->template segment<3>(c) += on_r - view.design.constants.bodies[b].mass * view.design.gravity + workspace->loads[b].force;
-  G->template segment<4>(c + 3) += on_p + rotation_hessian_product(workspace->loads[b].W, k.p) + view.state->z[norm] * k.p;
+  G->template segment<3>(c) +=
+      on_r - view.design.constants.bodies[b].mass * view.design.gravity + workspace->loads[b].force;
+  G->template segment<4>(c + 3) +=
+      on_p + rotation_hessian_product(workspace->loads[b].W, k.p) + view.state->z[norm] * k.p;
   T sum(0.0);
   for (int e = 0; e < 4; ++e) sum += k.p[e] * k.pdd[e] + k.pd[e] * k.pd[e];
   (*G)[norm] = sum;
@@ -50,8 +57,9 @@ void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Ph
   (*Phi_rate)[view.layout.norm_row(b)] = rate;
 }
 
-// Rotors of actuators, theory (9a): the inertia forces of their spin, which is not part of the inertia of the bodies that carry them. The
-// carrier is the body that carries the rotor; on the ground it contributes nothing.
+// Rotors of actuators, theory (9a): the inertia forces of their spin, which is not part of the
+// inertia of the bodies that carry them. The carrier is the body that carries the rotor; on the
+// ground it contributes nothing.
 
 /// The rotor's constants and the motion of its carrier about the rotor's axis u; theory (9a).
 template <class T>
@@ -92,19 +100,25 @@ T rotor_energy(const StateView<T>& view, const Rotor& rotor) {
   return m.coupling * rate * (T(0.5) * m.ratio * rate + m.carrier_rate);
 }
 
-/// L = n J_r (n theta'' + u . omega_c'), the load of the rotor along the joint's coordinate [N or N m], positive against it.
+/// L = n J_r (n theta'' + u . omega_c'), the load of the rotor along the joint's coordinate [N or N
+/// m], positive against it.
 template <class T>
 T rotor_load(const StateView<T>& view, const Rotor& rotor) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
   return m.coupling *
-         (m.ratio * view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration).acceleration + m.carrier_acceleration);
+         (m.ratio * view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration)
+                        .acceleration +
+          m.carrier_acceleration);
 }
 
-/// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to the rows of the carrier's p.
+/// Adds J^T L to the rows of motion, and 2 G^T n J_r (theta'' u + theta' omega_c x u) to the rows
+/// of the carrier's p.
 template <class T>
-void rotor_residual(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor, VectorX<T>* G) {
+void rotor_residual(const StateView<T>& view, Workspace<T>* workspace, const Rotor& rotor,
+                    VectorX<T>* G) {
   const RotorMotion<T> m = rotor_motion(view, rotor);
-  const CoordinateMotion<T>& joint = view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration);
+  const CoordinateMotion<T>& joint =
+      view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration);
   const T load = rotor_load(view, rotor);
   add_coordinate_load(view, workspace, rotor.pair, rotor.element, joint.J, load, G);
   if (rotor.body < 0) return;
@@ -113,7 +127,8 @@ void rotor_residual(const StateView<T>& view, Workspace<T>* workspace, const Rot
     workspace->own[to_index(rotor.body)].moment += moment;
     return;
   }
-  G->template segment<4>(view.layout.column(rotor.body) + 3) += T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
+  G->template segment<4>(view.layout.column(rotor.body) + 3) +=
+      T(2.0) * body_rate_transposed(view.body(rotor.body).p, moment);
 }
 
 }  // namespace codesign

@@ -18,18 +18,22 @@ template <class T>
 struct FrictionState {
   T velocity{0.0};  ///< rate of the coordinate, child relative to parent [m/s or rad/s]
   T normal{0.0};    ///< normal force N [N]; zero for `<dynamics friction>`
-  T load{0.0};      ///< L, positive against the motion, viscous part included [N or N m]; the child feels -L
+  T load{0.0};      ///< L, positive against the motion, viscous part included [N or N m]; the child
+                    ///< feels -L
 };
 
-/// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory (13a). Vectors have one entry per slip
-/// coordinate; entries beyond `size` are zero.
+/// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory
+/// (13a). Vectors have one entry per slip coordinate; entries beyond `size` are zero.
 template <class T>
 struct ContactFriction {
-  std::size_t size = 0;      ///< number of slip coordinates: 2 for a table, 3 for planar and spherical joints
-  std::size_t reported = 0;  ///< the first ones make up the reported speed and friction: two slides of a plane, all three of a ball
+  std::size_t size =
+      0;  ///< number of slip coordinates: 2 for a table, 3 for planar and spherical joints
+  std::size_t reported = 0;  ///< the first ones make up the reported speed and friction: two slides
+                             ///< of a plane, all three of a ball
   std::array<CoordinateMotion<T>, 3> motion;
-  T normal{0.0};                         ///< N [N], theory (12)
-  Vector3<T> load = Vector3<T>::Zero();  ///< L, positive against the rate, viscous part included [N or N m]
+  T normal{0.0};  ///< N [N], theory (12)
+  Vector3<T> load =
+      Vector3<T>::Zero();  ///< L, positive against the rate, viscous part included [N or N m]
 
   /// Speed of the joint's point [m/s], or |omega| of a ball [rad/s].
   T speed() const {
@@ -51,8 +55,8 @@ struct ContactFriction {
   }
 };
 
-/// The slip of a contact in one to three coordinates: their motion, their arms (1 for a slide, a radius [m] for a turn), and u, each rate
-/// times its arm [m/s].
+/// The slip of a contact in one to three coordinates: their motion, their arms (1 for a slide, a
+/// radius [m] for a turn), and u, each rate times its arm [m/s].
 template <class T>
 struct ContactSlip {
   std::array<CoordinateMotion<T>, 3> motion{};
@@ -61,27 +65,34 @@ struct ContactSlip {
 
 /// The slip of a pair with isotropic friction. @param i, j motion of its two bodies.
 template <class T>
-ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i,
+                            const BodyKinematics<T>& j) {
   ContactSlip<T> slip;
   for (std::size_t k = 0; k < pair.slip.coordinates.size(); ++k) {
     const auto e = to_signed(k);
-    slip.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, CoordinateDetail::kRate);
+    slip.motion[k] =
+        coordinate_motion(pair, pair.slip.coordinates[k], i, j, CoordinateDetail::kRate);
     slip.arm[e] = pair.slip.arm[k];
     slip.u[e] = slip.arm[e] * slip.motion[k].rate;
   }
   return slip;
 }
 
-// The rows of the states of a friction law, theory (13e), (13f): sigma - zeta' = 0 [1/s] for each slip coordinate, then sigma - s_dw' = 0
-// if the law has a dwell state. A BristleContact with element -1 slips isotropically; else it belongs to one joint coordinate.
+// The rows of the states of a friction law, theory (13e), (13f): sigma - zeta' = 0 [1/s] for each
+// slip coordinate, then sigma - s_dw' = 0 if the law has a dwell state. A BristleContact with
+// element -1 slips isotropically; else it belongs to one joint coordinate.
 
-/// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the pin radius for a turn, 1 for a slide).
+/// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the
+/// pin radius for a turn, 1 for a slide).
 template <class T>
 ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact) {
   const auto p = to_index(contact.pair);
   const Pair& pair = view.system.topology().pairs[p];
-  if (contact.element < 0) return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i), view.body(pair.body_j));
-  const bool turning = view.design.constants.pairs[p].coordinates[to_index(contact.element)].kind == CoordinateConstants<T>::Kind::kTurn;
+  if (contact.element < 0)
+    return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i),
+                        view.body(pair.body_j));
+  const bool turning = view.design.constants.pairs[p].coordinates[to_index(contact.element)].kind ==
+                       CoordinateConstants<T>::Kind::kTurn;
   ContactSlip<T> slip;
   slip.motion[0] = view.coordinate(contact.pair, contact.element, CoordinateDetail::kRate);
   slip.arm[0] = turning ? view.design.constants.pairs[p].friction.pin_radius : T(1.0);
@@ -89,16 +100,18 @@ ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& cont
   return slip;
 }
 
-/// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are given in the axes of the slip. Body i
-/// carries these axes for slides, hinges and planes. For a ball they are the axes of the ground, so that its deflections must be turned
-/// with the socket, body i.
+/// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are
+/// given in the axes of the slip. Body i carries these axes for slides, hinges and planes. For a
+/// ball they are the axes of the ground, so that its deflections must be turned with the socket,
+/// body i.
 template <class T>
 int bristle_carrier(const StateView<T>& view, const BristleContact& contact) {
   const Pair& pair = view.pair(contact.pair);
   return contact.element < 0 && pair.kind == PairKind::kSpherical ? pair.body_i : -1;
 }
 
-/// omega_i x zeta [1/s], the part of zeta' by which a ball's deflections turn with the socket; zero for all other contacts.
+/// omega_i x zeta [1/s], the part of zeta' by which a ball's deflections turn with the socket; zero
+/// for all other contacts.
 template <class T>
 Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact) {
   const int carrier = bristle_carrier(view, contact);
@@ -111,18 +124,23 @@ Vector3<T> bristle_turn(const StateView<T>& view, const BristleContact& contact)
 template <class T>
 void bristle_residual(const StateView<T>& view, const BristleContact& contact, VectorX<T>* G) {
   const ContactSlip<T> slip = bristle_slip(view, contact);
-  const Bristle<T> law = bristle_law<T>(contact, slip.u, view.state->s, view.constants(contact.pair).friction);
+  const Bristle<T> law =
+      bristle_law<T>(contact, slip.u, view.state->s, view.constants(contact.pair).friction);
   const Vector3<T> rate = law.rate + bristle_turn(view, contact);
-  const auto set = [&](int s, const T& value) { (*G)[view.layout.state_column(s)] = view.state->z[view.layout.state_column(s)] - value; };
+  const auto set = [&](int s, const T& value) {
+    (*G)[view.layout.state_column(s)] = view.state->z[view.layout.state_column(s)] - value;
+  };
   for (int k = 0; k < contact.size; ++k) set(contact.first + k, rate[k]);
   if (contact.dwells()) set(contact.dwell_state(), law.dwell_rate);
 }
 
-// Isotropic friction of tables, planar and spherical joints, theory (13a). The loads L_k oppose the slip rates, so the rows of motion get
+// Isotropic friction of tables, planar and spherical joints, theory (13a). The loads L_k oppose the
+// slip rates, so the rows of motion get
 // + sum of J_k^T L_k over the slip coordinates k.
 
-/// Slip, normal force and loads of a pair among System::contacts() at the loaded state: L = arm sigma N u plus the viscous part, with
-/// sigma = S(|u|)/|u|, or L = arm mu N for a law with states, theory (13e), (13f).
+/// Slip, normal force and loads of a pair among System::contacts() at the loaded state: L = arm
+/// sigma N u plus the viscous part, with sigma = S(|u|)/|u|, or L = arm mu N for a law with states,
+/// theory (13e), (13f).
 template <class T>
 ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
   const Pair& p = view.system.topology().pairs[to_index(pair)];
@@ -134,11 +152,14 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
   contact.normal = normal_force(view, pair);
   contact.size = constants.slip.coordinates.size();
   contact.reported = to_index(p.kind->slips_of_the_point);
-  const auto sigma = [&](const T& square) { return per_speed<T>(view.system.friction_law(pair), square, f); };
+  const auto sigma = [&](const T& square) {
+    return per_speed<T>(view.system.friction_law(pair), square, f);
+  };
   // The friction per slip direction, without the arm [N].
   const BristleContact* bristle = view.system.bristle(pair, -1);
-  const Vector3<T> load = bristle ? Vector3<T>(contact.normal * bristle_law<T>(*bristle, slip.u, view.state->s, f).mu)
-                                  : isotropic_friction<T, 3>(slip.u, contact.normal, sigma);
+  const Vector3<T> load =
+      bristle ? Vector3<T>(contact.normal * bristle_law<T>(*bristle, slip.u, view.state->s, f).mu)
+              : isotropic_friction<T, 3>(slip.u, contact.normal, sigma);
   for (std::size_t k = 0; k < contact.size; ++k) {
     const auto e = to_signed(k);
     contact.load[e] = slip.arm[e] * load[e] + constants.slip.viscous[k] * contact.motion[k].rate;
@@ -150,7 +171,8 @@ ContactFriction<T> contact_at(const StateView<T>& view, int pair) {
 template <class T>
 void contact_residual(const StateView<T>& view, Workspace<T>* workspace, int pair, VectorX<T>* G) {
   const ContactFriction<T> c = contact_at(view, pair);
-  for (std::size_t k = 0; k < c.size; ++k) add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[to_signed(k)]), G);
+  for (std::size_t k = 0; k < c.size; ++k)
+    add_slip_load(view, workspace, pair, c.motion[k].J, T(c.load[to_signed(k)]), G);
 }
 
 }  // namespace codesign

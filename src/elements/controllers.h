@@ -10,21 +10,25 @@ namespace codesign {
 
 // The control laws, theory (C1)-(C8) and (50).
 
-// Defined in elements/signals.h. Declared here because controllers read signals and signals read controllers.
+// Defined in elements/signals.h. Declared here because controllers read signals and signals read
+// controllers.
 template <class T>
 T signal_value(const StateView<T>& view, const Signal& signal);
 
-/// The error e = r - x of a controller, setpoint minus input, in the unit of its input; zero for laws without an error.
+/// The error e = r - x of a controller, setpoint minus input, in the unit of its input; zero for
+/// laws without an error.
 template <class T>
 T controller_error(const StateView<T>& view, int controller) {
   if (!view.controller(controller).kind->has_error()) return T(0.0);
-  return view.controller_numbers(controller).setpoint.at(view.state->t).value - signal_value(view, view.controller(controller).input);
+  return view.controller_numbers(controller).setpoint.at(view.state->t).value -
+         signal_value(view, view.controller(controller).input);
 }
 
 /// e' = r' - x' of (C3); x' is the signal's exact derivative.
 template <class T>
 T controller_error_rate(const StateView<T>& view, int controller) {
-  return view.controller_numbers(controller).setpoint.at(view.state->t).rate - signal_value(view, view.controller(controller).input_rate);
+  return view.controller_numbers(controller).setpoint.at(view.state->t).rate -
+         signal_value(view, view.controller(controller).input_rate);
 }
 
 /// How a robot runs a controller.
@@ -37,10 +41,12 @@ const ControlRealization& realization_of(const StateView<T>& view, int controlle
 template <class T>
 T filtered_error_rate(const StateView<T>& view, int controller) {
   const T per_tau = T(1.0) / view.controller_numbers(controller).derivative_filter;
-  return per_tau * (controller_error(view, controller) - view.state->s[view.controller(controller).states.filter]);
+  return per_tau * (controller_error(view, controller) -
+                    view.state->s[view.controller(controller).states.filter]);
 }
 
-/// Gains, error, integral and rate of (C3), (C5), (C6). i_clamp saturates k_i s if it bounds this term and not the integral itself, (50).
+/// Gains, error, integral and rate of (C3), (C5), (C6). i_clamp saturates k_i s if it bounds this
+/// term and not the integral itself, (50).
 template <class T>
 ControlValues<T> error_values(const StateView<T>& view, int controller) {
   const Controller& resolved = view.controller(controller);
@@ -60,15 +66,18 @@ ControlValues<T> error_values(const StateView<T>& view, int controller) {
   return x;
 }
 
-/// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller demands of its joint.
+/// alpha_j = r'' + k_d e' + k_p e of (C6), the acceleration that a computed-torque controller
+/// demands of its joint.
 template <class T>
 T wanted_acceleration(const StateView<T>& view, int controller) {
-  const T acceleration = view.controller_numbers(controller).setpoint.at(view.state->t).acceleration;
+  const T acceleration =
+      view.controller_numbers(controller).setpoint.at(view.state->t).acceleration;
   return acceleration + error_values(view, controller).pid();
 }
 
-/// u_k = tau_k(alpha) of (C6). The controllers of this kind form one law: alpha holds the accelerations that all of them demand, and zero
-/// for joints without a demand. Motions are those of the state; the turns of cut pairs follow from the axes of their bodies.
+/// u_k = tau_k(alpha) of (C6). The controllers of this kind form one law: alpha holds the
+/// accelerations that all of them demand, and zero for joints without a demand. Motions are those
+/// of the state; the turns of cut pairs follow from the axes of their bodies.
 template <class T>
 T computed_torque(const StateView<T>& view, int controller) {
   const std::vector<DrivenTree::Node>& nodes = view.controller(controller).tree.nodes;
@@ -77,7 +86,8 @@ T computed_torque(const StateView<T>& view, int controller) {
     const DrivenTree::Node& node = nodes[k];
     const Matrix3<T>& A_i = view.body(view.pair(node.pair).body_i).A;
     DrivenJoint<T>& joint = dynamics.joint(k);
-    joint.pose = view.layout.is_cut(node.pair) ? joint_pose_of(A_i, view.body(node.body).A) : view.motion.poses[to_index(node.body)];
+    joint.pose = view.layout.is_cut(node.pair) ? joint_pose_of(A_i, view.body(node.body).A)
+                                               : view.motion.poses[to_index(node.body)];
     if (node.slides) joint.position = view.coordinate_value(node.pair, 0);
     joint.rate = view.coordinate(node.pair, 0, CoordinateDetail::kRate).rate;
     joint.acceleration = node.controller < 0 ? T(0.0) : wanted_acceleration(view, node.controller);
@@ -91,7 +101,8 @@ T state_feedback(const StateView<T>& view, int controller) {
   const ControllerConstants<T>& k = view.controller_numbers(controller);
   T output = k.feedforward.at(view.state->t).value;
   for (std::size_t term = 0; term < k.gains.size(); ++term)
-    output += k.gains[term] * (k.references[term].at(view.state->t).value - signal_value(view, view.controller(controller).feedback[term]));
+    output += k.gains[term] * (k.references[term].at(view.state->t).value -
+                               signal_value(view, view.controller(controller).feedback[term]));
   return output;
 }
 
@@ -102,10 +113,12 @@ ControlValues<T> control_values(const StateView<T>& view, int controller) {
   ControlValues<T> x;
   if (law.has_error() && law.load != ControlLoad::kDemanded) x = error_values(view, controller);
   if (law.load == ControlLoad::kAtRest)
-    x.load = gravity_load(view.controller(controller).tree, view.design.constants, view.kinematics, view.design.gravity);
+    x.load = gravity_load(view.controller(controller).tree, view.design.constants, view.kinematics,
+                          view.design.gravity);
   if (law.load == ControlLoad::kDemanded) x.load = computed_torque(view, controller);
   if (law.input == ControlInput::kFeedback) x.given = state_feedback(view, controller);
-  if (law.input == ControlInput::kShape) x.given = view.controller_numbers(controller).shape.at(view.state->t).value;
+  if (law.input == ControlInput::kShape)
+    x.given = view.controller_numbers(controller).shape.at(view.state->t).value;
   return x;
 }
 
@@ -115,14 +128,17 @@ T law_output(const StateView<T>& view, int controller) {
   return view.controller(controller).kind->output.template of<T>(control_values(view, controller));
 }
 
-/// The output u of a controller [N or N m], positive along the coordinate that it drives, before the actuator's limit (13c): of a sampled
-/// controller the held output, else the output of the law within output_limit, (50).
+/// The output u of a controller [N or N m], positive along the coordinate that it drives, before
+/// the actuator's limit (13c): of a sampled controller the held output, else the output of the law
+/// within output_limit, (50).
 template <class T>
 T controller_output(const StateView<T>& view, int controller) {
   const int held = view.controller(controller).states.held;
   if (held >= 0) return view.state->s[held];
   const T output = law_output(view, controller);
-  return realization_of(view, controller).output_limit ? saturate(output, view.controller_numbers(controller).output_limit).value : output;
+  return realization_of(view, controller).output_limit
+             ? saturate(output, view.controller_numbers(controller).output_limit).value
+             : output;
 }
 
 /// The effort of the drive: the effort after its lag, (53), else the output itself.
@@ -132,8 +148,8 @@ T drive_effort(const StateView<T>& view, int controller) {
   return lag < 0 ? controller_output(view, controller) : T(view.state->s[lag]);
 }
 
-// The rows sigma - s' of the states of controllers, theory (50)-(53). The states of a sampled controller change only at its samples, so
-// that its rows are sigma = 0.
+// The rows sigma - s' of the states of controllers, theory (50)-(53). The states of a sampled
+// controller change only at its samples, so that its rows are sigma = 0.
 
 /// s' of the integral of a controller.
 template <class T>
@@ -167,7 +183,8 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
     (*G)[row] = view.state->z[row] - rate;
   };
   if (resolved.state >= 0) set(resolved.state, integral_rate(view, controller));
-  if (states.filter >= 0) set(states.filter, realization.is_sampled() ? T(0.0) : filtered_error_rate(view, controller));
+  if (states.filter >= 0)
+    set(states.filter, realization.is_sampled() ? T(0.0) : filtered_error_rate(view, controller));
   if (states.last >= 0) set(states.last, T(0.0));
   if (states.held >= 0) set(states.held, T(0.0));
   for (int k = 0; k < realization.queued(); ++k) set(states.queue + k, T(0.0));

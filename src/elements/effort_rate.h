@@ -12,7 +12,8 @@ namespace codesign {
 /// r' - x' or r'' - x'', the k-th derivative of the error of a PID, k = 1 or 2.
 template <class T>
 T error_derivative(const StateView<T>& view, int controller, int k) {
-  const ReferenceMotion<T> setpoint = view.controller_numbers(controller).setpoint.at(view.state->t);
+  const ReferenceMotion<T> setpoint =
+      view.controller_numbers(controller).setpoint.at(view.state->t);
   const Signal& signal = view.controller(controller).output_rate[to_index(k - 1)];
   return (k == 1 ? setpoint.rate : setpoint.acceleration) - signal_value(view, signal);
 }
@@ -34,19 +35,24 @@ template <class T>
 T derivative_term_rate(const StateView<T>& view, int controller) {
   const ControllerConstants<T>& k = view.controller_numbers(controller);
   if (view.system.study().controllers[to_index(controller)].d.is_zero()) return T(0.0);
-  if (view.controller(controller).states.filter < 0) return k.pid.d * error_derivative(view, controller, 2);
-  return k.pid.d / k.derivative_filter * (error_derivative(view, controller, 1) - filtered_error_rate(view, controller));
+  if (view.controller(controller).states.filter < 0)
+    return k.pid.d * error_derivative(view, controller, 2);
+  return k.pid.d / k.derivative_filter *
+         (error_derivative(view, controller, 1) - filtered_error_rate(view, controller));
 }
 
-/// The rate of the output by the law of a continuous controller; Controller::has_output_rate must be true.
+/// The rate of the output by the law of a continuous controller; Controller::has_output_rate must
+/// be true.
 template <class T>
 T law_rate(const StateView<T>& view, int controller) {
   const ControllerConstants<T>& k = view.controller_numbers(controller);
   if (view.controller(controller).kind->is_pid)
-    return k.pid.p * error_derivative(view, controller, 1) + integral_term_rate(view, controller) + derivative_term_rate(view, controller);
+    return k.pid.p * error_derivative(view, controller, 1) + integral_term_rate(view, controller) +
+           derivative_term_rate(view, controller);
   T sum = k.feedforward.at(view.state->t).rate;
   for (std::size_t term = 0; term < k.gains.size(); ++term)
-    sum += k.gains[term] * (k.references[term].at(view.state->t).rate - signal_value(view, view.controller(controller).output_rate[term]));
+    sum += k.gains[term] * (k.references[term].at(view.state->t).rate -
+                            signal_value(view, view.controller(controller).output_rate[term]));
   return sum;
 }
 
@@ -56,7 +62,9 @@ T drive_effort_rate(const StateView<T>& view, int controller) {
   if (view.controller(controller).states.lag >= 0) return lag_rate(view, controller);
   const T rate = law_rate(view, controller);
   if (!realization_of(view, controller).output_limit) return rate;
-  return saturate(law_output(view, controller), view.controller_numbers(controller).output_limit).slope * rate;
+  return saturate(law_output(view, controller), view.controller_numbers(controller).output_limit)
+             .slope *
+         rate;
 }
 
 /// The rate of applied_effort() [N m/s or N/s].

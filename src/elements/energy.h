@@ -11,17 +11,19 @@
 
 namespace codesign {
 
-/// The kinds of power that go into a mechanism, doc/theory.md (14c); their sum is the rate of the mechanical energy. Gravity, springs and
-/// the elastic part of stops are not among them, since their work is in the potential energy.
+/// The kinds of power that go into a mechanism, doc/theory.md (14c); their sum is the rate of the
+/// mechanical energy. Gravity, springs and the elastic part of stops are not among them, since
+/// their work is in the potential energy.
 enum class PowerKind {
   kFriction,  ///< `<codesign:friction>` with its viscous part, and `<dynamics friction>`
-  kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the dissipation of stops
+  kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the
+              ///< dissipation of stops
   kActuator,  ///< controllers, as applied within the effort limits
   kLoad       ///< the study's constant efforts and wrenches
 };
 
-// The powers [W] of theory (14c), positive where energy goes into the mechanism. A load L opposes the coordinate, so its power is -L
-// theta'.
+// The powers [W] of theory (14c), positive where energy goes into the mechanism. A load L opposes
+// the coordinate, so its power is -L theta'.
 
 /// The part of a coordinate's load L that belongs to one kind of power.
 template <class T>
@@ -48,8 +50,8 @@ T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, 
 /// The power of one kind along one joint coordinate; zero if no load of that kind acts there.
 template <class T>
 T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
-  const bool acts = kind == PowerKind::kFriction   ? load.reaction_friction || load.constant_friction
-                    : kind == PowerKind::kDamping  ? load.passive || load.stop
+  const bool acts = kind == PowerKind::kFriction  ? load.reaction_friction || load.constant_friction
+                    : kind == PowerKind::kDamping ? load.passive || load.stop
                     : kind == PowerKind::kActuator ? !load.controllers.empty()
                                                    : !load.constant.empty();
   if (!acts) return T(0.0);
@@ -65,29 +67,36 @@ T total_power(const StateView<T>& view, PowerKind kind) {
   if (kind == PowerKind::kFriction)
     for (int pair : view.system.contacts()) sum -= contact_at(view, pair).power();
   if (kind == PowerKind::kDamping)
-    for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) sum += spring_power(view, k);
+    for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
+      sum += spring_power(view, k);
   if (kind == PowerKind::kLoad)
-    for (std::size_t k = 0; k < view.system.link_loads().size(); ++k) sum += link_load_power(view, k);
+    for (std::size_t k = 0; k < view.system.link_loads().size(); ++k)
+      sum += link_load_power(view, k);
   return sum;
 }
 
-/// The power of one kind in one joint: a pair and the index in its chain. Spring-dampers and loads on links belong to no joint.
+/// The power of one kind in one joint: a pair and the index in its chain. Spring-dampers and loads
+/// on links belong to no joint.
 template <class T>
 T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
   const Pair& p = view.pair(pair);
   const auto elements = static_cast<int>(p.chain.size());
   T sum(0.0);
-  // A cylindrical loop is one joint with two coordinates: the index of the second one is beyond the chain.
+  // A cylindrical loop is one joint with two coordinates: the index of the second one is beyond the
+  // chain.
   for (const JointLoad& load : view.system.loads())
-    if (load.pair == pair && (load.element == element || load.element >= elements)) sum += load_power(view, kind, load);
+    if (load.pair == pair && (load.element == element || load.element >= elements))
+      sum += load_power(view, kind, load);
   const bool holds_friction = p.chain[to_index(element)].joint == p.friction_joint;
-  if (kind == PowerKind::kFriction && holds_friction && slips_isotropically(p.kind)) sum -= contact_at(view, pair).power();
+  if (kind == PowerKind::kFriction && holds_friction && slips_isotropically(p.kind))
+    sum -= contact_at(view, pair).power();
   return sum;
 }
 
 // The mechanical energy [J], theory (14b).
 
-/// The elastic energy of the torsion spring and of the stops of one joint coordinate, k (theta - theta_0)^2/2 and the integral of k delta.
+/// The elastic energy of the torsion spring and of the stops of one joint coordinate, k (theta -
+/// theta_0)^2/2 and the integral of k delta.
 template <class T>
 T joint_energy(const StateView<T>& view, const JointLoad& load) {
   const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
@@ -100,15 +109,17 @@ T joint_energy(const StateView<T>& view, const JointLoad& load) {
   if (load.stop) {
     const LimitOptions& stop = view.system.study().limits;
     const T below = d.lower - position, above = position - d.upper;
-    energy += stop_energy(above, stop.stiffness, stop.width) + stop_energy(below, stop.stiffness, stop.width);
+    energy += stop_energy(above, stop.stiffness, stop.width) +
+              stop_energy(below, stop.stiffness, stop.width);
   }
   return energy;
 }
 
-/// With a forest: kinetic energy of the bodies, potential energy of gravity [J], zero if every centre of mass is at the ground's origin,
-/// and the power of all forces but gravity [W], W' of (17a), if the motion satisfies the constraints. The velocity terms of (9) have no
-/// power.
-/// @param bodies resized; per body the centre of mass in ground axes [m], its velocity [m/s] and the angular velocity [rad/s] in body axes.
+/// With a forest: kinetic energy of the bodies, potential energy of gravity [J], zero if every
+/// centre of mass is at the ground's origin, and the power of all forces but gravity [W], W' of
+/// (17a), if the motion satisfies the constraints. The velocity terms of (9) have no power.
+/// @param bodies resized; per body the centre of mass in ground axes [m], its velocity [m/s] and
+/// the angular velocity [rad/s] in body axes.
 template <class T>
 VectorX<T> body_energies(const StateView<T>& view, VectorX<T>* bodies) {
   constexpr int kPerBody = 9;
@@ -125,7 +136,8 @@ VectorX<T> body_energies(const StateView<T>& view, VectorX<T>* bodies) {
   return sums;
 }
 
-/// T of (14b): translation and rotation of all bodies, and the contribution of the spin of rotors, theory (9a).
+/// T of (14b): translation and rotation of all bodies, and the contribution of the spin of rotors,
+/// theory (9a).
 template <class T>
 T kinetic_energy(const StateView<T>& view) {
   T energy(0.0);
@@ -147,7 +159,8 @@ T potential_energy(const StateView<T>& view) {
     const T& mass = view.design.constants.bodies[to_index(b)].mass;
     energy -= mass * dot<T>(view.design.gravity, view.body(b).r);
   }
-  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) energy += spring_energy_at(view, k);
+  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
+    energy += spring_energy_at(view, k);
   for (const JointLoad& load : view.system.loads())
     if (load.needs_position()) energy += joint_energy(view, load);
   return energy;

@@ -13,45 +13,54 @@
 
 namespace codesign {
 
-// The wrenches that the joints of a forest transmit, and the rows of motion of their coordinates; theory (57). First everything that loads
-// bodies is evaluated, load_bodies(), then the back sweep, children before parents. Without a forest load_bodies() is everything that acts
-// on the bodies, and the back sweep does nothing.
+// The wrenches that the joints of a forest transmit, and the rows of motion of their coordinates;
+// theory (57). First everything that loads bodies is evaluated, load_bodies(), then the back sweep,
+// children before parents. Without a forest load_bodies() is everything that acts on the bodies,
+// and the back sweep does nothing.
 
-/// Adds to G and to the workspace what acts on bodies: rows and multipliers of cut pairs and couplings, spring-dampers, loads on links,
-/// inertia of free bodies, rotors, loads and contacts of cut pairs. @param G zero. @param workspace cleared.
+/// Adds to G and to the workspace what acts on bodies: rows and multipliers of cut pairs and
+/// couplings, spring-dampers, loads on links, inertia of free bodies, rotors, loads and contacts of
+/// cut pairs. @param G zero. @param workspace cleared.
 template <class T>
 void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G) {
   const System& system = view.system;
   for (std::size_t k = 0; k < view.design.rows.size(); ++k) pair_residual(view, workspace, k, G);
-  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k) add_spring_load(view, workspace, k, spring_at(view, k));
+  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
+    add_spring_load(view, workspace, k, spring_at(view, k));
   for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, workspace, k);
   for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, workspace, to_index(b), G);
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) link_load_residual(view, workspace, k, G);
+  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k)
+    link_load_residual(view, workspace, k, G);
   for (const Rotor& rotor : system.rotors()) rotor_residual(view, workspace, rotor, G);
-  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) coupling_residual(view, workspace, k, G);
+  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k)
+    coupling_residual(view, workspace, k, G);
   for (const JointLoad& load : system.loads())
     if (view.layout.is_cut(load.pair)) load_residual(view, workspace, load, G);
   for (int pair : system.contacts())
     if (view.layout.is_cut(pair)) contact_residual(view, workspace, pair, G);
 }
 
-/// The wrench that a body of the forest needs for its own motion and loads, without its children: J omega' + omega x J omega, m (r'' - g)
-/// and the loads in the workspace, which are on the left of G.
+/// The wrench that a body of the forest needs for its own motion and loads, without its children: J
+/// omega' + omega x J omega, m (r'' - g) and the loads in the workspace, which are on the left of
+/// G.
 template <class T>
 Wrench<T> own_wrench(const StateView<T>& view, const Workspace<T>& workspace, int body) {
   const auto b = to_index(body);
   const BodyConstants<T>& c = view.design.constants.bodies[b];
   const AxesMotion<T>& m = view.motion.bodies[b];
   const BodyLoad<T>& load = workspace.loads[b];
-  const Matrix3<T> U = m.A.transpose() * load.W;  // its axial vector is the sum of the s x A^T b of (7)
+  const Matrix3<T> U =
+      m.A.transpose() * load.W;  // its axial vector is the sum of the s x A^T b of (7)
   const Wrench<T> inertia = inertia_wrench(c.mass, c.J, m);
   Wrench<T> wrench = workspace.own[b];
   wrench.force += inertia.force + m.A.transpose() * load.force;
-  wrench.moment += inertia.moment + Vector3<T>(U(2, 1) - U(1, 2), U(0, 2) - U(2, 0), U(1, 0) - U(0, 1));
+  wrench.moment +=
+      inertia.moment + Vector3<T>(U(2, 1) - U(1, 2), U(0, 2) - U(2, 0), U(1, 0) - U(0, 1));
   return wrench;
 }
 
-/// The back sweep: Workspace::transmitted, the rows of motion of the pairs' coordinates, and what free bodies transmit to their children.
+/// The back sweep: Workspace::transmitted, the rows of motion of the pairs' coordinates, and what
+/// free bodies transmit to their children.
 template <class T>
 void sweep_back(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G) {
   const Layout& layout = view.layout;
@@ -63,8 +72,10 @@ void sweep_back(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G
     const PairConstants<T>& constants = view.design.constants.pairs[pair];
     transmitted[b] += own_wrench(view, *workspace, body);
     std::array<T, 6> rows;
-    const Wrench<T> below = carry_back(transmitted[b], constants, view.motion.poses[b], view.state->q.data() + c, rows.data());
-    for (std::size_t step = 0; step < constants.steps.size(); ++step) (*G)[c + static_cast<int>(step)] += rows[step];
+    const Wrench<T> below = carry_back(transmitted[b], constants, view.motion.poses[b],
+                                       view.state->q.data() + c, rows.data());
+    for (std::size_t step = 0; step < constants.steps.size(); ++step)
+      (*G)[c + static_cast<int>(step)] += rows[step];
     const int parent = view.system.topology().pairs[pair].body_i;
     if (parent >= 0) transmitted[to_index(parent)] += below;
   }
@@ -73,11 +84,13 @@ void sweep_back(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G
     const Wrench<T>& wrench = transmitted[to_index(body)];
     const int c = layout.column(body);
     G->template segment<3>(c) += view.body(body).A * wrench.force;
-    G->template segment<4>(c + 3) += T(2.0) * body_rate_transposed(view.body(body).p, wrench.moment);
+    G->template segment<4>(c + 3) +=
+        T(2.0) * body_rate_transposed(view.body(body).p, wrench.moment);
   }
 }
 
-/// Adds the loads along the coordinates of the forest's pairs, which may depend on the wrenches that the pairs transmit.
+/// Adds the loads along the coordinates of the forest's pairs, which may depend on the wrenches
+/// that the pairs transmit.
 template <class T>
 void load_coordinates(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G) {
   for (const JointLoad& load : view.system.loads())

@@ -15,19 +15,26 @@ namespace codesign {
 
 /// S(u) of a law without states, with the numbers against the axis where the law has them.
 template <class T>
-T sliding_friction(const FrictionLaw& law, bool directional, const T& u, const FrictionConstants<T>& c) {
-  const auto S = [&law](const T& v, const T& mu_s, const T& mu_d, const T& v_t) { return law.curve.of<T>(v, mu_s, mu_d, v_t); };
+T sliding_friction(const FrictionLaw& law, bool directional, const T& u,
+                   const FrictionConstants<T>& c) {
+  const auto S = [&law](const T& v, const T& mu_s, const T& mu_d, const T& v_t) {
+    return law.curve.of<T>(v, mu_s, mu_d, v_t);
+  };
   if (directional && law.directional) return directional_friction<T>(S, u, c);
   return S(u, c.mu_static, c.mu_dynamic, c.transition_velocity);
 }
 
-/// The load L of friction that depends on the reaction, along one joint coordinate [N or N m]; positive against the coordinate; theory (13)
-/// with S from (10) or (48), or mu of (13e), (13f) in its place.
-/// @param rate of the coordinate. @param state receives velocity, normal force and load, if not null.
+/// The load L of friction that depends on the reaction, along one joint coordinate [N or N m];
+/// positive against the coordinate; theory (13) with S from (10) or (48), or mu of (13e), (13f) in
+/// its place.
+/// @param rate of the coordinate. @param state receives velocity, normal force and load, if not
+/// null.
 template <class T>
-T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& rate, std::common_type_t<FrictionState<T>*> state) {
+T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& rate,
+                    std::common_type_t<FrictionState<T>*> state) {
   const FrictionConstants<T>& c = view.constants(load.pair).friction;
-  const bool turning = view.coordinate_constants(load.pair, load.element).kind == CoordinateConstants<T>::Kind::kTurn;
+  const bool turning = view.coordinate_constants(load.pair, load.element).kind ==
+                       CoordinateConstants<T>::Kind::kTurn;
   const T N = normal_force(view, load.pair);
   const T radius = turning ? c.pin_radius : T(1.0);
   const T u = radius * rate;
@@ -36,14 +43,17 @@ T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& ra
     mu = bristle_law<T>(*bristle, Vector3<T>(u, T(0.0), T(0.0)), view.state->s, c).mu[0];
   else
     mu = sliding_friction<T>(view.system.friction_law(load.pair), load.directional, u, c);
-  const T viscous = load.directional ? directional_viscous<T>(rate, radius, c) : T(c.viscous * rate);
+  const T viscous =
+      load.directional ? directional_viscous<T>(rate, radius, c) : T(c.viscous * rate);
   const T value = radius * mu * N + viscous;
   if (state) *state = {rate, N, value};
   return value;
 }
 
-// Loads along joint coordinates [N or N m], theory (13). A load L is positive against the coordinate, so that the rows of motion get
-// + J^T L; an effort (of a controller, or a constant one) is positive along the coordinate and counts as -L.
+// Loads along joint coordinates [N or N m], theory (13). A load L is positive against the
+// coordinate, so that the rows of motion get
+// + J^T L; an effort (of a controller, or a constant one) is positive along the coordinate and
+// counts as -L.
 
 /// The sum of the study's constant efforts on a coordinate, theory (13g).
 template <class T>
@@ -53,40 +63,49 @@ T constant_effort(const StateView<T>& view, const JointLoad& load) {
   return sum;
 }
 
-/// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` selects the ones that act.
+/// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` selects the
+/// ones that act.
 /// @param rate of the coordinate, here and below.
 template <class T>
-T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load, const T& rate) {
+T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load,
+               const T& rate) {
   constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
   const JointDynamicsConstants<T>& d = view.dynamics(pair, element);
   T value(0.0);
   if (load.passive) {
     value = (d.damping + d.spring_damping) * rate;
-    if (load.spring) value += d.stiffness * (view.coordinate_value(pair, element) - d.free_position);
+    if (load.spring)
+      value += d.stiffness * (view.coordinate_value(pair, element) - d.free_position);
   }
-  if (load.constant_friction) value += d.dry_friction * brown_mcphee<T>(rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
+  if (load.constant_friction)
+    value += d.dry_friction * brown_mcphee<T>(rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
   return value;
 }
 
-/// L of both stops of a coordinate [N or N m], theory (13d): positive beyond the upper limit, negative beyond the lower one.
-/// @param rate of the coordinate. @param dissipation c of (13d) [s/m or s/rad]; 0 leaves the elastic part.
+/// L of both stops of a coordinate [N or N m], theory (13d): positive beyond the upper limit,
+/// negative beyond the lower one.
+/// @param rate of the coordinate. @param dissipation c of (13d) [s/m or s/rad]; 0 leaves the
+/// elastic part.
 template <class T>
 T stop_load(const StateView<T>& view, const JointLoad& load, const T& rate, double dissipation) {
   const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
   const LimitOptions& stop = view.system.study().limits;
-  const T position = view.coordinate_value(load.pair, load.element), below = d.lower - position, above = position - d.upper;
+  const T position = view.coordinate_value(load.pair, load.element), below = d.lower - position,
+          above = position - d.upper;
   const T at_upper = joint_stop(above, rate, stop.stiffness, dissipation, stop.width);
   return at_upper - joint_stop(below, T(-rate), stop.stiffness, dissipation, stop.width);
 }
 
-/// The part of stop_load() that takes energy from the motion, k delta (h - 1): the load less its elastic part.
+/// The part of stop_load() that takes energy from the motion, k delta (h - 1): the load less its
+/// elastic part.
 template <class T>
 T stop_dissipation(const StateView<T>& view, const JointLoad& load, const T& rate) {
   const T elastic = stop_load(view, load, rate, 0.0);
   return stop_load(view, load, rate, view.system.study().limits.dissipation) - elastic;
 }
 
-/// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if the study enforces `<limit effort>`.
+/// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if
+/// the study enforces `<limit effort>`.
 template <class T>
 T applied_effort(const StateView<T>& view, const JointLoad& load) {
   T demand(0.0);
@@ -96,19 +115,22 @@ T applied_effort(const StateView<T>& view, const JointLoad& load) {
   return saturate(demand, limit).value;
 }
 
-/// The whole load L along a coordinate: friction, damping, spring and stop minus constant and applied efforts.
+/// The whole load L along a coordinate: friction, damping, spring and stop minus constant and
+/// applied efforts.
 template <class T>
 T joint_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value(0.0);
   if (load.reaction_friction) value += reaction_friction(view, load, rate, nullptr);
-  if (load.passive || load.constant_friction) value += passive_load(view, load.pair, load.element, load, rate);
+  if (load.passive || load.constant_friction)
+    value += passive_load(view, load.pair, load.element, load, rate);
   if (load.stop) value += stop_load(view, load, rate, view.system.study().limits.dissipation);
   if (!load.constant.empty()) value -= constant_effort(view, load);
   if (!load.controllers.empty()) value -= applied_effort(view, load);
   return value;
 }
 
-/// The friction of a load, without its other parts. A copy of `load` would also copy its lists, which allocates memory.
+/// The friction of a load, without its other parts. A copy of `load` would also copy its lists,
+/// which allocates memory.
 inline JointLoad friction_part(const JointLoad& load) {
   JointLoad part;
   part.pair = load.pair;
@@ -121,13 +143,16 @@ inline JointLoad friction_part(const JointLoad& load) {
 
 /// Adds J^T L to the rows of motion.
 template <class T>
-void load_residual(const StateView<T>& view, Workspace<T>* workspace, const JointLoad& load, VectorX<T>* G) {
-  const CoordinateMotion<T>& motion = view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
+void load_residual(const StateView<T>& view, Workspace<T>* workspace, const JointLoad& load,
+                   VectorX<T>* G) {
+  const CoordinateMotion<T>& motion =
+      view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
   const T value = joint_load(view, load, motion.rate);
   add_coordinate_load(view, workspace, load.pair, load.element, motion.J, value, G);
 }
 
-/// Friction of a joint coordinate for observers: its rate, normal force and load L, of `<codesign:friction>` and `<dynamics friction>`.
+/// Friction of a joint coordinate for observers: its rate, normal force and load L, of
+/// `<codesign:friction>` and `<dynamics friction>`.
 template <class T>
 FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element) {
   const T rate = view.coordinate(pair, element, CoordinateDetail::kRate).rate;
@@ -145,7 +170,8 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   return state;
 }
 
-/// The effort that controllers apply along a coordinate, within the actuator's limit; positive along the coordinate.
+/// The effort that controllers apply along a coordinate, within the actuator's limit; positive
+/// along the coordinate.
 template <class T>
 T joint_effort(const StateView<T>& view, int pair, int element) {
   T sum(0.0);

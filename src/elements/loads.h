@@ -7,19 +7,25 @@
 
 namespace codesign {
 
-// Loads along the coordinates of joints, theory (8). A load L that opposes a coordinate with the gradient J adds J^T L to the rows of
-// motion: on both bodies if the pair is cut, in the rows of the pair's own coordinates if a body hangs on it, (57).
+// Loads along the coordinates of joints, theory (8). A load L that opposes a coordinate with the
+// gradient J adds J^T L to the rows of motion: on both bodies if the pair is cut, in the rows of
+// the pair's own coordinates if a body hangs on it, (57).
 
-/// The load J^T L on one body of a pair, if that body belongs to the forest: about its centre of mass, in its axes.
+/// The load J^T L on one body of a pair, if that body belongs to the forest: about its centre of
+/// mass, in its axes.
 template <class T>
-Wrench<T> load_on_side(const BodyKinematics<T>& body, Side side, const LocalRow<T>& J, const T& load) {
-  const Vector3<T> along_r = J.template segment<3>(r_offset(side)), along_turn = J.template segment<3>(p_offset(side));
+Wrench<T> load_on_side(const BodyKinematics<T>& body, Side side, const LocalRow<T>& J,
+                       const T& load) {
+  const Vector3<T> along_r = J.template segment<3>(r_offset(side)),
+                   along_turn = J.template segment<3>(p_offset(side));
   return {Vector3<T>(body.A.transpose() * along_r) * load, along_turn * load};
 }
 
-/// Adds J^T L of a cut pair: to the rows of free bodies, and to Workspace::own of bodies of the forest.
+/// Adds J^T L of a cut pair: to the rows of free bodies, and to Workspace::own of bodies of the
+/// forest.
 template <class T>
-void add_load_on_bodies(const StateView<T>& view, Workspace<T>* workspace, int pair, const LocalRow<T>& J, const T& load, VectorX<T>* G) {
+void add_load_on_bodies(const StateView<T>& view, Workspace<T>* workspace, int pair,
+                        const LocalRow<T>& J, const T& load, VectorX<T>* G) {
   for (int local = 0; local < kLocalSize; ++local)
     if (const int c = view.column(pair, local); c >= 0) (*G)[c] += J[local] * load;
   if (!view.layout.has_forest()) return;
@@ -33,18 +39,19 @@ void add_load_on_bodies(const StateView<T>& view, Workspace<T>* workspace, int p
 
 /// Adds a load L along a joint coordinate. @param motion of that coordinate.
 template <class T>
-void add_coordinate_load(const StateView<T>& view, Workspace<T>* workspace, int pair, int element, const LocalRow<T>& J, const T& load,
-                         VectorX<T>* G) {
+void add_coordinate_load(const StateView<T>& view, Workspace<T>* workspace, int pair, int element,
+                         const LocalRow<T>& J, const T& load, VectorX<T>* G) {
   if (const int c = view.layout.element_column(pair, element); c >= 0)
     (*G)[c] += load;
   else
     add_load_on_bodies(view, workspace, pair, J, load, G);
 }
 
-/// Adds a load L along any motion of a pair that its coordinates allow, such as a slip. The pair's rows receive the power of the load on
-/// body j at unit rates, since body i rests then.
+/// Adds a load L along any motion of a pair that its coordinates allow, such as a slip. The pair's
+/// rows receive the power of the load on body j at unit rates, since body i rests then.
 template <class T>
-void add_slip_load(const StateView<T>& view, Workspace<T>* workspace, int pair, const LocalRow<T>& J, const T& load, VectorX<T>* G) {
+void add_slip_load(const StateView<T>& view, Workspace<T>* workspace, int pair,
+                   const LocalRow<T>& J, const T& load, VectorX<T>* G) {
   if (view.layout.is_cut(pair)) {
     add_load_on_bodies(view, workspace, pair, J, load, G);
     return;
@@ -53,34 +60,38 @@ void add_slip_load(const StateView<T>& view, Workspace<T>* workspace, int pair, 
   const int body = view.layout.forest.body_below[p], c = view.layout.column(body);
   const PairConstants<T>& constants = view.design.constants.pairs[p];
   std::array<T, 6> rows;
-  carry_back(load_on_side(view.body(body), Side::kJ, J, load), constants, view.motion.poses[to_index(body)], view.state->q.data() + c,
-             rows.data());
+  carry_back(load_on_side(view.body(body), Side::kJ, J, load), constants,
+             view.motion.poses[to_index(body)], view.state->q.data() + c, rows.data());
   for (std::size_t k = 0; k < constants.steps.size(); ++k) (*G)[c + static_cast<int>(k)] += rows[k];
 }
 
-// Spring-dampers between two points, theory (13b). The force F, which acts with + on body i and - on body j, enters the equations as the
-// load of a multiplier does, theory (7).
+// Spring-dampers between two points, theory (13b). The force F, which acts with + on body i and -
+// on body j, enters the equations as the load of a multiplier does, theory (7).
 
 /// The force of the k-th spring-damper of the model at the loaded state.
 template <class T>
 SpringForce<T> spring_at(const StateView<T>& view, std::size_t k) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
-  const VectorMotion<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
+  const VectorMotion<T> d =
+      displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
   return spring_damper<T>(d.x, d.xd, c.stiffness, c.damping, c.free_length);
 }
 
 /// Adds the force of a spring-damper to Workspace::loads. Must be called before body_residual().
 template <class T>
-void add_spring_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, const SpringForce<T>& force) {
+void add_spring_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k,
+                     const SpringForce<T>& force) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
-  add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull, workspace->load_on(c.body_i), workspace->load_on(c.body_j));
+  add_vector_load(PairVector<T>::displacement(c.s_i, c.s_j), force.pull,
+                  workspace->load_on(c.body_i), workspace->load_on(c.body_j));
 }
 
 /// The elastic energy k (l - l_0)^2/2 of a spring-damper [J].
 template <class T>
 T spring_energy_at(const StateView<T>& view, std::size_t k) {
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
-  const Vector3<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j).x;
+  const Vector3<T> d =
+      displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j).x;
   return codesign::spring_energy<T>(d, c.stiffness, c.free_length);
 }
 
@@ -89,17 +100,19 @@ template <class T>
 T spring_power(const StateView<T>& view, std::size_t k) {
   using std::sqrt;
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
-  const VectorMotion<T> d = displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
+  const VectorMotion<T> d =
+      displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
   const T inverse = T(1.0) / sqrt(dot<T>(d.x, d.x) + T(kSpringSmoothing * kSpringSmoothing));
   const T rate = dot<T>(Vector3<T>(inverse * d.x), d.xd);
   return -c.damping * rate * rate;
 }
 
-// The study's constant loads on links, theory (13g). A force with components in the root's axes is added to the loads of its body, (7),
-// with b = -F; torques, and loads that turn with their link, are added to the rows of motion directly.
+// The study's constant loads on links, theory (13g). A force with components in the root's axes is
+// added to the loads of its body, (7), with b = -F; torques, and loads that turn with their link,
+// are added to the rows of motion directly.
 
-/// Adds the force in the root's axes to Workspace::loads, f = -F and W = -F s^T; nothing for a load that turns with its link. Must be
-/// called before body_residual().
+/// Adds the force in the root's axes to Workspace::loads, f = -F and W = -F s^T; nothing for a load
+/// that turns with its link. Must be called before body_residual().
 template <class T>
 void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
@@ -109,10 +122,12 @@ void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_
   on_body.W -= view.design.wrenches[k].force * view.design.wrenches[k].point.transpose();
 }
 
-/// Adds the terms that add_link_load() leaves out to the rows of motion of a free body, or to Workspace::own: -2 E^T tau, or, for a load
-/// that turns with its link, -A f' on r and -2 G^T (s x f' + tau') on p.
+/// Adds the terms that add_link_load() leaves out to the rows of motion of a free body, or to
+/// Workspace::own: -2 E^T tau, or, for a load that turns with its link, -A f' on r and -2 G^T (s x
+/// f' + tau') on p.
 template <class T>
-void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
+void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k,
+                        VectorX<T>* G) {
   const LinkLoad& load = view.system.link_loads()[k];
   const ConstantWrench<T>& wrench = view.design.wrenches[k];
   const BodyKinematics<T>& on = view.body(load.body);
@@ -127,7 +142,8 @@ void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::
     G->template segment<3>(c) -= on.A * wrench.force;
     G->template segment<4>(c + 3) -= T(2.0) * body_rate_transposed(on.p, wrench.torque);
   } else {
-    G->template segment<4>(c + 3) -= T(2.0) * (ground_rate_matrix(on.p).transpose() * wrench.torque);
+    G->template segment<4>(c + 3) -=
+        T(2.0) * (ground_rate_matrix(on.p).transpose() * wrench.torque);
   }
 }
 
@@ -137,7 +153,8 @@ T link_load_power(const StateView<T>& view, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
   const ConstantWrench<T>& wrench = view.design.wrenches[k];
   const BodyKinematics<T>& on = view.body(load.body);
-  // The torque of a load that turns with its link includes the moment of its force about the centre of mass.
+  // The torque of a load that turns with its link includes the moment of its force about the centre
+  // of mass.
   if (load.turns) return dot<T>(on.A * wrench.force, on.rd) + dot<T>(wrench.torque, body_omega(on));
   const Vector3<T> point_rate = on.rd + on.Ad * wrench.point, omega = ground_omega(on);
   return dot<T>(wrench.force, point_rate) + dot<T>(wrench.torque, omega);

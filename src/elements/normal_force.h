@@ -8,12 +8,15 @@ namespace codesign {
 
 // The normal force N in the bearing of a joint, computed from its reaction; theory (11), (12).
 
-// Defined in elements/forest.h. Declared here because loads on bodies, of which it consists, may read normal forces of cut pairs.
-/// The wrench that its joint transmits to a body of the forest, about the body's centre of mass, in its axes; theory (57).
+// Defined in elements/forest.h. Declared here because loads on bodies, of which it consists, may
+// read normal forces of cut pairs.
+/// The wrench that its joint transmits to a body of the forest, about the body's centre of mass, in
+/// its axes; theory (57).
 template <class T>
 const Wrench<T>& transmitted_wrench(const StateView<T>& view, int body);
 
-/// pair_reaction() of a pair of the forest: the part that the pair constrains of the wrench that it transmits, about the point of body j.
+/// pair_reaction() of a pair of the forest: the part that the pair constrains of the wrench that it
+/// transmits, about the point of body j.
 template <class T>
 void forest_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T>* torque) {
   const JointLaw& joint = *view.pair(index).kind;
@@ -21,7 +24,9 @@ void forest_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3
   const int body = view.layout.forest.body_below[to_index(index)];
   const Wrench<T>& wrench = transmitted_wrench(view, body);
   const Matrix3<T>& R = view.motion.poses[to_index(body)].R;
-  const auto in_joint_axes = [&](const Vector3<T>& x) { return Vector3<T>(-(pair.C_i.transpose() * Vector3<T>(R * x))); };
+  const auto in_joint_axes = [&](const Vector3<T>& x) {
+    return Vector3<T>(-(pair.C_i.transpose() * Vector3<T>(R * x)));
+  };
   const Vector3<T> force = in_joint_axes(wrench.force);
   F->setZero();
   torque->setZero();
@@ -29,13 +34,15 @@ void forest_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3
   if (joint.force == ForceRows::kAcross) *F = Vector3<T>(force[0], force[1], T(0.0));
   if (joint.force == ForceRows::kAlong) (*F)[2] = force[2];
   if (!joint.torque_rows) return;
-  const Vector3<T> moment = in_joint_axes(Vector3<T>(wrench.moment - cross<T>(pair.s_j, wrench.force)));
+  const Vector3<T> moment =
+      in_joint_axes(Vector3<T>(wrench.moment - cross<T>(pair.s_j, wrench.force)));
   for (int k = 0; k < 2; ++k) (*torque)[k] = moment[k];
   if (joint.rows - joint.force_rows() > 2) (*torque)[2] = moment[2];
 }
 
-/// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, read from the multipliers, theory (11); the child feels -F''
-/// and -T''. Components that the pair does not constrain are zero.
+/// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, read from the
+/// multipliers, theory (11); the child feels -F'' and -T''. Components that the pair does not
+/// constrain are zero.
 template <class T>
 void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T>* torque) {
   if (!view.layout.is_cut(index)) {
@@ -44,7 +51,8 @@ void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T
   }
   const Pair& pair = view.pair(index);
   const JointLaw& joint = *pair.kind;
-  const int row = view.layout.lambda_column(view.layout.pair_row[to_index(index)]), next = row + joint.force_rows();
+  const int row = view.layout.lambda_column(view.layout.pair_row[to_index(index)]),
+            next = row + joint.force_rows();
   const VectorX<T>& z = view.state->z;
   F->setZero();
   torque->setZero();
@@ -64,7 +72,8 @@ template <class T>
 T normal_force(const StateView<T>& view, int pair) {
   Vector3<T> F, torque;
   pair_reaction(view, pair, &F, &torque);
-  return view.pair(pair).kind->bearing.normal_force.template of<T>(F, torque, view.constants(pair).friction);
+  return view.pair(pair).kind->bearing.normal_force.template of<T>(F, torque,
+                                                                   view.constants(pair).friction);
 }
 
 }  // namespace codesign

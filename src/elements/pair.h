@@ -10,12 +10,15 @@
 
 namespace codesign {
 
-// The constraint rows of one pair, theory (5), (6), and the loads of their multipliers on the two bodies, theory (7).
+// The constraint rows of one pair, theory (5), (6), and the loads of their multipliers on the two
+// bodies, theory (7).
 
-/// Sets the pair's rows to Phi'' - epsilon lambda, theory (6), (23), and adds the loads Phi_q^T lambda, theory (7), to Workspace::loads.
-/// Must be called before body_residual() and after Workspace::clear_loads().
+/// Sets the pair's rows to Phi'' - epsilon lambda, theory (6), (23), and adds the loads Phi_q^T
+/// lambda, theory (7), to Workspace::loads. Must be called before body_residual() and after
+/// Workspace::clear_loads().
 template <class T>
-void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
+void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k,
+                   VectorX<T>* G) {
   if (!view.layout.is_cut(static_cast<int>(k))) return;
   const Pair& pair = view.system.topology().pairs[k];
   const PairRows<T>& rows = view.design.rows[k];
@@ -42,13 +45,16 @@ void pair_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_
   }
   if (view.system.compliance() == 0.0) return;
   const int first = view.layout.lambda_column(view.layout.pair_row[k]);
-  G->segment(first, rows.size()) -= T(view.system.compliance()) * view.state->z.segment(first, rows.size());
+  G->segment(first, rows.size()) -=
+      T(view.system.compliance()) * view.state->z.segment(first, rows.size());
 }
 
-/// Constraint values Phi and rates Phi_q v of one pair's rows, for bodies that move as given; the ground is a body at rest.
+/// Constraint values Phi and rates Phi_q v of one pair's rows, for bodies that move as given; the
+/// ground is a body at rest.
 /// @param errors, rates one value per row of the pair.
 template <class T>
-void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) {
+void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i,
+                 const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) {
   const PairRows<T>& rows = view.design.rows[to_index(pair)];
   assert(errors.size() == rows.size() && rates.size() == rows.size());
   T *error = errors.data(), *rate = rates.data();
@@ -60,18 +66,20 @@ void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i,
     }
   }
   for (const ProductRow<T>& product : rows.products) {
-    const ProductMotion<T> phi = product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
+    const ProductMotion<T> phi =
+        product_motion(motion_of(product.X, i, j), motion_of(product.Y, i, j));
     *error++ = product.scale * (phi.phi - product.offset);
     *rate++ = product.scale * phi.phid;
   }
 }
 
-// Constraint rows between joint coordinates, Phi = sum of c_k theta_k - b, theory (8a). The row is linear in the coordinates, so its
-// multiplier lambda is a load c_k lambda along each of them.
+// Constraint rows between joint coordinates, Phi = sum of c_k theta_k - b, theory (8a). The row is
+// linear in the coordinates, so its multiplier lambda is a load c_k lambda along each of them.
 
 /// Sets the coupling's entries of Phi and Phi_q v. Positions count whole turns.
 template <class T>
-void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi,
+                    VectorX<T>* Phi_rate) {
   const Coupling& coupling = view.system.topology().couplings[k];
   const CouplingConstants<T>& c = view.design.constants.couplings[k];
   const int row = view.layout.coupling_row(static_cast<int>(k));
@@ -80,7 +88,8 @@ void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi, Ve
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     (*Phi)[row] += c.coefficients[t] * view.coordinate_value(term.pair, term.element);
-    (*Phi_rate)[row] += c.coefficients[t] * view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
+    (*Phi_rate)[row] +=
+        c.coefficients[t] * view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
   }
 }
 
@@ -90,9 +99,11 @@ double compliance_in(const StateView<T>& view, const Coupling& coupling) {
   return coupling.is_drive ? 0.0 : view.system.compliance();
 }
 
-/// Sets the coupling's row to Phi'' - epsilon lambda and adds J_k^T c_k lambda to the rows of motion.
+/// Sets the coupling's row to Phi'' - epsilon lambda and adds J_k^T c_k lambda to the rows of
+/// motion.
 template <class T>
-void coupling_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k, VectorX<T>* G) {
+void coupling_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k,
+                       VectorX<T>* G) {
   const Coupling& coupling = view.system.topology().couplings[k];
   const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
   const T lambda = view.state->z[row];
@@ -100,12 +111,14 @@ void coupling_residual(const StateView<T>& view, Workspace<T>* workspace, std::s
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = view.design.constants.couplings[k].coefficients[t];
-    const CoordinateMotion<T>& motion = view.coordinate(term.pair, term.element, CoordinateDetail::kAcceleration);
+    const CoordinateMotion<T>& motion =
+        view.coordinate(term.pair, term.element, CoordinateDetail::kAcceleration);
     (*G)[row] += coefficient * motion.acceleration;
     if (const int c = view.layout.element_column(term.pair, term.element); c >= 0)
       (*G)[c] += coefficient * lambda;
     else
-      add_load_on_bodies(view, workspace, term.pair, LocalRow<T>(motion.J * coefficient), lambda, G);
+      add_load_on_bodies(view, workspace, term.pair, LocalRow<T>(motion.J * coefficient), lambda,
+                         G);
   }
 }
 

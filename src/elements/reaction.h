@@ -10,11 +10,11 @@
 
 namespace codesign {
 
-// The wrench of a joint on its child, theory (11a): one component of the force [N] or of the torque [N m], in the axes of the joint frame
-// that the child carries.
+// The wrench of a joint on its child, theory (11a): one component of the force [N] or of the torque
+// [N m], in the axes of the joint frame that the child carries.
 
-/// One component of the wrench of a joint on its child: the force along, or the torque about, an axis of the joint frame that the child
-/// carries; theory (11a).
+/// One component of the wrench of a joint on its child: the force along, or the torque about, an
+/// axis of the joint frame that the child carries; theory (11a).
 template <class T>
 struct ReactionAxis {
   int pair = -1;
@@ -23,8 +23,9 @@ struct ReactionAxis {
   bool torque = false;   ///< torque about the axis through s, else force along the axis
   Vector3<T> e, s;       ///< axis and origin of the joint frame, in body coordinates
 
-  /// The vector d of (11a) in body axes: a load b on the child's vector A s_t contributes (A d) . b to the component. d is e for a force,
-  /// e x (s_t - s) for a torque and a point, e x s_t for a torque and a direction. @param point whether A s_t is a point or a direction.
+  /// The vector d of (11a) in body axes: a load b on the child's vector A s_t contributes (A d) . b
+  /// to the component. d is e for a force, e x (s_t - s) for a torque and a point, e x s_t for a
+  /// torque and a direction. @param point whether A s_t is a point or a direction.
   Vector3<T> lever(const Vector3<T>& s_t, bool point) const {
     if (!torque) return e;
     return cross<T>(e, point ? Vector3<T>(s_t - s) : s_t);
@@ -47,20 +48,23 @@ ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& t
   return axis;
 }
 
-/// The contribution of one product row: the sum of -c lambda (+- A d) . Y over the terms of X on the child, and likewise for the terms of
-/// Y.
+/// The contribution of one product row: the sum of -c lambda (+- A d) . Y over the terms of X on
+/// the child, and likewise for the terms of Y.
 /// @param lambda the row's multiplier.
 template <class T>
-T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const ProductRow<T>& product, const T& lambda) {
+T product_reaction(const StateView<T>& view, const ReactionAxis<T>& axis,
+                   const ProductRow<T>& product, const T& lambda) {
   const Pair& pair = view.pair(axis.pair);
-  const BodyKinematics<T>&i = view.body(pair.body_i), &j = view.body(pair.body_j), &child = view.body(axis.body);
+  const BodyKinematics<T>&i = view.body(pair.body_i), &j = view.body(pair.body_j),
+        &child = view.body(axis.body);
   T value(0.0);
   const auto add = [&](const PairVector<T>& own, const PairVector<T>& partner) {
     for (int k = 0; k < own.terms; ++k) {
       const VectorTerm<T>& term = own.term[k];
       if (term.side != axis.side || (!axis.torque && !term.point)) continue;
       const Vector3<T> direction = child.A * axis.lever(term.s, term.point);
-      value += T(-term.sign * product.scale) * dot<T>(direction, motion_of(partner, i, j).x) * lambda;
+      value +=
+          T(-term.sign * product.scale) * dot<T>(direction, motion_of(partner, i, j).x) * lambda;
     }
   };
   add(product.X, product.Y);
@@ -75,13 +79,16 @@ T constraint_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
   int row = view.layout.lambda_column(view.layout.pair_row[to_index(axis.pair)]);
   T value(0.0);
   if (rows.coincident) {
-    // The multipliers are the force at the joint's point: -lambda acts on body j, +lambda on body i. Either may be the child.
+    // The multipliers are the force at the joint's point: -lambda acts on body j, +lambda on body
+    // i. Either may be the child.
     const T sign(axis.side == Side::kJ ? -1.0 : 1.0);
-    const Vector3<T> lambda = view.state->z.template segment<3>(row), lever = sign * axis.lever(rows.point(axis.side), true);
+    const Vector3<T> lambda = view.state->z.template segment<3>(row),
+                     lever = sign * axis.lever(rows.point(axis.side), true);
     value += dot<T>(view.body(axis.body).A * lever, lambda);
     row += 3;
   }
-  for (const ProductRow<T>& product : rows.products) value += product_reaction(view, axis, product, T(view.state->z[row++]));
+  for (const ProductRow<T>& product : rows.products)
+    value += product_reaction(view, axis, product, T(view.state->z[row++]));
   return value;
 }
 
@@ -94,11 +101,13 @@ T wrench_component(const ReactionAxis<T>& axis, const Wrench<T>& wrench) {
 
 /// The contribution of one load L along a coordinate of the joint: -L times (11a) of its J^T.
 template <class T>
-T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const LocalRow<T>& J, const T& load) {
+T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const LocalRow<T>& J,
+                const T& load) {
   const BodyKinematics<T>& k = view.body(axis.body);
   if (k.in_forest) return -wrench_component(axis, load_on_side(k, axis.side, J, load));
   const Vector3<T> lever = -axis.lever(Vector3<T>(Vector3<T>::Zero()), true), along_r = k.A * lever,
-                   turn = axis.torque ? Vector3<T>(T(-0.5) * axis.e) : Vector3<T>(Vector3<T>::Zero());
+                   turn =
+                       axis.torque ? Vector3<T>(T(-0.5) * axis.e) : Vector3<T>(Vector3<T>::Zero());
   const Vector4<T> along_p = body_rate_transposed(k.p, turn);
   const Vector3<T> J_r = J.template segment<3>(r_offset(axis.side));
   const Vector4<T> J_p = J.template segment<4>(p_offset(axis.side));
@@ -107,14 +116,17 @@ T load_reaction(const StateView<T>& view, const ReactionAxis<T>& axis, const Loc
   return share * load;
 }
 
-/// The contribution of friction, damping, springs, stops, controllers and constant efforts along the joint's coordinates.
+/// The contribution of friction, damping, springs, stops, controllers and constant efforts along
+/// the joint's coordinates.
 template <class T>
 T coordinate_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
   T value(0.0);
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != axis.pair) continue;
-    // A copy, since a controller may request more detail of this coordinate, which overwrites the referenced object.
-    const CoordinateMotion<T> motion = view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
+    // A copy, since a controller may request more detail of this coordinate, which overwrites the
+    // referenced object.
+    const CoordinateMotion<T> motion =
+        view.coordinate(load.pair, load.element, CoordinateDetail::kRate);
     value += load_reaction(view, axis, motion.J, joint_load(view, load, motion.rate));
   }
   return value;
@@ -126,8 +138,9 @@ T rotor_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
   T value(0.0);
   for (const Rotor& rotor : view.system.rotors())
     if (rotor.pair == axis.pair)
-      value +=
-          load_reaction(view, axis, view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration).J, rotor_load(view, rotor));
+      value += load_reaction(
+          view, axis, view.coordinate(rotor.pair, rotor.element, CoordinateDetail::kAcceleration).J,
+          rotor_load(view, rotor));
   return value;
 }
 
@@ -141,8 +154,9 @@ T coupling_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
     for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
       const CouplingTerm& term = coupling.terms[t];
       if (term.pair != axis.pair) continue;
-      value += load_reaction(view, axis, view.coordinate(term.pair, term.element, CoordinateDetail::kRate).J,
-                             T(view.design.constants.couplings[k].coefficients[t] * view.state->z[row]));
+      value += load_reaction(
+          view, axis, view.coordinate(term.pair, term.element, CoordinateDetail::kRate).J,
+          T(view.design.constants.couplings[k].coefficients[t] * view.state->z[row]));
     }
   }
   return value;
@@ -153,11 +167,13 @@ template <class T>
 T contact_reaction(const StateView<T>& view, const ReactionAxis<T>& axis) {
   const ContactFriction<T> c = contact_at(view, axis.pair);
   T value(0.0);
-  for (std::size_t k = 0; k < c.size; ++k) value += load_reaction(view, axis, c.motion[k].J, T(c.load[to_signed(k)]));
+  for (std::size_t k = 0; k < c.size; ++k)
+    value += load_reaction(view, axis, c.motion[k].J, T(c.load[to_signed(k)]));
   return value;
 }
 
-/// The part of a reaction signal that comes from multipliers: constraint rows and couplings. Redundant rows leave this part undetermined.
+/// The part of a reaction signal that comes from multipliers: constraint rows and couplings.
+/// Redundant rows leave this part undetermined.
 template <class T>
 T multiplier_reaction(const StateView<T>& view, const SignalReference& term) {
   if (!view.layout.is_cut(term.pair)) return T(0.0);
@@ -170,8 +186,10 @@ template <class T>
 T reaction_term(const StateView<T>& view, const SignalReference& term) {
   const ReactionAxis<T> axis = reaction_axis(view, term);
   // The wrench that a joint of the forest transmits is the whole one, (57).
-  if (!view.layout.is_cut(term.pair)) return wrench_component(axis, transmitted_wrench(view, axis.body));
-  T value = constraint_reaction(view, axis) + coordinate_reaction(view, axis) + coupling_reaction(view, axis);
+  if (!view.layout.is_cut(term.pair))
+    return wrench_component(axis, transmitted_wrench(view, axis.body));
+  T value = constraint_reaction(view, axis) + coordinate_reaction(view, axis) +
+            coupling_reaction(view, axis);
   for (int pair : view.system.contacts())
     if (pair == axis.pair) value += contact_reaction(view, axis);
   return value + rotor_reaction(view, axis);

@@ -8,10 +8,12 @@
 
 namespace codesign {
 
-// The jumps of a sampled controller's states, theory (51), (52). Each function reads a loaded view and writes to `s`, the extra states of
-// the state that is loaded, so that a later event at the same instant reads the result of an earlier one.
+// The jumps of a sampled controller's states, theory (51), (52). Each function reads a loaded view
+// and writes to `s`, the extra states of the state that is loaded, so that a later event at the
+// same instant reads the result of an earlier one.
 
-/// The measured input's error: setpoint minus the input, which is rounded to a multiple of the quantization if there is one.
+/// The measured input's error: setpoint minus the input, which is rounded to a multiple of the
+/// quantization if there is one.
 template <class T>
 T measured_error(const StateView<T>& view, int controller) {
   const T error = controller_error(view, controller);
@@ -31,8 +33,10 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
   const auto write = [s](int state, const T& value) {
     if (state >= 0) (*s)[state] = value;
   };
-  SampledPidMemory<T> memory{read(resolved.state), read(resolved.states.last), read(resolved.states.filter)};
-  const SampledPidNumbers<T> numbers{k.pid, realization.sample_time, k.derivative_filter, realization.i_clamp ? &k.i_clamp : nullptr,
+  SampledPidMemory<T> memory{read(resolved.state), read(resolved.states.last),
+                             read(resolved.states.filter)};
+  const SampledPidNumbers<T> numbers{k.pid, realization.sample_time, k.derivative_filter,
+                                     realization.i_clamp ? &k.i_clamp : nullptr,
                                      realization.antiwindup};
   const T output = sample_pid(numbers, measured_error(view, controller), is_first, &memory);
   write(resolved.state, memory.integral);
@@ -44,13 +48,16 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
 /// The output of a controller at a sample, within its limit; updates its memory in `s`.
 template <class T>
 T sample_controller(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
-  const T output =
-      view.controller(controller).kind->is_pid ? sampled_pid_output(view, controller, is_first, s) : law_output(view, controller);
-  return realization_of(view, controller).output_limit ? clamp(output, view.controller_numbers(controller).output_limit) : output;
+  const T output = view.controller(controller).kind->is_pid
+                       ? sampled_pid_output(view, controller, is_first, s)
+                       : law_output(view, controller);
+  return realization_of(view, controller).output_limit
+             ? clamp(output, view.controller_numbers(controller).output_limit)
+             : output;
 }
 
-/// The extra state that an event writes an output to (kSample) or reads one from (kApply): the output in effect, or a place in the queue of
-/// delayed ones.
+/// The extra state that an event writes an output to (kSample) or reads one from (kApply): the
+/// output in effect, or a place in the queue of delayed ones.
 inline int output_state(const System& system, const ControlEvent& event) {
   const auto c = to_index(event.controller);
   const ControllerStates& states = system.controllers()[c].states;
@@ -58,9 +65,11 @@ inline int output_state(const System& system, const ControlEvent& event) {
   return queued == 0 ? states.held : states.queue + static_cast<int>(event.sample % queued);
 }
 
-/// Carries the extra states over one event. @param sample (controller, is_first) -> its output at a sample; it updates the memory in `s`.
+/// Carries the extra states over one event. @param sample (controller, is_first) -> its output at a
+/// sample; it updates the memory in `s`.
 template <class T, class Sample>
-void jump_controller(const System& system, const ControlEvent& event, const Sample& sample, VectorX<T>* s) {
+void jump_controller(const System& system, const ControlEvent& event, const Sample& sample,
+                     VectorX<T>* s) {
   const int place = output_state(system, event);
   if (event.kind == ControlEvent::Kind::kApply)
     (*s)[system.controllers()[to_index(event.controller)].states.held] = T((*s)[place]);
@@ -68,10 +77,12 @@ void jump_controller(const System& system, const ControlEvent& event, const Samp
     (*s)[place] = sample(event.controller, event.sample == 0);
 }
 
-/// The start of a controller at t = 0: its filter is at rest, and a sampled one takes its first sample.
+/// The start of a controller at t = 0: its filter is at rest, and a sampled one takes its first
+/// sample.
 /// @param sample as of jump_controller(). @param error controller -> its error.
 template <class T, class Sample, class Error>
-void begin_controller(const System& system, int controller, const Sample& sample, const Error& error, VectorX<T>* s) {
+void begin_controller(const System& system, int controller, const Sample& sample,
+                      const Error& error, VectorX<T>* s) {
   const auto c = to_index(controller);
   const int filter = system.controllers()[c].states.filter;
   if (system.study().controllers[c].realization.is_sampled())

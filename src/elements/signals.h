@@ -12,19 +12,21 @@
 
 namespace codesign {
 
-// The values of signals, which controllers, objectives and observers read from a state. Each function returns one term without its factor,
-// in the term's SI unit.
+// The values of signals, which controllers, objectives and observers read from a state. Each
+// function returns one term without its factor, in the term's SI unit.
 
 /// Position, velocity or acceleration of a joint coordinate, theory (8).
 template <class T>
 T joint_term(const StateView<T>& view, const SignalReference& term) {
-  if (term.kind == SignalKind::kJointPosition) return view.coordinate_value(term.pair, term.element);
+  if (term.kind == SignalKind::kJointPosition)
+    return view.coordinate_value(term.pair, term.element);
   if (term.kind == SignalKind::kJointAcceleration)
     return view.coordinate(term.pair, term.element, CoordinateDetail::kAcceleration).acceleration;
   return view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
 }
 
-/// One component of the position, velocity or acceleration of a link's origin, or of its angular velocity, in ground axes.
+/// One component of the position, velocity or acceleration of a link's origin, or of its angular
+/// velocity, in ground axes.
 template <class T>
 T link_term(const StateView<T>& view, const SignalReference& term) {
   const BodyKinematics<T>& k = view.body(view.system.topology().link_body[to_index(term.link)]);
@@ -35,21 +37,26 @@ T link_term(const StateView<T>& view, const SignalReference& term) {
     case SignalKind::kLinkAcceleration:
       return (k.rdd + k.Add * s)[term.axis];
     case SignalKind::kLinkAngularVelocity:
-      return k.in_forest ? T(ground_omega(k)[term.axis]) : T(T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis]);
+      return k.in_forest ? T(ground_omega(k)[term.axis])
+                         : T(T(2.0) * (ground_rate_matrix(k.p) * k.pd)[term.axis]);
     default:
       return (k.rd + k.Ad * s)[term.axis];
   }
 }
 
-/// One component of a link's quaternion in the root's axes: the body's p times a constant quaternion.
+/// One component of a link's quaternion in the root's axes: the body's p times a constant
+/// quaternion.
 template <class T>
 T orientation_term(const StateView<T>& view, const SignalReference& term) {
   const auto link = to_index(term.link);
-  const Vector4<T> p = body_parameters(view.system, view.design.constants, *view.state, view.system.topology().link_body[link]);
-  return quaternion_product<T>(p, euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
+  const Vector4<T> p = body_parameters(view.system, view.design.constants, *view.state,
+                                       view.system.topology().link_body[link]);
+  return quaternion_product<T>(p,
+                               euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
 }
 
-/// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the child, -L of theory (13).
+/// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the
+/// child, -L of theory (13).
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term) {
   T sum(0.0);
@@ -60,7 +67,8 @@ T load_term(const StateView<T>& view, const SignalReference& term) {
     else if (term.kind == SignalKind::kJointEffortRate)
       sum += applied_effort_rate(view, load);
     else
-      sum -= joint_load<T>(view, friction_part(load), view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate);
+      sum -= joint_load<T>(view, friction_part(load),
+                           view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate);
   }
   return sum;
 }
@@ -140,9 +148,11 @@ T signal_error(const StateView<T>& view, const Signal& signal, const Reference<T
   return signal_value(view, signal) - moving.at(view.state->t).value;
 }
 
-/// The sum of weight (signal - reference)^2 over terms of the objective: the integrand g or the terminal terms w of theory (21).
+/// The sum of weight (signal - reference)^2 over terms of the objective: the integrand g or the
+/// terminal terms w of theory (21).
 template <class T>
-T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& terms, const ObjectiveNumbers<T>& numbers) {
+T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& terms,
+                  const ObjectiveNumbers<T>& numbers) {
   T sum(0.0);
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const T error = signal_error(view, terms[k].signal, numbers.references[k]);

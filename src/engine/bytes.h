@@ -12,13 +12,14 @@
 
 namespace codesign {
 
-/// Writes numbers and texts one after another, with the bits that they have in memory. The reader must be a process of the same program on
-/// a machine of the same kind.
+/// Writes numbers and texts one after another, with the bits that they have in memory. The reader
+/// must be a process of the same program on a machine of the same kind.
 class ByteWriter {
  public:
   template <class T>
   void add(T value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "bytes of structures may be padding");
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>,
+                  "bytes of structures may be padding");
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   void add_text(std::string_view text) {
@@ -29,7 +30,8 @@ class ByteWriter {
   template <class Values>
   void add_numbers(const Values& values) {
     add(static_cast<std::uint64_t>(values.size()));
-    bytes_.append(reinterpret_cast<const char*>(values.data()), to_index(values.size()) * sizeof(double));
+    bytes_.append(reinterpret_cast<const char*>(values.data()),
+                  to_index(values.size()) * sizeof(double));
   }
   std::string take() { return std::move(bytes_); }
 
@@ -49,7 +51,8 @@ class ByteReader {
     return value;
   }
   std::string get_text() { return std::string(take(count(1))); }
-  /// Numbers into a container that can be constructed from its size: a vector of the standard library or of Eigen.
+  /// Numbers into a container that can be constructed from its size: a vector of the standard
+  /// library or of Eigen.
   template <class Values>
   Values get_numbers() {
     const std::size_t size = count(sizeof(double));
@@ -61,7 +64,8 @@ class ByteReader {
   bool at_end() const { return rest_.empty(); }
 
  private:
-  /// The number of elements that follow. The check keeps a damaged number from reserving all memory.
+  /// The number of elements that follow. The check keeps a damaged number from reserving all
+  /// memory.
   std::size_t count(std::size_t size_of_one) {
     const auto size = get<std::uint64_t>();
     if (size > rest_.size() / size_of_one) fail();
@@ -73,7 +77,9 @@ class ByteReader {
     rest_.remove_prefix(size);
     return taken;
   }
-  [[noreturn]] static void fail() { throw std::runtime_error("a message between processes is damaged: it ends too early"); }
+  [[noreturn]] static void fail() {
+    throw std::runtime_error("a message between processes is damaged: it ends too early");
+  }
 
   std::string_view rest_;
 };

@@ -10,7 +10,8 @@
 namespace codesign {
 namespace {
 
-constexpr std::size_t kMostAtOnce = 256;  // largest number of messages to receive before messages are sent
+constexpr std::size_t kMostAtOnce =
+    256;  // largest number of messages to receive before messages are sent
 
 std::string in_seconds(RankTimes::Duration duration) {
   return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(duration).count()) + " s";
@@ -18,7 +19,8 @@ std::string in_seconds(RankTimes::Duration duration) {
 
 }  // namespace
 
-Dispatcher::Dispatcher(Transport* transport, const RankTimes& times) : transport_(transport), times_(times) {
+Dispatcher::Dispatcher(Transport* transport, const RankTimes& times)
+    : transport_(transport), times_(times) {
   RankState unheard;
   unheard.heard = unheard.told = Clock::now();
   ranks_.assign(transport ? to_index(transport->ranks()) : 1, unheard);
@@ -32,7 +34,8 @@ bool Dispatcher::finish() {
   }
   has_work_.notify_all();
   if (thread_.joinable()) thread_.join();
-  return std::all_of(ranks_.begin() + 1, ranks_.end(), [](const RankState& state) { return state.has_left; });
+  return std::all_of(ranks_.begin() + 1, ranks_.end(),
+                     [](const RankState& state) { return state.has_left; });
 }
 
 Status Dispatcher::lost() const {
@@ -42,7 +45,8 @@ Status Dispatcher::lost() const {
 
 bool Dispatcher::is_complete() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return std::all_of(ranks_.begin() + 1, ranks_.end(), [](const RankState& state) { return state.is_ready; });
+  return std::all_of(ranks_.begin() + 1, ranks_.end(),
+                     [](const RankState& state) { return state.is_ready; });
 }
 
 std::uint32_t Dispatcher::add(PortableProblem problem) {
@@ -71,7 +75,9 @@ void Dispatcher::run(RankBatch* batch, const std::function<void(std::size_t, Eva
   has_work_.notify_all();
   has_local_work_.notify_all();
   for (;;) {
-    batch->changed.wait(lock, [batch] { return !batch->arrived.empty() || !batch->computed.empty() || batch->is_over(); });
+    batch->changed.wait(lock, [batch] {
+      return !batch->arrived.empty() || !batch->computed.empty() || batch->is_over();
+    });
     if (batch->arrived.empty() && batch->computed.empty()) break;
     auto arrived = std::exchange(batch->arrived, {});
     auto computed = std::exchange(batch->computed, {});
@@ -105,13 +111,16 @@ std::pair<RankBatch*, std::size_t> Dispatcher::take_local(std::uint32_t problem)
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
     if (problems_.count(problem) == 0) return {nullptr, 0};
-    const auto place = std::find_if(waiting_.begin(), waiting_.end(), [problem](const RankBatch* b) { return b->problem == problem; });
+    const auto place =
+        std::find_if(waiting_.begin(), waiting_.end(),
+                     [problem](const RankBatch* b) { return b->problem == problem; });
     if (place != waiting_.end()) return take_next(place);
     has_local_work_.wait(lock);
   }
 }
 
-void Dispatcher::give_local(RankBatch* batch, std::size_t index, Evaluation evaluation, const std::exception_ptr& error) {
+void Dispatcher::give_local(RankBatch* batch, std::size_t index, Evaluation evaluation,
+                            const std::exception_ptr& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!error)
     batch->computed.emplace_back(index, std::move(evaluation));
@@ -147,7 +156,8 @@ void Dispatcher::work() {
     watch_ranks(now, &outgoing);
     hand_out(&outgoing);
     // While a caller waits, the pause is short; otherwise a longer one suffices.
-    const auto most = batches_.empty() ? std::chrono::milliseconds(20) : std::chrono::milliseconds(1);
+    const auto most =
+        batches_.empty() ? std::chrono::milliseconds(20) : std::chrono::milliseconds(1);
     if (is_quiet && outgoing.empty() && !ends_) has_work_.wait_for(lock, pause.next(now, most));
   }
   lock.unlock();
@@ -156,7 +166,8 @@ void Dispatcher::work() {
 
 void Dispatcher::say_goodbye() {
   if (!lost_.ok()) return;
-  for (int rank = 1; rank < ranks(); ++rank) transport_->send(rank, write_numbered(MessageKind::kEnd));
+  for (int rank = 1; rank < ranks(); ++rank)
+    transport_->send(rank, write_numbered(MessageKind::kEnd));
   const Clock::time_point end = Clock::now() + times_.goodbye;
   for (int left = ranks() - 1; left > 0 && Clock::now() < end;) {
     const std::optional<Envelope> envelope = transport_->receive();
@@ -192,8 +203,10 @@ void Dispatcher::welcome(int rank, ByteReader* reader) {
   const Hello theirs = read_hello(reader), ours{kMessageFormat, version(), ""};
   state.host = theirs.host;
   if (theirs.version != ours.version || theirs.format != ours.format) {
-    lose(name_of_rank(rank) + " runs version " + theirs.version + " of this program (messages of format " + std::to_string(theirs.format) +
-         "), and rank 0 version " + ours.version + " (format " + std::to_string(ours.format) + "); install the same version on every host");
+    lose(name_of_rank(rank) + " runs version " + theirs.version +
+         " of this program (messages of format " + std::to_string(theirs.format) +
+         "), and rank 0 version " + ours.version + " (format " + std::to_string(ours.format) +
+         "); install the same version on every host");
     return;
   }
   state.is_ready = true;
@@ -202,7 +215,8 @@ void Dispatcher::welcome(int rank, ByteReader* reader) {
 
 void Dispatcher::take_answer(int rank, std::uint64_t number, std::string bytes) {
   std::vector<SentTask>& sent = ranks_[to_index(rank)].sent;
-  const auto place = std::find_if(sent.begin(), sent.end(), [number](const SentTask& one) { return one.number == number; });
+  const auto place = std::find_if(sent.begin(), sent.end(),
+                                  [number](const SentTask& one) { return one.number == number; });
   // The answer of a task whose batch has ended already.
   if (place == sent.end()) return;
   place->batch->arrived.emplace_back(place->index, std::move(bytes));
@@ -220,20 +234,23 @@ void Dispatcher::sort_in(int rank) {
   if (tasks == 1) half_free_.insert(rank);
 }
 
-/// Gives a rank a second task while it computes the first one, so that it does not idle until the next message; but not if another rank
-/// could begin that task sooner.
+/// Gives a rank a second task while it computes the first one, so that it does not idle until the
+/// next message; but not if another rank could begin that task sooner.
 void Dispatcher::hand_out(Outgoing* outgoing) {
   while (waiting_tasks_ > 0 && !free_.empty()) send_next(*free_.begin(), outgoing);
-  while (waiting_tasks_ > ranks_.size() && !half_free_.empty()) send_next(*half_free_.begin(), outgoing);
+  while (waiting_tasks_ > ranks_.size() && !half_free_.empty())
+    send_next(*half_free_.begin(), outgoing);
 }
 
 void Dispatcher::send_next(int rank, Outgoing* outgoing) {
   const auto [batch, index] = take_next(waiting_.begin());
   RankState& state = ranks_[to_index(rank)];
-  if (state.problems.insert(batch->problem).second) outgoing->emplace_back(rank, problems_.at(batch->problem));
+  if (state.problems.insert(batch->problem).second)
+    outgoing->emplace_back(rank, problems_.at(batch->problem));
   const std::uint64_t number = next_number_++;
   const EvaluationTask& task = batch->tasks[index];
-  outgoing->emplace_back(rank, write_task(number, batch->problem, batch->systems[index], task.derivatives, task.parameters));
+  outgoing->emplace_back(rank, write_task(number, batch->problem, batch->systems[index],
+                                          task.derivatives, task.parameters));
   state.sent.push_back({number, batch, index});
   sort_in(rank);
 }
@@ -241,7 +258,8 @@ void Dispatcher::send_next(int rank, Outgoing* outgoing) {
 void Dispatcher::forget_removed(Outgoing* outgoing) {
   for (const std::uint32_t problem : std::exchange(forgotten_, {}))
     for (int rank = 1; rank < ranks(); ++rank)
-      if (ranks_[to_index(rank)].problems.erase(problem) > 0) outgoing->emplace_back(rank, write_numbered(MessageKind::kForget, problem));
+      if (ranks_[to_index(rank)].problems.erase(problem) > 0)
+        outgoing->emplace_back(rank, write_numbered(MessageKind::kForget, problem));
 }
 
 void Dispatcher::watch_cancels(Clock::time_point now, Outgoing* outgoing) {
@@ -265,7 +283,8 @@ void Dispatcher::end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* ou
   drop_waiting(batch);
   for (int rank = 1; rank < ranks(); ++rank)
     for (const SentTask& task : ranks_[to_index(rank)].sent)
-      if (task.batch == batch) outgoing->emplace_back(rank, write_numbered(MessageKind::kCancel, task.number));
+      if (task.batch == batch)
+        outgoing->emplace_back(rank, write_numbered(MessageKind::kCancel, task.number));
   batch->ping = next_ping_++;
   batch->pinged = now;
   ping_all(*batch->ping, outgoing);
@@ -273,7 +292,8 @@ void Dispatcher::end_tasks(RankBatch* batch, Clock::time_point now, Outgoing* ou
 
 void Dispatcher::ping_all(std::uint64_t ping, Outgoing* outgoing) const {
   for (int rank = 1; rank < ranks(); ++rank)
-    if (ranks_[to_index(rank)].is_ready) outgoing->emplace_back(rank, write_numbered(MessageKind::kPing, ping));
+    if (ranks_[to_index(rank)].is_ready)
+      outgoing->emplace_back(rank, write_numbered(MessageKind::kPing, ping));
 }
 
 /// The first rank that has not answered a ping, as a status; ok if all have.
@@ -281,7 +301,9 @@ Status Dispatcher::missed_since(std::uint64_t ping) const {
   for (int rank = 1; rank < ranks(); ++rank) {
     const RankState& state = ranks_[to_index(rank)];
     if (state.is_ready && state.pong < ping)
-      return {StatusCode::kWorkerLost, 0.0, name_of_rank(rank) + " does not answer: it was killed, or its machine cannot be reached"};
+      return {
+          StatusCode::kWorkerLost, 0.0,
+          name_of_rank(rank) + " does not answer: it was killed, or its machine cannot be reached"};
   }
   return {};
 }
@@ -298,7 +320,8 @@ Status Dispatcher::call_roll() {
 
 void Dispatcher::watch_ranks(Clock::time_point now, Outgoing* outgoing) {
   constexpr auto kPeriod = std::chrono::milliseconds(100);
-  // If this process itself was stopped, it has not received messages meanwhile; that time is not the silence of a rank.
+  // If this process itself was stopped, it has not received messages meanwhile; that time is not
+  // the silence of a rank.
   const Clock::duration away = now - std::exchange(looked_, now);
   if (away > std::chrono::seconds(1))
     for (RankState& state : ranks_) state.heard += away;
@@ -311,7 +334,8 @@ void Dispatcher::watch_ranks(Clock::time_point now, Outgoing* outgoing) {
     if (now - state.heard > patience)
       lose(name_of_rank(rank) + " has said nothing for " + in_seconds(patience) +
            ": it was killed, or its machine is stopped or cannot be reached");
-    if (now - state.told > times_.sign) outgoing->emplace_back(rank, write_numbered(MessageKind::kSign));
+    if (now - state.told > times_.sign)
+      outgoing->emplace_back(rank, write_numbered(MessageKind::kSign));
   }
 }
 
@@ -335,7 +359,8 @@ void Dispatcher::end(RankBatch* batch, const Status& status) {
   drop_waiting(batch);
   for (int rank = 1; rank < ranks(); ++rank) {
     std::vector<SentTask>& sent = ranks_[to_index(rank)].sent;
-    const auto rest = std::remove_if(sent.begin(), sent.end(), [batch](const SentTask& one) { return one.batch == batch; });
+    const auto rest = std::remove_if(sent.begin(), sent.end(),
+                                     [batch](const SentTask& one) { return one.batch == batch; });
     batch->done += to_index(sent.end() - rest);
     sent.erase(rest, sent.end());
     if (ranks_[to_index(rank)].is_ready) sort_in(rank);
@@ -346,7 +371,8 @@ void Dispatcher::end(RankBatch* batch, const Status& status) {
 
 std::string Dispatcher::name_of_rank(int rank) const {
   const std::string& host = ranks_[to_index(rank)].host;
-  return "rank " + std::to_string(rank) + " of " + std::to_string(ranks()) + (host.empty() ? "" : " on host " + host);
+  return "rank " + std::to_string(rank) + " of " + std::to_string(ranks()) +
+         (host.empty() ? "" : " on host " + host);
 }
 
 }  // namespace codesign

@@ -21,21 +21,27 @@
 
 namespace codesign {
 
-/// The tasks of one call of MpiEngine::evaluate(), which waits until all of them have ended. Guarded by the mutex of the Dispatcher.
+/// The tasks of one call of MpiEngine::evaluate(), which waits until all of them have ended.
+/// Guarded by the mutex of the Dispatcher.
 struct RankBatch {
   const std::vector<EvaluationTask>& tasks;
-  const std::vector<std::uint32_t> systems;  ///< per task: index of its system in distinct_systems()
+  const std::vector<std::uint32_t>
+      systems;  ///< per task: index of its system in distinct_systems()
   const std::uint32_t problem;
   const std::atomic<bool>* cancel;
 
   std::size_t next = 0;  ///< the first task that no rank has taken
-  std::size_t done = 0;  ///< number of tasks with a result or an exception, and of tasks that have none because of `ended`
-  /// Answers of workers, by task, that the calling thread has yet to parse. Callers parse them, since they wait anyway and may be many.
+  std::size_t done = 0;  ///< number of tasks with a result or an exception, and of tasks that have
+                         ///< none because of `ended`
+  /// Answers of workers, by task, that the calling thread has yet to parse. Callers parse them,
+  /// since they wait anyway and may be many.
   std::vector<std::pair<std::size_t, std::string>> arrived{};
-  std::vector<std::pair<std::size_t, Evaluation>> computed{};  ///< results that rank 0 has computed itself
+  std::vector<std::pair<std::size_t, Evaluation>>
+      computed{};  ///< results that rank 0 has computed itself
   std::exception_ptr error{};
   Status ended{};  ///< not ok: the status of all tasks without a result
-  /// After a cancel: the ping that every worker must answer before the batch ends, and the time at which it was sent.
+  /// After a cancel: the ping that every worker must answer before the batch ends, and the time at
+  /// which it was sent.
   std::optional<std::uint64_t> ping{};
   PollPause::Clock::time_point pinged{};
 
@@ -58,20 +64,24 @@ struct RankState {
   std::string host;
   PollPause::Clock::time_point heard, told;  ///< time of the last message from this rank and to it
   std::uint64_t pong = 0;                    ///< the last ping that the rank has answered
-  std::vector<SentTask> sent{};              ///< tasks without an answer, at most two: one runs, and one waits at the rank
-  std::set<std::uint32_t> problems{};        ///< problems that were sent to this rank
+  std::vector<SentTask>
+      sent{};  ///< tasks without an answer, at most two: one runs, and one waits at the rank
+  std::set<std::uint32_t> problems{};  ///< problems that were sent to this rank
 };
 
-/// Rank 0 evaluates tasks itself, too, if the job has at most this many ranks. In a larger job its processor is busy with messages, and its
-/// share of the evaluations would be small. doc/performance.md has the figures.
+/// Rank 0 evaluates tasks itself, too, if the job has at most this many ranks. In a larger job its
+/// processor is busy with messages, and its share of the evaluations would be small.
+/// doc/performance.md has the figures.
 constexpr int kMostRanksWithLocal = 32;
 
-/// Runs on rank 0 of a job: sends the tasks of all callers to the other ranks (RankWorker), in the order of their arrival, and collects the
-/// answers. A thread of its own makes all calls of the transport. Thread-safe; used through MpiEngine.
+/// Runs on rank 0 of a job: sends the tasks of all callers to the other ranks (RankWorker), in the
+/// order of their arrival, and collects the answers. A thread of its own makes all calls of the
+/// transport. Thread-safe; used through MpiEngine.
 ///
-/// If a rank is silent for too long or a connection fails, all batches end with StatusCode::kWorkerLost, and so do all later batches. After
-/// a cancel the dispatcher pings all workers: mpirun sends the same signal when the user interrupts the job and when one of its ranks was
-/// killed, and a missing answer distinguishes the two cases.
+/// If a rank is silent for too long or a connection fails, all batches end with
+/// StatusCode::kWorkerLost, and so do all later batches. After a cancel the dispatcher pings all
+/// workers: mpirun sends the same signal when the user interrupts the job and when one of its ranks
+/// was killed, and a missing answer distinguishes the two cases.
 class Dispatcher {
  public:
   /// @param transport must outlive it; null for a program that runs alone.
@@ -87,23 +97,29 @@ class Dispatcher {
   /// The reason why no further task can run; ok as long as no rank is lost.
   Status lost() const;
 
-  /// Whether every rank has sent its first message. A rank gets neither pings nor tasks before it has.
+  /// Whether every rank has sent its first message. A rank gets neither pings nor tasks before it
+  /// has.
   bool is_complete() const;
 
-  /// Pings all ranks. @returns kWorkerLost naming the first rank that does not answer in time, else ok.
+  /// Pings all ranks. @returns kWorkerLost naming the first rank that does not answer in time, else
+  /// ok.
   Status call_roll();
 
-  /// Adds a problem; its texts are sent to each rank with the first task of the problem. @returns the number of the problem.
+  /// Adds a problem; its texts are sent to each rank with the first task of the problem. @returns
+  /// the number of the problem.
   std::uint32_t add(PortableProblem problem);
   void remove(std::uint32_t problem);
 
-  /// Runs all tasks of a batch. @param take called with each result that arrives, in the thread of the caller.
+  /// Runs all tasks of a batch. @param take called with each result that arrives, in the thread of
+  /// the caller.
   /// @returns when the batch has ended.
   void run(RankBatch* batch, const std::function<void(std::size_t, Evaluation)>& take);
 
-  /// Waits for the next task of a problem that rank 0 evaluates itself. @returns a null batch once the problem is removed.
+  /// Waits for the next task of a problem that rank 0 evaluates itself. @returns a null batch once
+  /// the problem is removed.
   std::pair<RankBatch*, std::size_t> take_local(std::uint32_t problem);
-  void give_local(RankBatch* batch, std::size_t index, Evaluation evaluation, const std::exception_ptr& error);
+  void give_local(RankBatch* batch, std::size_t index, Evaluation evaluation,
+                  const std::exception_ptr& error);
 
  private:
   using Clock = PollPause::Clock;

@@ -36,7 +36,8 @@ SourceLocation get_location(ByteReader* reader) {
 void add(const LoadedTrajectory& one, ByteWriter* writer) {
   for (const std::string& text : {one.bag, one.topic, one.joint}) writer->add_text(text);
   const auto& [times, positions, velocities, accelerations] = one.trajectory;
-  for (const std::vector<double>* values : {&times, &positions, &velocities, &accelerations}) writer->add_numbers(*values);
+  for (const std::vector<double>* values : {&times, &positions, &velocities, &accelerations})
+    writer->add_numbers(*values);
 }
 
 LoadedTrajectory get_trajectory(ByteReader* reader) {
@@ -87,7 +88,9 @@ Warning get_warning(ByteReader* reader) {
 
 }  // namespace
 
-std::string write_numbered(MessageKind kind, std::uint64_t number) { return begin(kind, number).take(); }
+std::string write_numbered(MessageKind kind, std::uint64_t number) {
+  return begin(kind, number).take();
+}
 
 std::string write_hello(const Hello& hello) {
   ByteWriter writer;
@@ -135,8 +138,8 @@ PortableProblem read_problem(ByteReader* reader) {
   return problem;
 }
 
-std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, Derivatives derivatives,
-                       const std::vector<double>& parameters) {
+std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system,
+                       Derivatives derivatives, const std::vector<double>& parameters) {
   ByteWriter writer = begin(MessageKind::kTask, number);
   writer.add(problem);
   writer.add(system);
@@ -156,11 +159,14 @@ TaskMessage read_task(std::uint64_t number, ByteReader* reader) {
 }
 
 std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
-  // All members by name, so that a new member of Evaluation does not compile before it is written here and read in read_result().
-  const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings] = evaluation;
+  // All members by name, so that a new member of Evaluation does not compile before it is written
+  // here and read in read_result().
+  const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings] =
+      evaluation;
   const auto& [code, time, cause] = status;
   const auto& [values, times, gradients] = extremes;
-  const auto& [steps, rejected_steps, cpu_seconds, constraint_drift, energy_error, explicit_steps] = statistics;
+  const auto& [steps, rejected_steps, cpu_seconds, constraint_drift, energy_error, explicit_steps] =
+      statistics;
   ByteWriter writer = begin(MessageKind::kResult, number);
   writer.add(code);
   writer.add(time);
@@ -194,9 +200,12 @@ Evaluation read_result(ByteReader* reader) {
   evaluation.extremes.times = reader->get_numbers<Eigen::VectorXd>();
   evaluation.extremes.gradients = get_matrix(reader);
   Statistics& statistics = evaluation.statistics;
-  for (std::int64_t* count : {&statistics.steps, &statistics.rejected_steps, &statistics.explicit_steps})
+  for (std::int64_t* count :
+       {&statistics.steps, &statistics.rejected_steps, &statistics.explicit_steps})
     *count = reader->get<std::int64_t>();
-  for (double* value : {&statistics.cpu_seconds, &statistics.constraint_drift, &statistics.energy_error}) *value = reader->get<double>();
+  for (double* value :
+       {&statistics.cpu_seconds, &statistics.constraint_drift, &statistics.energy_error})
+    *value = reader->get<double>();
   evaluation.warnings = get_list(reader, get_warning);
   return evaluation;
 }
@@ -217,7 +226,8 @@ std::string write_error(std::uint64_t number, const std::exception_ptr& error) {
   }
   writer.add(is_input);
   add(fault.where, &writer);
-  for (const std::string* text : {&fault.element, &fault.message, &fault.value, &fault.allowed}) writer.add_text(*text);
+  for (const std::string* text : {&fault.element, &fault.message, &fault.value, &fault.allowed})
+    writer.add_text(*text);
   return writer.take();
 }
 
@@ -225,7 +235,8 @@ std::exception_ptr read_error(ByteReader* reader) {
   const bool is_input = reader->get<bool>();
   InputFault fault;
   fault.where = get_location(reader);
-  for (std::string* text : {&fault.element, &fault.message, &fault.value, &fault.allowed}) *text = reader->get_text();
+  for (std::string* text : {&fault.element, &fault.message, &fault.value, &fault.allowed})
+    *text = reader->get_text();
   if (is_input) return std::make_exception_ptr(InputError(std::move(fault)));
   return std::make_exception_ptr(std::runtime_error(fault.message));
 }

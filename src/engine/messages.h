@@ -13,8 +13,8 @@
 
 namespace codesign {
 
-// Messages between the ranks of a job. A message is one byte, its MessageKind, followed by the fields listed there; numbers keep their
-// bits.
+// Messages between the ranks of a job. A message is one byte, its MessageKind, followed by the
+// fields listed there; numbers keep their bits.
 
 /// Version of the layout of all messages except kHello; a change of any layout needs a new number.
 constexpr std::uint32_t kMessageFormat = 2;
@@ -29,7 +29,8 @@ enum class MessageKind : std::uint8_t {
   // To the others.
   kProblem,  ///< number of the problem, PortableProblem
   kTask,     ///< TaskMessage
-  kCancel,   ///< number of the task; the rank drops a waiting task without an answer and answers a running one early
+  kCancel,   ///< number of the task; the rank drops a waiting task without an answer and answers a
+             ///< running one early
   kForget,   ///< number of the problem
   kPing,     ///< number of the ping
   kEnd,      ///< the job is over
@@ -37,7 +38,8 @@ enum class MessageKind : std::uint8_t {
   kSign  ///< sign of life, without fields
 };
 
-/// The first message of a rank, which identifies it. Its layout never changes, so that other versions can read it.
+/// The first message of a rank, which identifies it. Its layout never changes, so that other
+/// versions can read it.
 struct Hello {
   std::uint32_t format = kMessageFormat;
   std::string version, host;
@@ -55,14 +57,15 @@ struct TaskMessage {
 std::string write_numbered(MessageKind kind, std::uint64_t number = 0);
 std::string write_hello(const Hello& hello);
 std::string write_problem(std::uint32_t number, const PortableProblem& problem);
-std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system, Derivatives derivatives,
-                       const std::vector<double>& parameters);
+std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system,
+                       Derivatives derivatives, const std::vector<double>& parameters);
 std::string write_result(std::uint64_t number, const Evaluation& evaluation);
-/// An exception: an InputError is read back as an InputError, any other exception as a std::runtime_error with the same sentence.
+/// An exception: an InputError is read back as an InputError, any other exception as a
+/// std::runtime_error with the same sentence.
 std::string write_error(std::uint64_t number, const std::exception_ptr& error);
 
-// Each function reads the fields after kind and number, or after the kind of a message without a number. @throws std::runtime_error for a
-// damaged message.
+// Each function reads the fields after kind and number, or after the kind of a message without a
+// number. @throws std::runtime_error for a damaged message.
 Hello read_hello(ByteReader* reader);
 PortableProblem read_problem(ByteReader* reader);
 TaskMessage read_task(std::uint64_t number, ByteReader* reader);

@@ -21,8 +21,11 @@ std::string host_name() {
 }  // namespace
 
 MpiEngine::MpiEngine(Dispatcher* dispatcher, const Problem& problem)
-    : dispatcher_(dispatcher), problem_(dispatcher->add(make_portable(problem))), systems_(distinct_systems(problem)) {
-  for (const auto& system : systems_) numbers_.emplace(system.get(), static_cast<std::uint32_t>(numbers_.size()));
+    : dispatcher_(dispatcher),
+      problem_(dispatcher->add(make_portable(problem))),
+      systems_(distinct_systems(problem)) {
+  for (const auto& system : systems_)
+    numbers_.emplace(system.get(), static_cast<std::uint32_t>(numbers_.size()));
   if (dispatcher_->ranks() <= kMostRanksWithLocal) local_ = std::thread([this] { compute(); });
 }
 
@@ -33,7 +36,8 @@ MpiEngine::~MpiEngine() {
 
 int MpiEngine::workers() const { return dispatcher_->ranks() - (local_.joinable() ? 0 : 1); }
 
-std::vector<Evaluation> MpiEngine::evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) {
+std::vector<Evaluation> MpiEngine::evaluate(const std::vector<EvaluationTask>& tasks,
+                                            const std::atomic<bool>* cancel) {
   if (tasks.empty()) return {};
   std::vector<std::uint32_t> systems;
   systems.reserve(tasks.size());
@@ -69,7 +73,8 @@ void MpiEngine::compute() {
   }
 }
 
-RankWorker::RankWorker(Transport* transport, const RankTimes& times) : transport_(transport), times_(times) {}
+RankWorker::RankWorker(Transport* transport, const RankTimes& times)
+    : transport_(transport), times_(times) {}
 
 std::string RankWorker::run() {
   transport_->send(0, write_hello({kMessageFormat, version(), host_name()}));
@@ -96,14 +101,16 @@ std::string RankWorker::listen() {
       is_quiet = false;
       if (!take(std::move(*envelope))) return "";
     }
-    // If this process itself was stopped, it has not received messages meanwhile; that time is not the silence of rank 0.
+    // If this process itself was stopped, it has not received messages meanwhile; that time is not
+    // the silence of rank 0.
     const Clock::duration away = now - std::exchange(looked, now);
     if (away > std::chrono::seconds(1)) heard += away;
     if (!transport_->failure().empty()) return transport_->failure();
     if (now - heard > times_.orphaned) return "rank 0 has said nothing for too long";
     std::unique_lock<std::mutex> lock(mutex_);
     std::vector<std::string> answers = std::exchange(answers_, {});
-    if (answers.empty() && now - told > times_.sign) answers.push_back(write_numbered(MessageKind::kSign));
+    if (answers.empty() && now - told > times_.sign)
+      answers.push_back(write_numbered(MessageKind::kSign));
     if (!answers.empty()) {
       lock.unlock();
       for (std::string& answer : answers) transport_->send(0, std::move(answer));
@@ -151,7 +158,9 @@ bool RankWorker::take(Envelope envelope) {
 void RankWorker::cancel_task(std::uint64_t number) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (running_ == number) cancel_ = true;
-  const auto is_it = [number](const Item& item) { return item.kind == MessageKind::kTask && item.number == number; };
+  const auto is_it = [number](const Item& item) {
+    return item.kind == MessageKind::kTask && item.number == number;
+  };
   items_.erase(std::remove_if(items_.begin(), items_.end(), is_it), items_.end());
 }
 
@@ -204,7 +213,8 @@ std::string RankWorker::do_item(const Item& item) {
 Evaluation RankWorker::evaluate(const TaskMessage& task) {
   Known& known = problems_.at(task.problem);
   if (known.error) std::rethrow_exception(known.error);
-  return known.worker.compute(known.systems.at(task.system), task.parameters, task.derivatives, &cancel_);
+  return known.worker.compute(known.systems.at(task.system), task.parameters, task.derivatives,
+                              &cancel_);
 }
 
 }  // namespace codesign

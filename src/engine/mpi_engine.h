@@ -24,9 +24,11 @@ class MpiEngine final : public EvaluationEngine {
   MpiEngine(const MpiEngine&) = delete;
   MpiEngine& operator=(const MpiEngine&) = delete;
 
-  /// @param tasks their systems must belong to the problem. Tasks that a lost rank leaves unfinished end with kWorkerLost.
-  /// An exception of a task is thrown again here after the other tasks of the call have ended.
-  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override;
+  /// @param tasks their systems must belong to the problem. Tasks that a lost rank leaves
+  /// unfinished end with kWorkerLost. An exception of a task is thrown again here after the other
+  /// tasks of the call have ended.
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks,
+                                   const std::atomic<bool>* cancel) override;
   int workers() const override;
 
  private:
@@ -39,8 +41,9 @@ class MpiEngine final : public EvaluationEngine {
   std::thread local_;
 };
 
-/// Runs on every rank other than 0: compiles the problems that arrive, and runs their tasks in the order of arrival. One thread computes;
-/// the thread of the caller makes all calls of the transport, so that a cancel reaches a running evaluation.
+/// Runs on every rank other than 0: compiles the problems that arrive, and runs their tasks in the
+/// order of arrival. One thread computes; the thread of the caller makes all calls of the
+/// transport, so that a cancel reaches a running evaluation.
 class RankWorker {
  public:
   /// @param transport must outlive it.

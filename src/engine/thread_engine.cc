@@ -43,7 +43,8 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
 
 int worker_threads(const EngineOptions& engine) {
   if (engine.kind == EngineKind::kSerial) return 1;
-  return engine.workers > 0 ? engine.workers : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return engine.workers > 0 ? engine.workers
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 ThreadEngine::ThreadEngine(int workers) {
@@ -60,7 +61,8 @@ ThreadEngine::~ThreadEngine() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-std::vector<Evaluation> ThreadEngine::evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) {
+std::vector<Evaluation> ThreadEngine::evaluate(const std::vector<EvaluationTask>& tasks,
+                                               const std::atomic<bool>* cancel) {
   if (tasks.empty()) return {};
   Batch batch{tasks, cancel, std::vector<Evaluation>(tasks.size()), 0, 0, nullptr};
   std::unique_lock<std::mutex> lock(mutex_);
@@ -91,7 +93,8 @@ void ThreadEngine::work() {
     lock.lock();
     batch.results[k] = std::move(result);
     if (error && !batch.error) batch.error = error;
-    // The batch is a local variable of evaluate(), which may return as soon as the last task is counted.
+    // The batch is a local variable of evaluate(), which may return as soon as the last task is
+    // counted.
     if (++batch.done == batch.tasks.size()) is_done_.notify_all();
   }
 }

@@ -16,8 +16,8 @@
 
 namespace codesign {
 
-/// Runs one evaluation after another. Keeps the workspace of each system, so that it is allocated only once. Not thread-safe: use one
-/// worker per thread.
+/// Runs one evaluation after another. Keeps the workspace of each system, so that it is allocated
+/// only once. Not thread-safe: use one worker per thread.
 class EvaluationWorker {
  public:
   Evaluation evaluate(const EvaluationTask& task, const std::atomic<bool>* cancel) {
@@ -27,7 +27,8 @@ class EvaluationWorker {
     if (task.finished) task.finished(result);
     return result;
   }
-  Evaluation compute(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, Derivatives derivatives,
+  Evaluation compute(const std::shared_ptr<const CompiledSystem>& system,
+                     const std::vector<double>& parameters, Derivatives derivatives,
                      const std::atomic<bool>* cancel) {
     const auto [place, is_new] = evaluators_.try_emplace(system.get(), system);
     return place->second.evaluate_design(parameters, derivatives, cancel);
@@ -40,13 +41,15 @@ class EvaluationWorker {
     return evaluation;
   }
 
-  std::map<const CompiledSystem*, Evaluator> evaluators_;  // an Evaluator keeps its system alive, so that its address is not reused
+  std::map<const CompiledSystem*, Evaluator>
+      evaluators_;  // an Evaluator keeps its system alive, so that its address is not reused
 };
 
 /// Runs evaluations one after another in the thread of the caller.
 class SerialEngine final : public EvaluationEngine {
  public:
-  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override {
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks,
+                                   const std::atomic<bool>* cancel) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::vector<Evaluation> results;
     results.reserve(tasks.size());
@@ -60,12 +63,14 @@ class SerialEngine final : public EvaluationEngine {
   EvaluationWorker worker_;
 };
 
-/// Calls work(k) for k = 0 to count - 1, at most `threads` calls at the same time; the calls begin in the order of k. Meant for work that
-/// mostly waits for an engine. With one thread, all calls are made in the thread of the caller. If a call throws, no further call begins,
-/// and the exception is thrown again after the running calls have ended.
+/// Calls work(k) for k = 0 to count - 1, at most `threads` calls at the same time; the calls begin
+/// in the order of k. Meant for work that mostly waits for an engine. With one thread, all calls
+/// are made in the thread of the caller. If a call throws, no further call begins, and the
+/// exception is thrown again after the running calls have ended.
 void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
-/// Number of threads of this process that the options of an engine request, at least one. With kMpi each process uses all processors.
+/// Number of threads of this process that the options of an engine request, at least one. With kMpi
+/// each process uses all processors.
 int worker_threads(const EngineOptions& engine);
 
 /// Runs evaluations on a fixed number of threads, in the order of the calls.
@@ -77,7 +82,8 @@ class ThreadEngine final : public EvaluationEngine {
   ThreadEngine& operator=(const ThreadEngine&) = delete;
 
   /// An exception of a task is thrown again here after the other tasks of the call have ended.
-  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override;
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks,
+                                   const std::atomic<bool>* cancel) override;
   int workers() const override { return static_cast<int>(threads_.size()); }
 
  private:

@@ -8,9 +8,9 @@
 
 namespace codesign {
 
-/// The pause between two polls for messages. MPI cannot sleep until a message arrives, and polling without a pause would occupy a
-/// processor. The pause is an eighth of the time since the last message: it delays a message by at most an eighth of the wait, and an idle
-/// process polls rarely.
+/// The pause between two polls for messages. MPI cannot sleep until a message arrives, and polling
+/// without a pause would occupy a processor. The pause is an eighth of the time since the last
+/// message: it delays a message by at most an eighth of the wait, and an idle process polls rarely.
 class PollPause {
  public:
   using Clock = std::chrono::steady_clock;
@@ -30,11 +30,13 @@ struct RankTimes {
   using Duration = PollPause::Clock::duration;
   Duration first_sign = std::chrono::seconds(60);  ///< limit for the first message of a rank
   Duration silence = std::chrono::seconds(15);     ///< silence after which a worker counts as lost
-  Duration sign = std::chrono::seconds(3);         ///< period of signs of life while there is no other message to send
-  Duration orphaned = std::chrono::seconds(30);    ///< silence of rank 0, after which a worker ends
-  Duration goodbye = std::chrono::seconds(2);      ///< limit for the answers of all workers to the end of the job
-  /// Limit for the answers of all workers to the ping after a cancel. It is short, since mpirun ends a job within a second after one of its
-  /// ranks was killed.
+  Duration sign =
+      std::chrono::seconds(3);  ///< period of signs of life while there is no other message to send
+  Duration orphaned = std::chrono::seconds(30);  ///< silence of rank 0, after which a worker ends
+  Duration goodbye =
+      std::chrono::seconds(2);  ///< limit for the answers of all workers to the end of the job
+  /// Limit for the answers of all workers to the ping after a cancel. It is short, since mpirun
+  /// ends a job within a second after one of its ranks was killed.
   Duration answer = std::chrono::milliseconds(300);
 };
 
@@ -44,8 +46,9 @@ struct Envelope {
   std::string bytes;
 };
 
-/// Carries messages between the processes (ranks) of a job. Messages from one rank to another arrive whole and in the order in which they
-/// were sent. No call waits for another process. Called by one thread at a time.
+/// Carries messages between the processes (ranks) of a job. Messages from one rank to another
+/// arrive whole and in the order in which they were sent. No call waits for another process. Called
+/// by one thread at a time.
 class Transport {
  public:
   virtual ~Transport() = default;

@@ -20,29 +20,40 @@ Scenario own_run(std::shared_ptr<const CompiledSystem> system) {
   return scenario;
 }
 
-/// Adds the warnings whose code is new at their place: scenarios differ in the numbers of their messages.
+/// Adds the warnings whose code is new at their place: scenarios differ in the numbers of their
+/// messages.
 void add_new_codes(const Warnings& warnings, Warnings* all) {
   const auto same = [](const Warning& a, const Warning& b) {
     return a.code == b.code && a.where.file == b.where.file && a.where.line == b.where.line;
   };
   for (const Warning& warning : warnings)
-    if (std::none_of(all->begin(), all->end(), [&](const Warning& known) { return same(known, warning); })) all->push_back(warning);
+    if (std::none_of(all->begin(), all->end(),
+                     [&](const Warning& known) { return same(known, warning); }))
+      all->push_back(warning);
 }
 
 /// The index of the largest objective among the evaluations that did not fail.
 std::size_t worst_of(const std::vector<Evaluation>& members) {
   std::size_t worst = members.size();
   for (std::size_t k = 0; k < members.size(); ++k)
-    if (members[k].status.ok() && (worst == members.size() || members[k].objective > members[worst].objective)) worst = k;
+    if (members[k].status.ok() &&
+        (worst == members.size() || members[k].objective > members[worst].objective))
+      worst = k;
   return worst;
 }
 
-Status named(const Status& status, const Scenario& scenario) { return {status.code, status.time, scenario.name() + ": " + status.cause}; }
+Status named(const Status& status, const Scenario& scenario) {
+  return {status.code, status.time, scenario.name() + ": " + status.cause};
+}
 
 }  // namespace
 
-Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options, std::shared_ptr<EvaluationEngine> engine)
-    : scenarios_(std::move(scenarios)), options_(options), weights_(to_signed(scenarios_.size())), engine_(std::move(engine)) {
+Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options,
+                   std::shared_ptr<EvaluationEngine> engine)
+    : scenarios_(std::move(scenarios)),
+      options_(options),
+      weights_(to_signed(scenarios_.size())),
+      engine_(std::move(engine)) {
   for (std::size_t k = 0; k < scenarios_.size(); ++k) weights_[to_signed(k)] = scenarios_[k].weight;
 }
 
@@ -54,18 +65,23 @@ Ensemble::Ensemble(const Problem& problem, int designs, EngineRecords records)
 }
 
 Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
-    : Ensemble({own_run(std::move(system))}, RobustOptions{}, make_engine({EngineKind::kSerial, 0}, 1)) {}
+    : Ensemble({own_run(std::move(system))}, RobustOptions{},
+               make_engine({EngineKind::kSerial, 0}, 1)) {}
 
-std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios, const Eigen::VectorXd& rho, Derivatives derivatives) {
+std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios,
+                                     const Eigen::VectorXd& rho, Derivatives derivatives) {
   std::vector<EvaluationTask> tasks;
   tasks.reserve(scenarios.size());
-  for (const Scenario& scenario : scenarios) tasks.push_back({scenario.system, scenario.parameters(rho), derivatives});
+  for (const Scenario& scenario : scenarios)
+    tasks.push_back({scenario.system, scenario.parameters(rho), derivatives});
   return tasks;
 }
 
-EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) const {
+EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives,
+                                      const std::atomic<bool>* cancel) const {
   const bool with_gradient = derivatives != Derivatives::kNone;
-  std::vector<Evaluation> members = engine_->evaluate(tasks_at(scenarios_, rho, derivatives), cancel);
+  std::vector<Evaluation> members =
+      engine_->evaluate(tasks_at(scenarios_, rho, derivatives), cancel);
   EnsembleEvaluation result;
   if (scenarios_.size() == 1) {
     result.total = std::move(members.front());
@@ -96,30 +112,39 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
 /// The objective of each scenario is finite; sums and squares of them may overflow.
 void Ensemble::check_finite(double time, EnsembleEvaluation* result) const {
   Evaluation& total = result->total;
-  const std::string measure_name = std::string("the measure ") + kRobustMeasureNames[to_index(options_.measure)];
+  const std::string measure_name =
+      std::string("the measure ") + kRobustMeasureNames[to_index(options_.measure)];
   if (!std::isfinite(total.objective))
-    total.status = {StatusCode::kNonFinite, time, measure_name + " of the scenarios' objectives is not finite, though each of them is"};
+    total.status = {
+        StatusCode::kNonFinite, time,
+        measure_name + " of the scenarios' objectives is not finite, though each of them is"};
   else if (!total.gradient.allFinite() || !total.jacobian_root.allFinite())
-    total.status = {StatusCode::kNonFiniteGradient, time, "the gradient of " + measure_name + " is not finite, though the measure is"};
+    total.status = {StatusCode::kNonFiniteGradient, time,
+                    "the gradient of " + measure_name + " is not finite, though the measure is"};
   if (!total.status.ok()) result->values.resize(0);
 }
 
-/// The residuals of the mean are the residuals of all scenarios, each times the square root of the scenario's weight.
-void Ensemble::combine_roots(const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
+/// The residuals of the mean are the residuals of all scenarios, each times the square root of the
+/// scenario's weight.
+void Ensemble::combine_roots(const std::vector<Evaluation>& members,
+                             EnsembleEvaluation* result) const {
   const Eigen::Index columns = result->gradients.rows();
   RowRoot root;
   root.start(columns);
   for (std::size_t k = 0; k < members.size(); ++k) {
     // A failed scenario counts with the worst evaluation of the others.
     const Evaluation& member = members[k].status.ok() ? members[k] : members[worst_of(members)];
-    const Eigen::MatrixXd weighted = std::sqrt(scenarios_[k].weight) * member.jacobian_root.transpose();
+    const Eigen::MatrixXd weighted =
+        std::sqrt(scenarios_[k].weight) * member.jacobian_root.transpose();
     for (Eigen::Index row = 0; row < columns; ++row) root.add(weighted.col(row));
   }
   result->total.jacobian_root = root.root();
 }
 
-/// Collects values and gradients. Returns false, with the status of the failure, if a scenario failed that must not fail.
-bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradient, EnsembleEvaluation* result) const {
+/// Collects values and gradients. Returns false, with the status of the failure, if a scenario
+/// failed that must not fail.
+bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradient,
+                       EnsembleEvaluation* result) const {
   std::vector<std::size_t> failed;
   const auto count = to_signed(scenarios_.size());
   result->values.resize(count);
@@ -146,15 +171,17 @@ bool Ensemble::collect(const std::vector<Evaluation>& members, bool with_gradien
   return failed.empty() || fill_tail(failed, members, result);
 }
 
-/// Gives each failed scenario the value and gradient of the worst scenario that did not fail. False if more scenarios failed than the tail
-/// holds.
-bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
+/// Gives each failed scenario the value and gradient of the worst scenario that did not fail. False
+/// if more scenarios failed than the tail holds.
+bool Ensemble::fill_tail(const std::vector<std::size_t>& failed,
+                         const std::vector<Evaluation>& members, EnsembleEvaluation* result) const {
   double weight = 0.0;
   for (std::size_t k : failed) weight += scenarios_[k].weight;
   if (weight > 1.0 - options_.level) {
     result->total.status = named(members[failed.front()].status, scenarios_[failed.front()]);
-    result->total.status.cause +=
-        "; " + std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) + " scenarios failed, more than the tail holds";
+    result->total.status.cause += "; " + std::to_string(failed.size()) + " of " +
+                                  std::to_string(scenarios_.size()) +
+                                  " scenarios failed, more than the tail holds";
     result->values.resize(0);
     return false;
   }
@@ -165,21 +192,23 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed, const std::vect
     if (result->gradients.size() > 0) result->gradients.col(column) = result->gradients.col(worst);
   }
   result->failed.assign(failed.begin(), failed.end());
-  result->total.warnings.push_back(warn(
-      "scenarios_failed",
-      {options_.where, "robust.failed",
-       std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
-           " scenarios could not be integrated at this design and count as the worst of the others, the first is " +
-           named(members[failed.front()].status, scenarios_[failed.front()]).cause + "; narrow what is uncertain, or write failed: refuse",
-       kFailedSamplesNames[to_index(options_.failed)], ""}));
+  result->total.warnings.push_back(
+      warn("scenarios_failed",
+           {options_.where, "robust.failed",
+            std::to_string(failed.size()) + " of " + std::to_string(scenarios_.size()) +
+                " scenarios could not be integrated at this design and count as the worst of the "
+                "others, the first is " +
+                named(members[failed.front()].status, scenarios_[failed.front()]).cause +
+                "; narrow what is uncertain, or write failed: refuse",
+            kFailedSamplesNames[to_index(options_.failed)], ""}));
   return true;
 }
 
 namespace {
 
 /// @param directions how many; 0: by each parameter.
-GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, int directions,
-                      const std::atomic<bool>* cancel) {
+GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
+                      int directions, const std::atomic<bool>* cancel) {
   EnsembleEvaluation all = ensemble.evaluate(rho, true, cancel);
   GradientCheck check;
   check.evaluation = std::move(all.total);
@@ -193,7 +222,8 @@ GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, Chec
     const double factor = all.by_value[to_signed(k)];
     const Scenario& scenario = ensemble.scenarios()[k];
     if (factor == 0.0) continue;
-    const GradientCheck one = check_design(scenario.system, scenario.parameters(rho), method, cancel, check.directions);
+    const GradientCheck one =
+        check_design(scenario.system, scenario.parameters(rho), method, cancel, check.directions);
     check.method = one.method;
     check.status = one.status;
     if (!check.status.ok()) return check;
@@ -209,16 +239,20 @@ GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, Chec
 
 }  // namespace
 
-GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+GradientCheck check_gradient(const Ensemble& ensemble, const Eigen::VectorXd& rho,
+                             CheckMethod method, const std::atomic<bool>* cancel) {
   return checked(ensemble, rho, method, 0, cancel);
 }
 
-GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
-  return checked(ensemble, rho, method, rho.size() > kCheckedDirections ? kCheckedDirections : 0, cancel);
+GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
+                          const std::atomic<bool>* cancel) {
+  return checked(ensemble, rho, method, rho.size() > kCheckedDirections ? kCheckedDirections : 0,
+                 cancel);
 }
 
 bool disagrees(const GradientCheck& check) {
-  return check.largest_relative_difference > (check.method == CheckMethod::kComplexStep ? 1e-6 : 1e-4);
+  return check.largest_relative_difference >
+         (check.method == CheckMethod::kComplexStep ? 1e-6 : 1e-4);
 }
 
 }  // namespace codesign

@@ -17,13 +17,15 @@ std::vector<RunDescription> runs_of(const Study& study) {
 }
 
 int index_of(const Study& study, const std::string& name) {
-  const auto found = std::find_if(study.parameters.begin(), study.parameters.end(), [&name](const Parameter& p) { return p.name == name; });
+  const auto found = std::find_if(study.parameters.begin(), study.parameters.end(),
+                                  [&name](const Parameter& p) { return p.name == name; });
   return static_cast<int>(found - study.parameters.begin());
 }
 
-/// Applies the sample `row`, one value per uncertain quantity, to a scenario. @param law receives the friction law, an index of the
-/// quantity's laws.
-void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vector<double>& row, Scenario* scenario, int* law) {
+/// Applies the sample `row`, one value per uncertain quantity, to a scenario. @param law receives
+/// the friction law, an index of the quantity's laws.
+void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vector<double>& row,
+                 Scenario* scenario, int* law) {
   for (std::size_t k = 0; k < uncertain.size(); ++k) {
     if (uncertain[k].parameter < 0) {
       *law = static_cast<int>(row[k]);
@@ -34,7 +36,8 @@ void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vec
   }
 }
 
-std::vector<Scenario> combine(const Problem& problem, const std::vector<std::vector<double>>& samples) {
+std::vector<Scenario> combine(const Problem& problem,
+                              const std::vector<std::vector<double>>& samples) {
   const Study& study = problem.study();
   const std::vector<RunDescription> runs = runs_of(study);
   double sum = 0.0;
@@ -45,7 +48,8 @@ std::vector<Scenario> combine(const Problem& problem, const std::vector<std::vec
     Scenario run;
     run.run = runs[r].name;
     run.weight = runs[r].weight / sum / static_cast<double>(count);
-    for (const auto& [name, value] : runs[r].set) run.values.emplace_back(index_of(study, name), value);
+    for (const auto& [name, value] : runs[r].set)
+      run.values.emplace_back(index_of(study, name), value);
     for (std::size_t s = 0; s < count; ++s) {
       Scenario scenario = run;
       int law = -1;

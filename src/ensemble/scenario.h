@@ -11,7 +11,8 @@
 
 namespace codesign {
 
-/// "run \"loaded\", sample 3", for messages; empty for the study's own run. @param run its name; empty if the study has none.
+/// "run \"loaded\", sample 3", for messages; empty for the study's own run. @param run its name;
+/// empty if the study has none.
 /// @param sample from 0; -1: the nominal values.
 std::string scenario_name(const std::string& run, int sample);
 
@@ -20,17 +21,20 @@ struct Scenario {
   std::string run;  ///< name of the run; empty if the study has none
   int sample = -1;  ///< number of the sample from 0; -1: the nominal values
   double weight = 1.0;
-  std::string friction_law;  ///< the law of all joints if the study varies it; empty: the laws of the model
+  std::string
+      friction_law;  ///< the law of all joints if the study varies it; empty: the laws of the model
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<std::pair<int, double>> values;  ///< values of parameters (index in Study::parameters) that differ from their start values
+  std::vector<std::pair<int, double>>
+      values;  ///< values of parameters (index in Study::parameters) that differ from their start
+               ///< values
 
   /// Values of all named parameters at a design.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
   std::string name() const { return scenario_name(run, sample); }
 };
 
-/// The scenarios of a problem, weights with sum 1: each run at each sample. Without `runs` and `uncertain` the one scenario is the study's
-/// own run. All runs share the same samples.
+/// The scenarios of a problem, weights with sum 1: each run at each sample. Without `runs` and
+/// `uncertain` the one scenario is the study's own run. All runs share the same samples.
 std::vector<Scenario> make_scenarios(const Problem& problem);
 
 /// Each run at `count` fresh samples, to validate a design: the seed differs from the study's.

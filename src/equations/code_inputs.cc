@@ -44,7 +44,8 @@ void CodeInputs<T>::set_functions(const std::vector<T>& parameters) {
     if (const auto* basis = sources[k].template as<BasisDescription>())
       set(std::get_if<ShapedInput<T>>(&functions_[k]), k, *basis);
     else
-      set(std::get_if<Reference<T>>(&functions_[k]), k, *sources[k].template as<ReferenceDescription>());
+      set(std::get_if<Reference<T>>(&functions_[k]), k,
+          *sources[k].template as<ReferenceDescription>());
   }
 }
 
@@ -60,34 +61,41 @@ void CodeInputs<T>::fill_numbers(const std::vector<T>& parameters) {
     if (node.operation == Operation::kLiteral)
       value = T(node.literal);
     else if (node.operation != Operation::kLeaf)
-      value = operate<T>(node.operation, nodes_[to_index(node.a)], node.b < 0 ? T(0.0) : nodes_[to_index(node.b)]);
+      value = operate<T>(node.operation, nodes_[to_index(node.a)],
+                         node.b < 0 ? T(0.0) : nodes_[to_index(node.b)]);
     else if (node.a == Recording::kSupplied && node.b >= 0)
-      value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), parameters);
+      value =
+          value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), parameters);
     numbers_[k] = value;
   }
   failed_ = -1;
   for (const Recording::Guard& guard : code_->design_guards()) {
     const bool outcome = value_of(nodes_[to_index(guard.a)]) < value_of(nodes_[to_index(guard.b)]);
-    if (outcome != guard.outcome && (failed_ < 0 || guard.decision < failed_)) failed_ = guard.decision;
+    if (outcome != guard.outcome && (failed_ < 0 || guard.decision < failed_))
+      failed_ = guard.decision;
   }
 }
 
 template <class T>
 void CodeInputs<T>::set_instant(double t, const std::vector<double>& turns) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
-    const ReferenceMotion<T> motion = std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
+    const ReferenceMotion<T> motion =
+        std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
     const T* const orders[] = {&motion.value, &motion.rate, &motion.acceleration, &motion.jerk};
     for (std::size_t order = 0; order < Recording::kFunctionOrders; ++order)
-      if (const int entry = numbered_->functions[k][order]; entry >= 0) numbers_[to_index(entry)] = *orders[order];
+      if (const int entry = numbered_->functions[k][order]; entry >= 0)
+        numbers_[to_index(entry)] = *orders[order];
   }
-  for (const auto& [slot, entry] : numbered_->turns) numbers_[to_index(entry)] = T(turns[to_index(slot)]);
+  for (const auto& [slot, entry] : numbered_->turns)
+    numbers_[to_index(entry)] = T(turns[to_index(slot)]);
 }
 
 template <class T>
 void CodeInputs<T>::seed_time(double t) {
   if constexpr (kLanesOf < T >> 0)
     for (std::size_t k = 0; k < functions_.size(); ++k) {
-      const ReferenceMotion<T> motion = std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
+      const ReferenceMotion<T> motion =
+          std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
       const T* const next[] = {&motion.rate, &motion.acceleration, &motion.jerk};
       for (std::size_t order = 0; order < std::size(next); ++order)
         if (const int entry = numbered_->functions[k][order]; entry >= 0)

@@ -17,22 +17,26 @@ constexpr int kLanesOf = 0;
 template <int N>
 constexpr int kLanesOf<Lanes<N>> = N;
 
-/// One variant of the equations' code, and what it reads besides the state, for one design: numbers that depend on design, time and turn
-/// references (array EquationArrays::kNumbers). T as in CompiledEquations.
+/// One variant of the equations' code, and what it reads besides the state, for one design: numbers
+/// that depend on design, time and turn references (array EquationArrays::kNumbers). T as in
+/// CompiledEquations.
 template <class T>
 class CodeInputs {
  public:
-  explicit CodeInputs(const EquationCode* of) : code_(of), numbered_(&of->numbered(kLanesOf<T> > 0)) {}
+  explicit CodeInputs(const EquationCode* of)
+      : code_(of), numbered_(&of->numbered(kLanesOf<T> > 0)) {}
 
   const EquationCode& code() const { return *code_; }
   /// Takes the values of all named parameters, unless it has them since the last forget_design().
   void take_design(const std::vector<T>& parameters);
-  /// The same with the numbers of the transposed code, which begin with those of the values; for double.
+  /// The same with the numbers of the transposed code, which begin with those of the values; for
+  /// double.
   void take_products(const CompiledSystem& system, const std::vector<T>& parameters);
   void forget_design() { ready_ = false; }
   /// Evaluates the functions of time and copies the turn references.
   void set_instant(double t, const std::vector<double>& turns);
-  /// Makes time the first direction of the functions of time; for Lanes, until the next set_instant().
+  /// Makes time the first direction of the functions of time; for Lanes, until the next
+  /// set_instant().
   void seed_time(double t);
 
   /// The first decision that the design makes otherwise, -1 if none.
@@ -49,9 +53,10 @@ class CodeInputs {
   const NumberedRecording* numbered_;
   bool ready_ = false;  ///< whether the members below belong to the present design
   int failed_ = -1;
-  std::vector<T> numbers_, nodes_;                                     ///< nodes_: workspace, values of the recording's nodes
-  std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;  ///< functions of time, order of the recording
-  std::unique_ptr<DesignProducts> products_;                           ///< if take_products() was called
+  std::vector<T> numbers_, nodes_;  ///< nodes_: workspace, values of the recording's nodes
+  std::vector<std::variant<Reference<T>, ShapedInput<T>>>
+      functions_;                             ///< functions of time, order of the recording
+  std::unique_ptr<DesignProducts> products_;  ///< if take_products() was called
 };
 
 }  // namespace codesign

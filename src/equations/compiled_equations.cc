@@ -28,7 +28,8 @@ using CodeArrays = std::array<const CodeNumber<T>*, kCodeArrays>;
 
 /// The arrays that the equations own; the caller sets the arrays of the state and of results.
 template <class T>
-CodeArrays<T> inner_arrays(const std::vector<T>& numbers, const LineVector& slots, const LineVector& rows) {
+CodeArrays<T> inner_arrays(const std::vector<T>& numbers, const LineVector& slots,
+                           const LineVector& rows) {
   CodeArrays<T> arrays{};
   arrays[Arrays::kNumbers] = reinterpret_cast<const CodeNumber<T>*>(numbers.data());
   arrays[Arrays::kSlots] = reinterpret_cast<const CodeNumber<T>*>(slots.data());
@@ -48,7 +49,8 @@ int run_values(const CompiledFunction& code, const CodeArrays<std::complex<doubl
 }  // namespace
 
 template <class T>
-CompiledEquations<T>::CompiledEquations(const CompiledSystem& system, EquationPart part) : system_(system), part_(part) {}
+CompiledEquations<T>::CompiledEquations(const CompiledSystem& system, EquationPart part)
+    : system_(system), part_(part) {}
 
 template <class T>
 CompiledEquations<T>::CompiledEquations(CompiledEquations&&) noexcept = default;
@@ -88,9 +90,12 @@ void CompiledEquations<T>::forget() {
 template <class T>
 EquationPart CompiledEquations<T>::part_of(EquationFunction function) const {
   if (part_ != EquationPart::kMotion) return part_;
-  const bool is_rates = function == EquationFunction::kRates || function == EquationFunction::kAccelerations;
+  const bool is_rates =
+      function == EquationFunction::kRates || function == EquationFunction::kAccelerations;
   if (is_rates && system_.compresses_jacobian()) return EquationPart::kRates;
-  return function == EquationFunction::kLinearization && system_.has_rates_apart() ? EquationPart::kLinearized : part_;
+  return function == EquationFunction::kLinearization && system_.has_rates_apart()
+             ? EquationPart::kLinearized
+             : part_;
 }
 
 template <class T>
@@ -126,13 +131,16 @@ bool CompiledEquations<T>::adopt() {
 
 template <class T>
 template <class Run>
-int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run, CodeInputs<T>* variant) {
+int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run,
+                                  CodeInputs<T>* variant) {
   const bool transposed = instant.mode == Mode::kTransposed;
   transposed ? variant->take_products(system_, parameters_) : variant->take_design(parameters_);
   if (variant->failed() >= 0) return variant->failed();
   const CompiledFunction& code =
-      transposed ? variant->code().transposed().function(instant.function, interpreted)
-                 : variant->code().function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit, interpreted || kIsComplex<T>});
+      transposed
+          ? variant->code().transposed().function(instant.function, interpreted)
+          : variant->code().function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit,
+                                                        interpreted || kIsComplex<T>});
   const std::size_t slots = code.slots * sizeof(CodeNumber<T>) / sizeof(double);
   if (slots_.size() < slots) slots_.resize(slots);
   if (rows_.size() < code.rows) rows_.resize(code.rows);
@@ -146,7 +154,8 @@ void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
   if (variants_.empty()) adopt();
   // What a run needs a few times takes less time than making code for it.
   const bool interpreted =
-      interpreted_ || part_ == EquationPart::kStart || (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
+      interpreted_ || part_ == EquationPart::kStart ||
+      (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
   if (attempt(instant, interpreted, run, &variants_[current_]) < 0) return;
   for (std::size_t k = 0; k < variants_.size() || adopt(); ++k) {
     if (k == current_ || attempt(instant, interpreted, run, &variants_[k]) >= 0) continue;
@@ -156,7 +165,8 @@ void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
   add_variant(instant, run);
 }
 
-// Each round keeps the outcomes up to the first one that the point decides otherwise. Only the loop over operations tells which one it is.
+// Each round keeps the outcomes up to the first one that the point decides otherwise. Only the loop
+// over operations tells which one it is.
 template <class T>
 template <class Run>
 void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
@@ -165,7 +175,8 @@ void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
     std::unique_ptr<EquationCode> code = system_.record_variant(outcomes, part_);
     CodeInputs<T> variant(code.get());
     const int failed = attempt(instant, true, run, &variant);
-    // A decision within rounding that fails again stays as it is: both branches give the same there.
+    // A decision within rounding that fails again stays as it is: both branches give the same
+    // there.
     if (failed < static_cast<int>(outcomes.size())) {
       current_ = system_.keep_variant(std::move(code), part_);
       while (variants_.size() <= current_) adopt();
@@ -178,39 +189,52 @@ void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
 }
 
 template <class T>
-void CompiledEquations<T>::run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4],
+void CompiledEquations<T>::run(EquationFunction function, double t,
+                               const std::vector<double>& turns, const In<T> (&state)[4],
                                const Out<T> (&results)[4]) {
-  const auto numbers = [](In<T> array) { return reinterpret_cast<const CodeNumber<T>*>(array.data()); };
-  evaluate({function, Mode::kValues, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
-    std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
-    std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, numbers);
-    const int failed = run_values(code, arrays);
-    if constexpr (kLanesOf < T >> 0)
-      if (failed < 0) code.tangents->run(arrays);
-    return failed;
-  });
+  const auto numbers = [](In<T> array) {
+    return reinterpret_cast<const CodeNumber<T>*>(array.data());
+  };
+  evaluate({function, Mode::kValues, t, turns},
+           [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
+             std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
+             std::transform(std::begin(results), std::end(results),
+                            arrays.begin() + Arrays::kResults, numbers);
+             const int failed = run_values(code, arrays);
+             if constexpr (kLanesOf < T >> 0)
+               if (failed < 0) code.tangents->run(arrays);
+             return failed;
+           });
 }
 
 template <class T>
-void CompiledEquations<T>::tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
-                                    const In<double> (&directions)[4], const Out<double> (&results)[4]) {
-  assert(std::equal(std::begin(values), std::end(values), std::begin(directions),
-                    [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
+void CompiledEquations<T>::tangents(EquationFunction function, double t,
+                                    const std::vector<double>& turns, const In<double> (&values)[4],
+                                    const In<double> (&directions)[4],
+                                    const Out<double> (&results)[4]) {
+  assert(std::equal(
+      std::begin(values), std::end(values), std::begin(directions),
+      [](In<double> x, In<double> along) { return along.size() == kLanesOf<T> * x.size(); }));
   if constexpr (kLanesOf < T >> 0) {
     const auto first = [](In<double> array) { return array.data(); };
-    holder(function).evaluate({function, Mode::kSplit, t, turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
-      std::transform(std::begin(values), std::end(values), arrays.begin(), first);
-      if (const int failed = run_values(code, arrays); failed >= 0) return failed;
-      std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
-      std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults, first);
-      code.tangents->run(arrays);
-      return -1;
-    });
+    holder(function).evaluate(
+        {function, Mode::kSplit, t, turns},
+        [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
+          std::transform(std::begin(values), std::end(values), arrays.begin(), first);
+          if (const int failed = run_values(code, arrays); failed >= 0) return failed;
+          std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
+          std::transform(std::begin(results), std::end(results), arrays.begin() + Arrays::kResults,
+                         first);
+          code.tangents->run(arrays);
+          return -1;
+        });
   }
 }
 
 template <class T>
-bool CompiledEquations<T>::residual_tangents(const State<double>& state, const std::vector<Pass>& passes, const Pass* along_time) {
+bool CompiledEquations<T>::residual_tangents(const State<double>& state,
+                                             const std::vector<Pass>& passes,
+                                             const Pass* along_time) {
   bool depends_on_time = false;
   if constexpr (kLanesOf < T >> 0) {
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
@@ -221,8 +245,10 @@ bool CompiledEquations<T>::residual_tangents(const State<double>& state, const s
                std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
                if (const int failed = run_values(code, arrays); failed >= 0) return failed;
                const auto run_pass = [&](const Pass& pass) {
-                 std::transform(std::begin(pass.directions), std::end(pass.directions), arrays.begin(), first);
-                 std::transform(std::begin(pass.results), std::end(pass.results), arrays.begin() + Arrays::kResults, first);
+                 std::transform(std::begin(pass.directions), std::end(pass.directions),
+                                arrays.begin(), first);
+                 std::transform(std::begin(pass.results), std::end(pass.results),
+                                arrays.begin() + Arrays::kResults, first);
                  code.tangents->run(arrays);
                };
                for (const Pass& pass : passes) run_pass(pass);
@@ -238,8 +264,8 @@ bool CompiledEquations<T>::residual_tangents(const State<double>& state, const s
 }
 
 template <class T>
-void CompiledEquations<T>::add_transposed(EquationFunction function, const State<T>& state, const In<double> (&weights)[4],
-                                          Out<double> adjoint) {
+void CompiledEquations<T>::add_transposed(EquationFunction function, const State<T>& state,
+                                          const In<double> (&weights)[4], Out<double> adjoint) {
   if constexpr (std::is_same_v<T, double>) {
     if (CompiledEquations& other = holder(function); &other != this) {
       other.add_transposed(function, state, weights, adjoint);
@@ -247,14 +273,17 @@ void CompiledEquations<T>::add_transposed(EquationFunction function, const State
     }
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     const auto first = [](In<double> array) { return array.data(); };
-    evaluate({function, Mode::kTransposed, state.t, state.turns}, [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
-      std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
-      std::transform(std::begin(weights), std::end(weights), arrays.begin() + Arrays::kResults, first);
-      return run_values(code, arrays);
-    });
+    evaluate({function, Mode::kTransposed, state.t, state.turns},
+             [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
+               std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
+               std::transform(std::begin(weights), std::end(weights),
+                              arrays.begin() + Arrays::kResults, first);
+               return run_values(code, arrays);
+             });
     CodeInputs<T>& variant = variants_[current_];
     variant.take_products(system_, parameters_);
-    if (std::find(multiplied_.begin(), multiplied_.end(), current_) == multiplied_.end()) multiplied_.push_back(current_);
+    if (std::find(multiplied_.begin(), multiplied_.end(), current_) == multiplied_.end())
+      multiplied_.push_back(current_);
     variant.products().add(function, state.t, {rows_.data(), to_signed(rows_.size())}, adjoint);
   }
 }
@@ -262,7 +291,8 @@ void CompiledEquations<T>::add_transposed(EquationFunction function, const State
 template <class T>
 void CompiledEquations<T>::add_gradient(Out<double> gradient) {
   if constexpr (std::is_same_v<T, double>)
-    for (std::size_t k : multiplied_) variants_[k].products().add_to(variants_[k].numbers(), gradient);
+    for (std::size_t k : multiplied_)
+      variants_[k].products().add_to(variants_[k].numbers(), gradient);
   for (const auto& other : others_)
     if (other) other->add_gradient(gradient);
 }
@@ -278,18 +308,21 @@ void CompiledEquations<T>::linearize(const State<T>& state, Linearization<T>* de
   if constexpr (std::is_same_v<T, double>)
     if (system_.compresses_jacobian()) return compressed().linearize(state, derivatives);
   holder(EquationFunction::kLinearization)
-      .run(EquationFunction::kLinearization, state, {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
+      .run(EquationFunction::kLinearization, state,
+           {derivatives->position, derivatives->velocity, derivatives->rate, derivatives->time});
 }
 
 template <class T>
-void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g, Linearization<T>* derivatives) {
+void CompiledEquations<T>::rates(const State<T>& state, VectorX<T>* G, T* g,
+                                 Linearization<T>* derivatives) {
   if constexpr (std::is_same_v<T, double>)
     if (system_.compresses_jacobian()) {
       residual(state, G, g);
       return compressed().rates(state, derivatives);
     }
   G->resize(system_.layout().columns());
-  holder(EquationFunction::kRates).run(EquationFunction::kRates, state, {*G, {g, 1}, derivatives->rate, {}});
+  holder(EquationFunction::kRates)
+      .run(EquationFunction::kRates, state, {*G, {g, 1}, derivatives->rate, {}});
 }
 
 template <class T>
@@ -297,7 +330,8 @@ bool CompiledEquations<T>::accelerations(State<T>* state, T* g, std::vector<T>* 
   const MassFactor* const factor = mass_factor();
   if (!factor) return false;
   factors->resize(factor->size());
-  holder(EquationFunction::kAccelerations).run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, *factors, {}});
+  holder(EquationFunction::kAccelerations)
+      .run(EquationFunction::kAccelerations, *state, {state->z, {g, 1}, *factors, {}});
   return mass_factor() != nullptr;
 }
 
@@ -310,10 +344,12 @@ const MassFactor* CompiledEquations<T>::mass_factor() {
 }
 
 template <class T>
-void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate) {
+void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi,
+                                             VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
-  run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}}, {*Phi, *Phi_rate, {}, {}});
+  run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}},
+      {*Phi, *Phi_rate, {}, {}});
 }
 
 template <class T>
@@ -329,14 +365,17 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state)
 }
 
 template <class T>
-void CompiledEquations<T>::residuals(EquationFunction function, const State<T>& state, std::size_t size, VectorX<T>* residuals) {
+void CompiledEquations<T>::residuals(EquationFunction function, const State<T>& state,
+                                     std::size_t size, VectorX<T>* residuals) {
   residuals->resize(to_signed(size));
   run(function, state, {*residuals, {}, {}, {}});
 }
 
 template <class T>
-void CompiledEquations<T>::place(const VectorX<T>& theta, const VectorX<T>& theta_rate, State<T>* state) {
-  run(EquationFunction::kPlacement, 0.0, state->turns, {theta, theta_rate, {}, {}}, {state->q, state->v, {}, {}});
+void CompiledEquations<T>::place(const VectorX<T>& theta, const VectorX<T>& theta_rate,
+                                 State<T>* state) {
+  run(EquationFunction::kPlacement, 0.0, state->turns, {theta, theta_rate, {}, {}},
+      {state->q, state->v, {}, {}});
 }
 
 template <class T>
@@ -355,21 +394,25 @@ template <class T>
 T CompiledEquations<T>::sample(int controller, bool is_first, State<T>* state) {
   T output(0.0);
   s_.resize(state->s.size());
-  run(controller_function(controller, is_first ? ControllerFunction::kFirstSample : ControllerFunction::kSample), *state,
-      {{&output, 1}, s_, {}, {}});
+  run(controller_function(
+          controller, is_first ? ControllerFunction::kFirstSample : ControllerFunction::kSample),
+      *state, {{&output, 1}, s_, {}, {}});
   state->s = s_;
   return output;
 }
 
 template <class T>
-T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient) {
+T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
+                               SparseGradient<T>* gradient) {
   const Layout& layout = system_.layout();
-  const int velocity = layout.positions(), rate = velocity + layout.n, time = rate + layout.columns();
+  const int velocity = layout.positions(), rate = velocity + layout.n,
+            time = rate + layout.columns();
   entries_.resize(to_index(time) + 1);
   T value(0.0);
   run(with_gradient(function), state, {{&value, 1}, entries_, {}, {}});
   gradient->clear();
-  const std::vector<int>& columns = variants_[current_].code().gradient_columns(with_gradient(function));
+  const std::vector<int>& columns =
+      variants_[current_].code().gradient_columns(with_gradient(function));
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const int c = columns[k];
     if (c < velocity)

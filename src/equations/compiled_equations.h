@@ -24,23 +24,28 @@ struct MassFactor;
 struct CompiledFunction;
 struct NumberedRecording;
 
-/// The recorded equations of one design (EquationCode): machine code where it can be made, else a loop over the recorded operations. The
-/// results equal those of Formulas within rounding. T: double, std::complex<double> (always by the loop) or Lanes<N>. No allocation after
-/// the first evaluation of a variant; not thread-safe.
+/// The recorded equations of one design (EquationCode): machine code where it can be made, else a
+/// loop over the recorded operations. The results equal those of Formulas within rounding. T:
+/// double, std::complex<double> (always by the loop) or Lanes<N>. No allocation after the first
+/// evaluation of a variant; not thread-safe.
 ///
-/// A recording holds one outcome of each decision. Every evaluation compares its decisions with those of the variant that served last, then
-/// with the others that are known; a variant that is missing is recorded.
+/// A recording holds one outcome of each decision. Every evaluation compares its decisions with
+/// those of the variant that served last, then with the others that are known; a variant that is
+/// missing is recorded.
 template <class T>
 class CompiledEquations {
  public:
-  explicit CompiledEquations(const CompiledSystem& system, EquationPart part = EquationPart::kMotion);
+  explicit CompiledEquations(const CompiledSystem& system,
+                             EquationPart part = EquationPart::kMotion);
   CompiledEquations(CompiledEquations&&) noexcept;
   ~CompiledEquations();
 
-  /// Takes the values of all named parameters; the constants are evaluated when a function is first called.
+  /// Takes the values of all named parameters; the constants are evaluated when a function is first
+  /// called.
   void set_design(const std::vector<T>& parameters);
   const std::vector<T>& parameters() const { return parameters_; }
-  /// With false machine code is neither made nor used: a few evaluations take less time than making it.
+  /// With false machine code is neither made nor used: a few evaluations take less time than making
+  /// it.
   void allow(bool machine_code);
   /// Begins again with the first variant.
   void forget();
@@ -52,17 +57,20 @@ class CompiledEquations {
   void constraint_errors(const State<T>& state, VectorX<T>* Phi, VectorX<T>* Phi_rate);
   /// body_energies(), for systems with a forest. @param bodies nine entries per body.
   void energies(const State<T>& state, VectorX<T>* sums, VectorX<T>* bodies);
-  /// Sets z to the solution of G = 0, g, and the factors of G_z. @return false if the variant that serves has no kAccelerations; then z
-  /// stays. @param factors resized to MassFactor::size() of mass_factor().
+  /// Sets z to the solution of G = 0, g, and the factors of G_z. @return false if the variant that
+  /// serves has no kAccelerations; then z stays. @param factors resized to MassFactor::size() of
+  /// mass_factor().
   bool accelerations(State<T>* state, T* g, std::vector<T>* factors);
   /// The pattern of those factors; null if the variant that serves has none.
   const MassFactor* mass_factor();
 
-  /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient overwritten.
+  /// The value of kTerminal or of a watched signal; and with its gradient. @param gradient
+  /// overwritten.
   T signal(EquationFunction function, const State<T>& state);
   T signal(EquationFunction function, const State<T>& state, SparseGradient<T>* gradient);
   /// kIntegralResiduals or kTerminalResiduals. @param size number of terms.
-  void residuals(EquationFunction function, const State<T>& state, std::size_t size, VectorX<T>* residuals);
+  void residuals(EquationFunction function, const State<T>& state, std::size_t size,
+                 VectorX<T>* residuals);
 
   /// Sets q and v to those of tree coordinates and their rates.
   void place(const VectorX<T>& theta, const VectorX<T>& theta_rate, State<T>* state);
@@ -72,34 +80,46 @@ class CompiledEquations {
   T controller_error(int controller, const State<T>& state);
   T sample(int controller, bool is_first, State<T>* state);
 
-  /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only. The directions of the design are the
-  /// directions of the parameters given to set_design().
-  /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same vectors, N numbers side by side per entry.
-  /// @param results one array per result in the order of EquationFunction, N numbers side by side per entry; then empty arrays.
-  void tangents(EquationFunction function, double t, const std::vector<double>& turns, const In<double> (&values)[4],
-                const In<double> (&directions)[4], const Out<double> (&results)[4]);
+  /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only.
+  /// The directions of the design are the directions of the parameters given to set_design().
+  /// @param turns State::turns. @param values of q, v, s and z. @param directions of the same
+  /// vectors, N numbers side by side per entry.
+  /// @param results one array per result in the order of EquationFunction, N numbers side by side
+  /// per entry; then empty arrays.
+  void tangents(EquationFunction function, double t, const std::vector<double>& turns,
+                const In<double> (&values)[4], const In<double> (&directions)[4],
+                const Out<double> (&results)[4]);
 
-  /// Directions of q, v, s and z, N numbers side by side per entry, and where the derivatives of G and g along them go; then empty arrays.
+  /// Directions of q, v, s and z, N numbers side by side per entry, and where the derivatives of G
+  /// and g along them go; then empty arrays.
   struct Pass {
     In<double> directions[4];
     Out<double> results[4];
   };
-  /// The derivatives of the residual at one state along the directions of every pass, for T = Lanes<N> only. The design must not vary.
-  /// @param along_time null, or a pass with zero directions whose first one becomes the time, if functions of time occur.
+  /// The derivatives of the residual at one state along the directions of every pass, for T =
+  /// Lanes<N> only. The design must not vary.
+  /// @param along_time null, or a pass with zero directions whose first one becomes the time, if
+  /// functions of time occur.
   /// @return whether they do.
-  bool residual_tangents(const State<double>& state, const std::vector<Pass>& passes, const Pass* along_time);
+  bool residual_tangents(const State<double>& state, const std::vector<Pass>& passes,
+                         const Pass* along_time);
 
-  // The next two functions exist for T = double only. The products by parameters are summed up since set_design().
+  // The next two functions exist for T = double only. The products by parameters are summed up
+  // since set_design().
 
-  /// Adds the derivatives of the sum of weights times results of a function of EquationPart::kMotion by q and s, v and z at fixed
-  /// parameters to `adjoint`, theory (18e). @param weights one array per result in the order of EquationFunction; then empty arrays.
+  /// Adds the derivatives of the sum of weights times results of a function of
+  /// EquationPart::kMotion by q and s, v and z at fixed parameters to `adjoint`, theory (18e).
+  /// @param weights one array per result in the order of EquationFunction; then empty arrays.
   /// @param adjoint (q, s), v and z side by side; more entries are not touched.
-  void add_transposed(EquationFunction function, const State<T>& state, const In<double> (&weights)[4], Out<double> adjoint);
-  /// Adds the derivatives of all these sums by the tuned parameters at fixed states. @param gradient p entries, order of Study::tuned.
+  void add_transposed(EquationFunction function, const State<T>& state,
+                      const In<double> (&weights)[4], Out<double> adjoint);
+  /// Adds the derivatives of all these sums by the tuned parameters at fixed states. @param
+  /// gradient p entries, order of Study::tuned.
   void add_gradient(Out<double> gradient);
 
  private:
-  /// What of a function is evaluated: values (with tangents, for Lanes), tangents along given directions, or transposed products.
+  /// What of a function is evaluated: values (with tangents, for Lanes), tangents along given
+  /// directions, or transposed products.
   enum class Mode { kValues, kSplit, kTransposed };
   /// Where a function is evaluated.
   struct Instant {
@@ -109,7 +129,8 @@ class CompiledEquations {
     const std::vector<double>& turns;
   };
 
-  /// The equations of the part in which a function is recorded: these, or others that are made when they are first needed.
+  /// The equations of the part in which a function is recorded: these, or others that are made when
+  /// they are first needed.
   CompiledEquations& holder(EquationFunction function);
   EquationPart part_of(EquationFunction function) const;
   CompressedJacobian& compressed();
@@ -121,14 +142,16 @@ class CompiledEquations {
   void for_each_other(const Visit& visit) const;
   /// Takes over one more of the variants that the system knows; false if there is none.
   bool adopt();
-  /// The first decision of a variant that the point makes otherwise; -1 if the results are valid. Machine code does not tell which one, 0.
+  /// The first decision of a variant that the point makes otherwise; -1 if the results are valid.
+  /// Machine code does not tell which one, 0.
   template <class Run>
   int attempt(const Instant& instant, bool interpreted, const Run& run, CodeInputs<T>* variant);
   template <class Run>
   void evaluate(const Instant& instant, const Run& run);
   template <class Run>
   void add_variant(const Instant& instant, const Run& run);
-  void run(EquationFunction function, double t, const std::vector<double>& turns, const In<T> (&state)[4], const Out<T> (&results)[4]);
+  void run(EquationFunction function, double t, const std::vector<double>& turns,
+           const In<T> (&state)[4], const Out<T> (&results)[4]);
   void run(EquationFunction function, const State<T>& at, const Out<T> (&results)[4]) {
     run(function, at.t, at.turns, {at.q, at.v, at.s, at.z}, results);
   }
@@ -138,13 +161,15 @@ class CompiledEquations {
   std::vector<T> parameters_;
   bool interpreted_ = false;
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
-  std::unique_ptr<CompressedJacobian> compressed_;                         ///< for double, if the system compresses its Jacobian
-  std::vector<CodeInputs<T>> variants_;                                    ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;                                                ///< the variant that served last
-  std::vector<std::size_t> multiplied_;  ///< variants with products since set_design(), in the order of their first one
-  std::vector<T> entries_;               ///< workspace of signal() and track_turns()
-  VectorX<T> s_;                         ///< workspace of sample()
-  LineVector slots_, rows_;              ///< workspace of the code
+  std::unique_ptr<CompressedJacobian>
+      compressed_;                       ///< for double, if the system compresses its Jacobian
+  std::vector<CodeInputs<T>> variants_;  ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;              ///< the variant that served last
+  std::vector<std::size_t>
+      multiplied_;  ///< variants with products since set_design(), in the order of their first one
+  std::vector<T> entries_;   ///< workspace of signal() and track_turns()
+  VectorX<T> s_;             ///< workspace of sample()
+  LineVector slots_, rows_;  ///< workspace of the code
 };
 
 }  // namespace codesign

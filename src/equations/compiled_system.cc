@@ -10,15 +10,18 @@
 
 namespace codesign {
 
-CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
+CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study,
+                               ReactionSharing sharing, const std::vector<int>& drives)
     : System(robot, study, std::move(sharing), drives),
       patterns_(record_patterns(*this)),
-      variants_{std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(),
-                std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>()} {}
+      variants_{std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(),
+                std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(),
+                std::make_unique<EquationVariants>()} {}
 
 CompiledSystem::~CompiledSystem() = default;
 
-// Loops couple rows that a tree leaves apart: their columns need more groups, while a program for their derivatives is short.
+// Loops couple rows that a tree leaves apart: their columns need more groups, while a program for
+// their derivatives is short.
 bool CompiledSystem::compresses_jacobian() const {
   constexpr int kLeast = 5;
   return layout().has_forest() && layout().n - 2 * layout().m >= kLeast;
@@ -26,18 +29,22 @@ bool CompiledSystem::compresses_jacobian() const {
 
 bool CompiledSystem::has_rates_apart() const {
   const SolverOptions& solver = study().solver;
-  const bool may_be_explicit = solver.method == RosenbrockMethod::kDopri5 || solver.method == RosenbrockMethod::kAuto;
-  return compresses_jacobian() || (solver.integrator == IntegratorKind::kRosenbrock && may_be_explicit);
+  const bool may_be_explicit =
+      solver.method == RosenbrockMethod::kDopri5 || solver.method == RosenbrockMethod::kAuto;
+  return compresses_jacobian() ||
+         (solver.integrator == IntegratorKind::kRosenbrock && may_be_explicit);
 }
 
-// Steps of loops that share reactions are watched for singular positions, (23a), which explicit steps are long enough to pass unseen.
+// Steps of loops that share reactions are watched for singular positions, (23a), which explicit
+// steps are long enough to pass unseen.
 bool CompiledSystem::begins_explicitly() const {
   const SolverOptions& solver = study().solver;
   if (solver.integrator != IntegratorKind::kRosenbrock) return false;
   if (solver.method == RosenbrockMethod::kDopri5) return true;
-  const bool has_dry_friction = !contacts().empty() || std::any_of(loads().begin(), loads().end(), [](const JointLoad& load) {
-    return load.reaction_friction || load.constant_friction;
-  });
+  const bool has_dry_friction =
+      !contacts().empty() || std::any_of(loads().begin(), loads().end(), [](const JointLoad& load) {
+        return load.reaction_friction || load.constant_friction;
+      });
   return solver.method == RosenbrockMethod::kAuto && compliance() == 0.0 && !has_dry_friction;
 }
 
@@ -45,11 +52,13 @@ const EquationCode* CompiledSystem::equation_code(std::size_t k, EquationPart pa
   return variants_[to_index(part)]->at(k, *this, part);
 }
 
-std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes, EquationPart part) const {
+std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes,
+                                                             EquationPart part) const {
   return std::make_unique<EquationCode>(*this, part, std::move(outcomes));
 }
 
-std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant, EquationPart part) const {
+std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant,
+                                         EquationPart part) const {
   return variants_[to_index(part)]->keep(std::move(variant));
 }
 

@@ -13,10 +13,12 @@
 
 namespace codesign {
 
-/// The derivatives of the residual, theory (14), without a program of their own: columns that share no row are added up to one direction,
-/// and the tangents of the residual along kLanes such directions are one pass over its program; Curtis, Powell and Reid, On the estimation
-/// of sparse Jacobian matrices, J. Inst. Maths Applics 13 (1974). Exact to rounding. Serves systems with
-/// CompiledSystem::compresses_jacobian(). No allocation after the first evaluation of a variant; not thread-safe.
+/// The derivatives of the residual, theory (14), without a program of their own: columns that share
+/// no row are added up to one direction, and the tangents of the residual along kLanes such
+/// directions are one pass over its program; Curtis, Powell and Reid, On the estimation of sparse
+/// Jacobian matrices, J. Inst. Maths Applics 13 (1974). Exact to rounding. Serves systems with
+/// CompiledSystem::compresses_jacobian(). No allocation after the first evaluation of a variant;
+/// not thread-safe.
 class CompressedJacobian {
  public:
   /// @param system must outlive this.
@@ -38,9 +40,11 @@ class CompressedJacobian {
 
   /// Columns in groups, and where the results have the nonzeros of the matrices.
   struct Compression {
-    std::vector<std::array<LineVector, 4>> seeds;  ///< per pass the directions of q, v, s and z, kLanes numbers side by side per entry
-    std::vector<Tangents::Pass> passes;            ///< along the seeds, with results in results_
-    ByVariable<std::vector<int>> places;           ///< per nonzero its index in results_; empty for matrices that were not asked for
+    std::vector<std::array<LineVector, 4>>
+        seeds;  ///< per pass the directions of q, v, s and z, kLanes numbers side by side per entry
+    std::vector<Tangents::Pass> passes;  ///< along the seeds, with results in results_
+    ByVariable<std::vector<int>>
+        places;  ///< per nonzero its index in results_; empty for matrices that were not asked for
   };
 
   Compression compress(const ByVariable<const Sparsity*>& patterns) const;

@@ -16,41 +16,49 @@ namespace {
 
 using Arrays = EquationArrays;
 
-// Larger systems are not compiled: their code exceeds the processor's caches and takes seconds to make.
+// Larger systems are not compiled: their code exceeds the processor's caches and takes seconds to
+// make.
 constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
 
 constexpr int kTurns = RecordedEquations::kTurns;
 
-/// The place of an entry in an array of Lanes, as an index of doubles: each entry takes lanes + 1 of them. The code's own workspaces are
-/// counted in doubles already.
+/// The place of an entry in an array of Lanes, as an index of doubles: each entry takes lanes + 1
+/// of them. The code's own workspaces are counted in doubles already.
 Place spread(const Place& place, int lanes) {
   if (place.array < 0 || place.array >= Arrays::kSlots) return place;
   return {place.array, place.index * (lanes + 1)};
 }
 
-VectorX<Traced> vector(const std::vector<Traced>& x) { return Eigen::Map<const VectorX<Traced>>(x.data(), to_signed(x.size())); }
+VectorX<Traced> vector(const std::vector<Traced>& x) {
+  return Eigen::Map<const VectorX<Traced>>(x.data(), to_signed(x.size()));
+}
 
 std::size_t count_functions(const System& system, EquationPart part) {
   if (part == EquationPart::kSignals) return to_index(watched_function(system.watched().size()));
   if (part != EquationPart::kStart) return to_index(EquationFunction::kMotionEnd);
-  return to_index(controller_function(static_cast<int>(system.controllers().size()), ControllerFunction::kError));
+  return to_index(controller_function(static_cast<int>(system.controllers().size()),
+                                      ControllerFunction::kError));
 }
 
-/// Whether a node is an entry of kNumbers: it depends on design, time or a turn reference, not on the state.
+/// Whether a node is an entry of kNumbers: it depends on design, time or a turn reference, not on
+/// the state.
 bool is_number(const Recording::Node& node) {
   return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
 }
 
-/// Whether the derivative of a node is an input of the tangent code. Entries of the state and functions of time are, and so are nodes that
-/// depend on the design alone: their derivatives are computed with the design. Turn references and literals have no derivative.
+/// Whether the derivative of a node is an input of the tangent code. Entries of the state and
+/// functions of time are, and so are nodes that depend on the design alone: their derivatives are
+/// computed with the design. Turn references and literals have no derivative.
 bool is_tangent_leaf(const Recording::Node& node) {
-  return node.operation == Operation::kLeaf ? node.a != kTurns : !node.varies && node.operation != Operation::kLiteral;
+  return node.operation == Operation::kLeaf ? node.a != kTurns
+                                            : !node.varies && node.operation != Operation::kLiteral;
 }
 
 }  // namespace
 
-EquationCode::EquationCode(const CompiledSystem& system, EquationPart part, std::vector<bool> outcomes)
+EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
+                           std::vector<bool> outcomes)
     : system_(system),
       long_(system.layout().columns() > kMostColumns),
       functions_(count_functions(system, part)),
@@ -59,11 +67,15 @@ EquationCode::EquationCode(const CompiledSystem& system, EquationPart part, std:
   RecordedEquations equations(system, &values_.recording);
   std::vector<Recording::Guard> none;
   take_guards(0, &none);
-  if (part == EquationPart::kMotion || part == EquationPart::kLinearized || part == EquationPart::kRates) record_motion(part, &equations);
+  if (part == EquationPart::kMotion || part == EquationPart::kLinearized ||
+      part == EquationPart::kRates)
+    record_motion(part, &equations);
   if (part == EquationPart::kSignals) record_signals(&equations);
   if (part == EquationPart::kStart) record_start(&equations);
-  if (values_.recording.refused()) throw std::logic_error("the formulas decide something without is_less()");
-  for (const Recording::Guard& guard : values_.recording.guards()) outcomes_.push_back(guard.outcome);
+  if (values_.recording.refused())
+    throw std::logic_error("the formulas decide something without is_less()");
+  for (const Recording::Guard& guard : values_.recording.guards())
+    outcomes_.push_back(guard.outcome);
   values_.number_nodes();
 }
 
@@ -94,30 +106,41 @@ void EquationCode::record_motion(EquationPart part, RecordedEquations* equations
       return results;
     });
   if (part == EquationPart::kMotion && system_.compresses_jacobian()) return;
-  const bool rates_only = part == EquationPart::kRates || (part == EquationPart::kMotion && system_.has_rates_apart());
-  const Linearization<Traced> d = derive_linearization(system_.patterns(), EliminationOrder::kForward, rates_only, equations);
-  if (!rates_only) take_outputs(EquationFunction::kLinearization, {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
-  take_outputs(EquationFunction::kRates, {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
+  const bool rates_only =
+      part == EquationPart::kRates || (part == EquationPart::kMotion && system_.has_rates_apart());
+  const Linearization<Traced> d =
+      derive_linearization(system_.patterns(), EliminationOrder::kForward, rates_only, equations);
+  if (!rates_only)
+    take_outputs(EquationFunction::kLinearization,
+                 {vector(d.position), vector(d.velocity), vector(d.rate), d.time});
+  take_outputs(EquationFunction::kRates,
+               {equations->G, VectorX<Traced>::Constant(1, equations->g), vector(d.rate)});
   at(EquationFunction::kRates).has_derivatives = false;
   at(EquationFunction::kAccelerations).has_derivatives = false;
   // The derivatives decide nothing: they hold where the residual holds.
-  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates, EquationFunction::kAccelerations})
+  for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates,
+                                    EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
-  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g)) record_accelerations(d.rate, equations);
+  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g))
+    record_accelerations(d.rate, equations);
 }
 
 // G at z = 0 is short: it holds no accelerations.
-void EquationCode::record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations) {
+void EquationCode::record_accelerations(const std::vector<Traced>& G_z,
+                                        RecordedEquations* equations) {
   const Sparsity& pattern = system_.patterns().rate;
-  constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take longer to make than most runs
-  if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, values_.recording, pattern, G_z)) return;
+  constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take
+                                      // longer to make than most runs
+  if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, values_.recording, pattern, G_z))
+    return;
   VectorX<Traced>& z = equations->state.z;
   const VectorX<Traced> trial = z;
   z.setConstant(Traced(0.0));
   equations->record_residual();
   z = trial;
   MassSolution solution = record_mass_solution(pattern, G_z, -equations->G);
-  take_outputs(EquationFunction::kAccelerations, {solution.x, VectorX<Traced>::Constant(1, equations->g), vector(solution.values)});
+  take_outputs(EquationFunction::kAccelerations,
+               {solution.x, VectorX<Traced>::Constant(1, equations->g), vector(solution.values)});
   mass_factor_ = std::move(solution.factor);
 }
 
@@ -129,31 +152,40 @@ bool EquationCode::is_affine(const std::vector<Traced>& G_z, const Traced& g) co
     if (node.operation == Operation::kLeaf)
       depends[to_index(n)] = node.a == Arrays::kZ;
     else if (node.operation != Operation::kLiteral)
-      depends[to_index(n)] = depends[to_index(node.a)] || (node.b >= 0 && depends[to_index(node.b)]);
+      depends[to_index(n)] =
+          depends[to_index(node.a)] || (node.b >= 0 && depends[to_index(node.b)]);
   }
   const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
   const std::vector<Recording::Guard>& guards = at(EquationFunction::kRates).guards;
-  return is_free(g.node()) && std::all_of(G_z.begin(), G_z.end(), [&](const Traced& entry) { return is_free(entry.node()); }) &&
-         std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) { return is_free(guard.a) && is_free(guard.b); });
+  return is_free(g.node()) &&
+         std::all_of(G_z.begin(), G_z.end(),
+                     [&](const Traced& entry) { return is_free(entry.node()); }) &&
+         std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) {
+           return is_free(guard.a) && is_free(guard.b);
+         });
 }
 
 void EquationCode::record_signals(RecordedEquations* equations) {
   std::vector<EquationFunction> functions{EquationFunction::kTerminal};
-  for (std::size_t k = 0; k < system_.watched().size(); ++k) functions.push_back(watched_function(k));
+  for (std::size_t k = 0; k < system_.watched().size(); ++k)
+    functions.push_back(watched_function(k));
   std::vector<Traced> values;
   for (EquationFunction function : functions)
     record(function, [&] {
-      values.push_back(values.empty() ? equations->formulas.terminal(equations->state)
-                                      : equations->formulas.watched(values.size() - 1, equations->state));
+      values.push_back(values.empty()
+                           ? equations->formulas.terminal(equations->state)
+                           : equations->formulas.watched(values.size() - 1, equations->state));
       return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, values.back())};
     });
   std::vector<std::vector<Traced>> gradients(values.size());
-  for (const JacobianEntry& entry : derive_gradients(system_, values, EliminationOrder::kReverse, &values_.recording)) {
+  for (const JacobianEntry& entry :
+       derive_gradients(system_, values, EliminationOrder::kReverse, &values_.recording)) {
     gradients[to_index(entry.row)].push_back(entry.value);
     at(with_gradient(functions[to_index(entry.row)])).columns.push_back(entry.column);
   }
   for (std::size_t k = 0; k < values.size(); ++k) {
-    take_outputs(with_gradient(functions[k]), {VectorX<Traced>::Constant(1, values[k]), vector(gradients[k])});
+    take_outputs(with_gradient(functions[k]),
+                 {VectorX<Traced>::Constant(1, values[k]), vector(gradients[k])});
     at(with_gradient(functions[k])).guards = at(functions[k]).guards;
   }
   const auto residuals = [&](EquationFunction function, ObjectivePart part) {
@@ -184,28 +216,34 @@ void EquationCode::record_start(RecordedEquations* equations) {
   for (std::size_t k = 0; k < system_.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);
     formulas.load(state);
-    record(controller_function(controller, ControllerFunction::kError),
-           [&] { return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, formulas.controller_error(controller))}; });
+    record(controller_function(controller, ControllerFunction::kError), [&] {
+      return std::vector<VectorX<Traced>>{
+          VectorX<Traced>::Constant(1, formulas.controller_error(controller))};
+    });
     if (!system_.study().controllers[k].realization.is_sampled()) continue;
     for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample})
       record(controller_function(controller, which), [&] {
         VectorX<Traced> s = state.s;
-        const Traced output = formulas.sample(controller, which == ControllerFunction::kFirstSample, &s);
+        const Traced output =
+            formulas.sample(controller, which == ControllerFunction::kFirstSample, &s);
         return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, output), s};
       });
   }
 }
 
-void EquationCode::take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results) {
+void EquationCode::take_outputs(EquationFunction function,
+                                const std::vector<VectorX<Traced>>& results) {
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k].size(); ++i)
       at(function).outputs.push_back(
-          {results[k][i].node_in(&values_.recording), {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
+          {results[k][i].node_in(&values_.recording),
+           {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
 void EquationCode::take_guards(std::size_t first, std::vector<Recording::Guard>* guards) {
   const Recording& recording = values_.recording;
-  std::vector<int> decisions(recording.decisions().begin() + to_signed(first), recording.decisions().end());
+  std::vector<int> decisions(recording.decisions().begin() + to_signed(first),
+                             recording.decisions().end());
   std::sort(decisions.begin(), decisions.end());
   decisions.erase(std::unique(decisions.begin(), decisions.end()), decisions.end());
   for (int decision : decisions) {
@@ -222,8 +260,10 @@ void EquationCode::differentiate() const {
   for (std::size_t f = 0; f < functions_.size(); ++f) {
     if (!functions_[f].has_derivatives) continue;
     std::vector<bool> is_leaf(to_index(recording.size()));
-    for (int n = 0; n < recording.size(); ++n) is_leaf[to_index(n)] = is_tangent_leaf(recording.node(n));
-    derivatives_.tangents[f] = std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
+    for (int n = 0; n < recording.size(); ++n)
+      is_leaf[to_index(n)] = is_tangent_leaf(recording.node(n));
+    derivatives_.tangents[f] =
+        std::make_unique<TangentProgram>(&recording, functions_[f].outputs, is_leaf);
   }
   derivatives_.number_nodes();
 }
@@ -256,7 +296,8 @@ void NumberedRecording::number_nodes() {
     numbers.push_back(n);
     if (node.operation != Operation::kLeaf) continue;
     if (node.a == Recording::kTimed)
-      functions[to_index(node.b / Recording::kFunctionOrders)][to_index(node.b % Recording::kFunctionOrders)] = entry;
+      functions[to_index(node.b / Recording::kFunctionOrders)]
+               [to_index(node.b % Recording::kFunctionOrders)] = entry;
     if (node.a == kTurns && used[to_index(n)]) turns.push_back({node.b, entry});
   }
 }
@@ -264,13 +305,14 @@ void NumberedRecording::number_nodes() {
 EquationCode::~EquationCode() = default;
 
 const TransposedCode& EquationCode::transposed() const {
-  std::call_once(transposed_once_,
-                 [this] { transposed_ = std::make_unique<TransposedCode>(system_, values_.recording, functions_, long_); });
+  std::call_once(transposed_once_, [this] {
+    transposed_ = std::make_unique<TransposedCode>(system_, values_.recording, functions_, long_);
+  });
   return *transposed_;
 }
 
-std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task, const ValueProgram& program,
-                                                 bool interpreted) {
+std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task,
+                                                 const ValueProgram& program, bool interpreted) {
   auto compiled = std::make_unique<CompiledFunction>();
   compiled->slots = to_index(program.slots);
   if (!interpreted) compiled->values = ValueCode::compile(recording, task, program, Arrays::kSlots);
@@ -281,9 +323,11 @@ std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, con
   return compiled;
 }
 
-const CompiledFunction& EquationCode::function(EquationFunction function, const Scalar& scalar) const {
+const CompiledFunction& EquationCode::function(EquationFunction function,
+                                               const Scalar& scalar) const {
   const auto f = to_index(function);
-  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
+  Known& known =
+      known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
   if (!known.made.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!known.made.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
@@ -292,13 +336,16 @@ const CompiledFunction& EquationCode::function(EquationFunction function, const 
   return *known.code;
 }
 
-// Tangents are sums of products, factor times derivative. With a split scalar the state's arrays hold directions while the tangents run, so
-// factors that are entries of the state are copied to slots before.
-ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const {
+// Tangents are sums of products, factor times derivative. With a split scalar the state's arrays
+// hold directions while the tangents run, so factors that are entries of the state are copied to
+// slots before.
+ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
+                                   std::vector<Place>* value_places) const {
   const NumberedRecording& from = numbered(scalar.lanes > 0);
   ValueTask task;
   const int state_lanes = scalar.split ? 0 : scalar.lanes;
-  for (const Place& home : from.homes) task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
+  for (const Place& home : from.homes)
+    task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
   task.guards = functions_[function].guards;
   if (!scalar.split)
     for (const ValueTask::Output& output : functions_[function].outputs)
@@ -317,23 +364,28 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar, s
   return task;
 }
 
-std::vector<Sum> EquationCode::tangent_sums(std::size_t function, const std::vector<Place>& value_places) const {
+std::vector<Sum> EquationCode::tangent_sums(std::size_t function,
+                                            const std::vector<Place>& value_places) const {
   const TangentProgram& tangent = *derivatives_.tangents[function];
   const auto row_place = [&](int n) {
     const bool has_sum = to_index(n) < tangent.row.size() && tangent.row[to_index(n)] >= 0;
-    return has_sum ? Place{Arrays::kRows, tangent.row[to_index(n)]} : derivatives_.homes[to_index(n)];
+    return has_sum ? Place{Arrays::kRows, tangent.row[to_index(n)]}
+                   : derivatives_.homes[to_index(n)];
   };
   std::vector<Sum> sums;
   for (const TangentProgram::Sum& from : tangent.sums) {
     Sum& sum = sums.emplace_back();
     sum.target = from.node < 0 ? from.output.place : row_place(from.node);
     for (const TangentProgram::Term& term : from.terms)
-      sum.products.push_back({row_place(term.row), term.factor < 0 ? Place{} : value_places[to_index(term.factor)], term.added});
+      sum.products.push_back({row_place(term.row),
+                              term.factor < 0 ? Place{} : value_places[to_index(term.factor)],
+                              term.added});
   }
   return sums;
 }
 
-std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, const Scalar& scalar) const {
+std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function,
+                                                        const Scalar& scalar) const {
   const NumberedRecording& from = numbered(scalar.lanes > 0);
   std::vector<Place> value_places;
   const ValueTask task = value_task(function, scalar, &value_places);
@@ -343,12 +395,14 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function, co
   if (scalar.lanes == 0) return compiled;
   for (int n : task.kept) value_places[to_index(n)] = {Arrays::kSlots, program.slot[to_index(n)]};
   StraightLine::RowLayouts layouts;
-  layouts.fill(scalar.split ? StraightLine::RowLayout{scalar.lanes, 0} : StraightLine::RowLayout{scalar.lanes + 1, 1});
+  layouts.fill(scalar.split ? StraightLine::RowLayout{scalar.lanes, 0}
+                            : StraightLine::RowLayout{scalar.lanes + 1, 1});
   layouts[to_index(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
   layouts[to_index(Arrays::kRows)] = {scalar.lanes, 0};
   compiled->rows = to_index(from.tangents[function]->rows * scalar.lanes);
   const std::vector<Sum> sums = tangent_sums(function, value_places);
-  if (!interpreted) compiled->tangents = StraightLine::compile(sums, scalar.lanes, layouts, kMostBytes);
+  if (!interpreted)
+    compiled->tangents = StraightLine::compile(sums, scalar.lanes, layouts, kMostBytes);
   if (!compiled->tangents) compiled->tangents = interpret_sums(sums, scalar.lanes, layouts);
   return compiled;
 }

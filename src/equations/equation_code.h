@@ -23,14 +23,18 @@ namespace codesign {
 struct RecordedEquations;
 class TransposedCode;
 
-/// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that depend on design, time and turn
-/// references; up to four results (see EquationFunction); and two workspaces of the code.
+/// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that
+/// depend on design, time and turn references; up to four results (see EquationFunction); and two
+/// workspaces of the code.
 struct EquationArrays {
-  static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9, kRows = 10;
-  static constexpr int kAdjoints = kRows;  ///< results of TransposedCode, whose results take the place of weights
+  static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9,
+                       kRows = 10;
+  static constexpr int kAdjoints =
+      kRows;  ///< results of TransposedCode, whose results take the place of weights
 };
 
-/// One function for one scalar: code for the values and, for Lanes, code for the derivatives, which runs after it.
+/// One function for one scalar: code for the values and, for Lanes, code for the derivatives, which
+/// runs after it.
 struct CompiledFunction {
   std::unique_ptr<ValueCode> values;
   std::unique_ptr<StraightLine> tangents;
@@ -38,9 +42,10 @@ struct CompiledFunction {
   std::size_t slots = 0, rows = 0;           ///< sizes of the workspaces kSlots and kRows [doubles]
 };
 
-/// The code for the values of a task, with interpreter if `interpreted` or where machine code cannot be made.
-std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task, const ValueProgram& program,
-                                                 bool interpreted);
+/// The code for the values of a task, with interpreter if `interpreted` or where machine code
+/// cannot be made.
+std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task,
+                                                 const ValueProgram& program, bool interpreted);
 
 /// The results of one recorded function, and the decisions that they depend on.
 struct RecordedFunction {
@@ -50,57 +55,67 @@ struct RecordedFunction {
   bool has_derivatives = true;  ///< whether tangents may be asked for
 };
 
-/// A recording, and the array and index of each of its nodes that the code reads as an input: entries of the state, and numbers that depend
-/// on the design, the time or a turn reference only.
+/// A recording, and the array and index of each of its nodes that the code reads as an input:
+/// entries of the state, and numbers that depend on the design, the time or a turn reference only.
 struct NumberedRecording {
   Recording recording;
-  std::vector<std::unique_ptr<TangentProgram>> tangents;  ///< per EquationFunction; empty without derivatives
-  std::vector<int> numbers;                               ///< the nodes of array kNumbers, in its order
-  std::vector<Place> homes;                               ///< per node: its array and index; array -1 if the code computes it
+  std::vector<std::unique_ptr<TangentProgram>>
+      tangents;              ///< per EquationFunction; empty without derivatives
+  std::vector<int> numbers;  ///< the nodes of array kNumbers, in its order
+  std::vector<Place> homes;  ///< per node: its array and index; array -1 if the code computes it
 
-  /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if it is not used.
+  /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if
+  /// it is not used.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
-  std::vector<std::array<int, 2>> turns;  ///< per turn reference that is used: entry of State::turns, entry of kNumbers
+  std::vector<std::array<int, 2>>
+      turns;  ///< per turn reference that is used: entry of State::turns, entry of kNumbers
 
   /// Fills the members above from `recording`.
   void number_nodes();
 };
 
-/// One variant of the equations of one mechanism and study, shared by all designs: the formulas, recorded with given outcomes of their
-/// decisions. The constructor records one part of them with the scalar Traced, and derives the linearization from the recorded residual and
-/// the gradients of signals from their recorded values; the tangents of the recording, and the code for each scalar, are made when they are
-/// first needed. Thread-safe.
+/// One variant of the equations of one mechanism and study, shared by all designs: the formulas,
+/// recorded with given outcomes of their decisions. The constructor records one part of them with
+/// the scalar Traced, and derives the linearization from the recorded residual and the gradients of
+/// signals from their recorded values; the tangents of the recording, and the code for each scalar,
+/// are made when they are first needed. Thread-safe.
 class EquationCode {
  public:
   /// The scalar that a function is wanted for.
   struct Scalar {
-    int lanes;         ///< 0 for double and for complex numbers, which are always interpreted
-    bool split;        ///< only derivatives are computed, from values and directions of the state in separate arrays
+    int lanes;   ///< 0 for double and for complex numbers, which are always interpreted
+    bool split;  ///< only derivatives are computed, from values and directions of the state in
+                 ///< separate arrays
     bool interpreted;  ///< without machine code
   };
 
-  /// Records the equations. @param system must outlive this. @param outcomes of the first decisions; the later ones have their expected
-  /// outcomes.
+  /// Records the equations. @param system must outlive this. @param outcomes of the first
+  /// decisions; the later ones have their expected outcomes.
   /// @throws std::logic_error if the formulas decide something without is_less().
-  explicit EquationCode(const CompiledSystem& system, EquationPart part, std::vector<bool> outcomes = {});
+  explicit EquationCode(const CompiledSystem& system, EquationPart part,
+                        std::vector<bool> outcomes = {});
   ~EquationCode();
 
-  /// One function, made by the first call. It is interpreted also where machine code cannot be made: on other processors than x86-64 and
-  /// for very long programs. For a split scalar the arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
+  /// One function, made by the first call. It is interpreted also where machine code cannot be
+  /// made: on other processors than x86-64 and for very long programs. For a split scalar the
+  /// arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
   /// directions while `tangents` runs.
   const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
 
   /// The columns of a signal's gradient, its second result: (q, s), v, z and t side by side.
-  const std::vector<int>& gradient_columns(EquationFunction function) const { return at(function).columns; }
+  const std::vector<int>& gradient_columns(EquationFunction function) const {
+    return at(function).columns;
+  }
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
   /// The transposed derivatives of the functions of EquationPart::kMotion, made by the first call.
   const TransposedCode& transposed() const;
-  /// The recorded decisions that depend on the design alone; the code may run only for designs with the same outcomes.
+  /// The recorded decisions that depend on the design alone; the code may run only for designs with
+  /// the same outcomes.
   const std::vector<Recording::Guard>& design_guards() const { return design_guards_; }
-  /// Whether kAccelerations is there: for the explicit pair, in joint coordinates without loops, if G is affine in z, g free of it,
-  /// and G_z a mass matrix.
+  /// Whether kAccelerations is there: for the explicit pair, in joint coordinates without loops, if
+  /// G is affine in z, g free of it, and G_z a mass matrix.
   bool has_accelerations() const { return !mass_factor_.starts.empty(); }
   /// Of kAccelerations' third result.
   const MassFactor& mass_factor() const { return mass_factor_; }
@@ -109,36 +124,42 @@ class EquationCode {
 
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[to_index(function)]; }
-  const RecordedFunction& at(EquationFunction function) const { return functions_[to_index(function)]; }
+  const RecordedFunction& at(EquationFunction function) const {
+    return functions_[to_index(function)];
+  }
   void record_motion(EquationPart part, RecordedEquations* equations);
   void record_signals(RecordedEquations* equations);
   void record_start(RecordedEquations* equations);
   /// Records one function whose results `compute` returns.
   template <class Compute>
   void record(EquationFunction function, const Compute& compute);
-  /// Gives the decisions that were made from index `first` of Recording::decisions() on to a function if they vary with the state, else to
-  /// design_guards_.
+  /// Gives the decisions that were made from index `first` of Recording::decisions() on to a
+  /// function if they vary with the state, else to design_guards_.
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
-  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates does.
+  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates
+  /// does.
   bool is_affine(const std::vector<Traced>& G_z, const Traced& g) const;
   void record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
   std::unique_ptr<CompiledFunction> compile(std::size_t function, const Scalar& scalar) const;
-  ValueTask value_task(std::size_t function, const Scalar& scalar, std::vector<Place>* value_places) const;
+  ValueTask value_task(std::size_t function, const Scalar& scalar,
+                       std::vector<Place>* value_places) const;
   std::vector<Sum> tangent_sums(std::size_t function, const std::vector<Place>& value_places) const;
 
   const CompiledSystem& system_;
   bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
-  std::vector<RecordedFunction> functions_;  ///< per EquationFunction; empty for those of the other part
+  std::vector<RecordedFunction>
+      functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
   std::vector<bool> outcomes_;
   MassFactor mass_factor_;
 
   mutable std::once_flag differentiated_;
-  mutable NumberedRecording derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
+  mutable NumberedRecording
+      derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
   mutable std::once_flag transposed_once_;
   mutable std::unique_ptr<TransposedCode> transposed_;
   struct Known {
@@ -146,7 +167,8 @@ class EquationCode {
     std::unique_ptr<CompiledFunction> code;
   };
   mutable std::mutex mutex_;
-  /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine code.
+  /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine
+  /// code.
   mutable std::vector<std::array<Known, 10>> known_;
 };
 

@@ -12,22 +12,27 @@ enum class ObjectivePart { kIntegral, kTerminal };
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,      ///< kResidual, kConstraintErrors, and what no other part has: kRates, kAccelerations and kLinearization
-  kSignals,     ///< kTerminal, the residuals of the objective and the watched signals
-  kStart,       ///< kPlacement, kTurns and the controllers' functions
-  kLinearized,  ///< kLinearization, where kRates are recorded without it, CompiledSystem::has_rates_apart()
-  kRates,       ///< kRates and kAccelerations, where simulations differentiate without a program, CompiledSystem::compresses_jacobian()
+  kMotion,   ///< kResidual, kConstraintErrors, and what no other part has: kRates, kAccelerations
+             ///< and kLinearization
+  kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
+  kStart,    ///< kPlacement, kTurns and the controllers' functions
+  kLinearized,  ///< kLinearization, where kRates are recorded without it,
+                ///< CompiledSystem::has_rates_apart()
+  kRates,       ///< kRates and kAccelerations, where simulations differentiate without a program,
+                ///< CompiledSystem::compresses_jacobian()
   kEnd          ///< number of parts
 };
 constexpr auto kEquationParts = to_index(EquationPart::kEnd);
 
-/// The recorded functions of Equations, numbered in each part; each enumerator lists the arrays of results, in order.
+/// The recorded functions of Equations, numbered in each part; each enumerator lists the arrays of
+/// results, in order.
 enum class EquationFunction : std::size_t {
   kResidual = 0,      ///< G, g
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
   kRates,             ///< G, g, G_z; values only
-  kAccelerations,     ///< z with G = 0, g, values of MassFactor; values only, and only where EquationCode::has_accelerations()
+  kAccelerations,     ///< z with G = 0, g, values of MassFactor; values only, and only where
+                      ///< EquationCode::has_accelerations()
   kEnergies,          ///< body_energies(), their bodies; values only, with a forest
   kMotionEnd,         ///< number of functions of the part
 
@@ -35,24 +40,29 @@ enum class EquationFunction : std::size_t {
   kTerminalGradient,   ///< w, its gradient
   kIntegralResiduals,  ///< theory (22a), one per term of the integrand
   kTerminalResiduals,  ///< one per terminal term
-  kFirstWatched,       ///< signal minus reference; then a function with its gradient as well; then the same of the other watched signals
+  kFirstWatched,  ///< signal minus reference; then a function with its gradient as well; then the
+                  ///< same of the other watched signals
 
   kPlacement = 0,   ///< q and v at the tree coordinates theta and their rates, in place of q and v
   kTurns,           ///< the joint positions in State::turns
-  kFirstController  ///< three functions of each controller: its error; the output and the extra states after its first sample; after others
+  kFirstController  ///< three functions of each controller: its error; the output and the extra
+                    ///< states after its first sample; after others
 };
 
 /// The function of the k-th watched signal, and of kTerminal or a watched signal with its gradient.
 constexpr EquationFunction watched_function(std::size_t k) {
   return static_cast<EquationFunction>(to_index(EquationFunction::kFirstWatched) + 2 * k);
 }
-constexpr EquationFunction with_gradient(EquationFunction function) { return static_cast<EquationFunction>(to_index(function) + 1); }
+constexpr EquationFunction with_gradient(EquationFunction function) {
+  return static_cast<EquationFunction>(to_index(function) + 1);
+}
 
 /// A function of a controller.
 enum class ControllerFunction : std::size_t { kError, kFirstSample, kSample, kEnd };
 constexpr EquationFunction controller_function(int controller, ControllerFunction which) {
   return static_cast<EquationFunction>(to_index(EquationFunction::kFirstController) +
-                                       to_index(ControllerFunction::kEnd) * to_index(controller) + to_index(which));
+                                       to_index(ControllerFunction::kEnd) * to_index(controller) +
+                                       to_index(which));
 }
 
 }  // namespace codesign

@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& system, EquationPart part) {
+const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& system,
+                                         EquationPart part) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (variants_.empty()) variants_.push_back(std::make_unique<EquationCode>(system, part));
   return k < variants_.size() ? variants_[k].get() : nullptr;
@@ -17,7 +18,9 @@ const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& sy
 std::size_t EquationVariants::keep(std::unique_ptr<EquationCode> variant) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto known = std::find_if(variants_.begin(), variants_.end(),
-                                  [&](const std::unique_ptr<EquationCode>& other) { return other->outcomes() == variant->outcomes(); });
+                                  [&](const std::unique_ptr<EquationCode>& other) {
+                                    return other->outcomes() == variant->outcomes();
+                                  });
   const auto index = to_index(known - variants_.begin());
   if (known == variants_.end()) variants_.push_back(std::move(variant));
   return index;

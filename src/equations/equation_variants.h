@@ -11,9 +11,10 @@
 
 namespace codesign {
 
-/// The variants of one part of the equations of a system that states have needed so far. The first one has the expected outcome of every
-/// decision; the others are added when a state decides otherwise. A variant depends on its outcomes alone, so results do not depend on the
-/// order in which variants were added. Thread-safe.
+/// The variants of one part of the equations of a system that states have needed so far. The first
+/// one has the expected outcome of every decision; the others are added when a state decides
+/// otherwise. A variant depends on its outcomes alone, so results do not depend on the order in
+/// which variants were added. Thread-safe.
 class EquationVariants {
  public:
   /// The k-th variant; null if fewer are known. The first one is recorded by the first call for it.

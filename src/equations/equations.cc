@@ -11,7 +11,10 @@ namespace codesign {
 
 template <class T>
 Equations<T>::Equations(const CompiledSystem& system)
-    : system_(system), compiled_(system), signals_(system, EquationPart::kSignals), start_(system, EquationPart::kStart) {
+    : system_(system),
+      compiled_(system),
+      signals_(system, EquationPart::kSignals),
+      start_(system, EquationPart::kStart) {
   if constexpr (kIsReal) formulas_ = std::make_unique<Formulas<T>>(system);
 }
 
@@ -36,7 +39,8 @@ const PairRows<double>& Equations<double>::rows(int pair) const {
   return formulas_->view().design.rows[to_index(pair)];
 }
 
-// With double, these few values per step come from the formulas: to record them, and to make their code, would take longer than most runs.
+// With double, these few values per step come from the formulas: to record them, and to make their
+// code, would take longer than most runs.
 
 template <class T>
 void Equations<T>::linearize_rates(const State<T>& state, Linearization<T>* derivatives) {
@@ -67,8 +71,9 @@ void Equations<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<
   if constexpr (kIsReal)
     formulas_->residuals(part, state, residuals);
   else
-    signals_.residuals(terminal ? EquationFunction::kTerminalResiduals : EquationFunction::kIntegralResiduals, state,
-                       (terminal ? system_.terminal() : system_.integral()).size(), residuals);
+    signals_.residuals(
+        terminal ? EquationFunction::kTerminalResiduals : EquationFunction::kIntegralResiduals,
+        state, (terminal ? system_.terminal() : system_.integral()).size(), residuals);
 }
 
 template <class T>
@@ -90,20 +95,25 @@ T Equations<T>::sample(int controller, bool is_first, State<T>* state) {
 template <class T>
 void Equations<T>::begin_controllers(State<T>* state) {
   if constexpr (kIsReal) formulas_->load(*state);
-  const auto sampled = [&](int controller, bool is_first) { return sample(controller, is_first, state); };
+  const auto sampled = [&](int controller, bool is_first) {
+    return sample(controller, is_first, state);
+  };
   const auto error = [&](int controller) {
     if constexpr (kIsReal)
       return formulas_->controller_error(controller);
     else
       return start_.controller_error(controller, *state);
   };
-  for (std::size_t c = 0; c < system_.controllers().size(); ++c) begin_controller(system_, static_cast<int>(c), sampled, error, &state->s);
+  for (std::size_t c = 0; c < system_.controllers().size(); ++c)
+    begin_controller(system_, static_cast<int>(c), sampled, error, &state->s);
 }
 
 template <class T>
 void Equations<T>::jump(const std::vector<ControlEvent>& events, State<T>* state) {
   if constexpr (kIsReal) formulas_->load(*state);
-  const auto sampled = [&](int controller, bool is_first) { return sample(controller, is_first, state); };
+  const auto sampled = [&](int controller, bool is_first) {
+    return sample(controller, is_first, state);
+  };
   for (const ControlEvent& event : events) jump_controller(system_, event, sampled, &state->s);
 }
 

@@ -11,9 +11,11 @@
 
 namespace codesign {
 
-// The loop over the elements; elements/forest.h lists those that load bodies. Pairs, spring-dampers and constant loads on links come before
-// the bodies, because they add to the loads that the bodies turn into rows; loads along coordinates of the forest come after the back
-// sweep, because their friction depends on what it computes; shared reactions come after the pairs and couplings, whose rows they change.
+// The loop over the elements; elements/forest.h lists those that load bodies. Pairs, spring-dampers
+// and constant loads on links come before the bodies, because they add to the loads that the bodies
+// turn into rows; loads along coordinates of the forest come after the back sweep, because their
+// friction depends on what it computes; shared reactions come after the pairs and couplings, whose
+// rows they change.
 
 template <class T>
 Formulas<T>::Formulas(const System& system) : view_(system) {}
@@ -61,15 +63,17 @@ void Formulas<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi, Vect
     const Pair& pair = view_.system.topology().pairs[k];
     if (!layout.is_cut(static_cast<int>(k))) continue;
     const int row = layout.pair_row[k], size = view_.design.rows[k].size();
-    pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j), Out<T>(*Phi).subspan(row, size),
-                Out<T>(*Phi_rate).subspan(row, size));
+    pair_errors(static_cast<int>(k), body(pair.body_i), body(pair.body_j),
+                Out<T>(*Phi).subspan(row, size), Out<T>(*Phi_rate).subspan(row, size));
   }
-  for (std::size_t k = 0; k < view_.design.constants.couplings.size(); ++k) coupling_error(view_, k, Phi, Phi_rate);
+  for (std::size_t k = 0; k < view_.design.constants.couplings.size(); ++k)
+    coupling_error(view_, k, Phi, Phi_rate);
   for (int b = 0; b < layout.bodies; ++b) norm_error(view_, b, Phi, Phi_rate);
 }
 
 template <class T>
-void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, Out<T> errors, Out<T> rates) const {
+void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+                              Out<T> errors, Out<T> rates) const {
   codesign::pair_errors(view_, pair, i, j, errors, rates);
 }
 
@@ -88,7 +92,8 @@ void Formulas<T>::track_turns(State<T>* state) {
   }
 }
 
-// The functions of Formulas that observers and objectives call. Each one calls one function of an element.
+// The functions of Formulas that observers and objectives call. Each one calls one function of an
+// element.
 
 template <class T>
 T Formulas<T>::terminal(const State<T>& state) {
@@ -101,13 +106,16 @@ void Formulas<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<T
   using std::sqrt;
   load(state);
   const bool terminal = part == ObjectivePart::kTerminal;
-  const std::vector<ResolvedTerm>& terms = terminal ? view_.system.terminal() : view_.system.integral();
+  const std::vector<ResolvedTerm>& terms =
+      terminal ? view_.system.terminal() : view_.system.integral();
   const ObjectiveNumbers<T>& numbers = terminal ? view_.design.terminal : view_.design.integral;
   residuals->resize(to_signed(terms.size()));
   for (std::size_t k = 0; k < terms.size(); ++k)
-    (*residuals)[to_signed(k)] = is_less(T(0.0), numbers.weights[k], true)
-                                     ? T(sqrt(numbers.weights[k]) * signal_error(view_, terms[k].signal, numbers.references[k]))
-                                     : T(0.0);
+    (*residuals)[to_signed(k)] =
+        is_less(T(0.0), numbers.weights[k], true)
+            ? T(sqrt(numbers.weights[k]) *
+                signal_error(view_, terms[k].signal, numbers.references[k]))
+            : T(0.0);
 }
 
 template <class T>
@@ -123,7 +131,8 @@ T Formulas<T>::signal(const Signal& signal, const State<T>& state) {
 }
 
 template <class T>
-const CoordinateMotion<T>& Formulas<T>::coordinate(int pair, int element, CoordinateDetail detail) const {
+const CoordinateMotion<T>& Formulas<T>::coordinate(int pair, int element,
+                                                   CoordinateDetail detail) const {
   return view_.coordinate(pair, element, detail);
 }
 

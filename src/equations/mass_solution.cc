@@ -23,36 +23,43 @@ std::vector<double> values_of(const System& system, const Recording& recording) 
     if (node.operation == Operation::kLiteral)
       value = node.literal;
     else if (node.operation != Operation::kLeaf)
-      value = operate<double>(node.operation, values[to_index(node.a)], node.b < 0 ? 0.0 : values[to_index(node.b)]);
+      value = operate<double>(node.operation, values[to_index(node.a)],
+                              node.b < 0 ? 0.0 : values[to_index(node.b)]);
     else if (node.a != Recording::kSupplied)
       value = std::sin(1.0 + 7.0 * node.b + 3.0 * node.a);
     else if (node.b >= 0)
-      value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(), system.parameters());
+      value = value_at(*recording.supplied_sources()[to_index(node.b)].as<Expression>(),
+                       system.parameters());
   }
   return values;
 }
 
 }  // namespace
 
-bool is_mass_matrix(const System& system, const Recording& recording, const Sparsity& pattern, const std::vector<Traced>& entries) {
+bool is_mass_matrix(const System& system, const Recording& recording, const Sparsity& pattern,
+                    const std::vector<Traced>& entries) {
   constexpr double kRounding = 1e-11;
   const std::vector<double> values = values_of(system, recording);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(pattern.columns, pattern.columns);
   for (int row = 0; row < pattern.columns; ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
       const Traced& entry = entries[to_index(e)];
-      A(row, pattern.column(e)) = entry.is_literal() ? entry.value() : values[to_index(entry.node())];
+      A(row, pattern.column(e)) =
+          entry.is_literal() ? entry.value() : values[to_index(entry.node())];
     }
   const Eigen::VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
   A = scale.asDiagonal() * A * scale.asDiagonal();
-  return A.allFinite() && (A - A.transpose()).cwiseAbs().maxCoeff() < kRounding && is_positive_definite(A);
+  return A.allFinite() && (A - A.transpose()).cwiseAbs().maxCoeff() < kRounding &&
+         is_positive_definite(A);
 }
 
-MassSolution record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries, const VectorX<Traced>& b) {
+MassSolution record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries,
+                                  const VectorX<Traced>& b) {
   const Eigen::Index size = pattern.columns;
   TracedMatrix A = TracedMatrix::Constant(size, size, Traced(0.0));
   for (int row = 0; row < size; ++row)
-    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) A(row, pattern.column(e)) = entries[to_index(e)];
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+      A(row, pattern.column(e)) = entries[to_index(e)];
   VectorX<Traced> x = b, inverse(size);
   for (Eigen::Index k = size - 1; k >= 0; --k) {
     inverse[k] = Traced(1.0) / A(k, k);
@@ -90,11 +97,13 @@ void MassFactor::solve(In<double> values, Out<double> x) const {
   for (int k = rows; k-- > 0;) {
     const double* const entries = values.data() + k;
     const Eigen::Array<double, N, 1> scaled = entries[starts[to_index(k) + 1]] * row(k);
-    for (int e = starts[to_index(k)]; e < starts[to_index(k) + 1]; ++e) row(columns[to_index(e)]) -= entries[e] * scaled;
+    for (int e = starts[to_index(k)]; e < starts[to_index(k) + 1]; ++e)
+      row(columns[to_index(e)]) -= entries[e] * scaled;
   }
   for (int k = 0; k < rows; ++k) {
     const double* const entries = values.data() + k;
-    for (int e = starts[to_index(k)]; e < starts[to_index(k) + 1]; ++e) row(k) -= entries[e] * row(columns[to_index(e)]);
+    for (int e = starts[to_index(k)]; e < starts[to_index(k) + 1]; ++e)
+      row(k) -= entries[e] * row(columns[to_index(e)]);
     row(k) *= entries[starts[to_index(k) + 1]];
   }
 }

@@ -34,7 +34,8 @@ struct Columns {
 };
 
 /// @param rates_only whether z is the only variable.
-std::vector<JacobianInput> inputs_of(Recording* recording, const Columns& columns, bool rates_only = false) {
+std::vector<JacobianInput> inputs_of(Recording* recording, const Columns& columns,
+                                     bool rates_only = false) {
   std::vector<JacobianInput> inputs;
   for (int n = 0, size = recording->size(); n < size; ++n) {
     const Recording::Node node = recording->node(n);
@@ -44,17 +45,22 @@ std::vector<JacobianInput> inputs_of(Recording* recording, const Columns& column
     if (node.a == Arrays::kV) inputs.push_back({n, columns.velocity() + node.b, 1.0});
     if (node.a == Arrays::kZ) inputs.push_back({n, columns.rate() + node.b, 1.0});
     // The derivative of a function of time is the next order of the same function.
-    if (node.a == Recording::kTimed && node.b % Recording::kFunctionOrders + 1 < Recording::kFunctionOrders)
-      inputs.push_back({n, columns.time(), Traced(recording, recording->leaf(Recording::kTimed, node.b + 1, true))});
+    if (node.a == Recording::kTimed &&
+        node.b % Recording::kFunctionOrders + 1 < Recording::kFunctionOrders)
+      inputs.push_back({n, columns.time(),
+                        Traced(recording, recording->leaf(Recording::kTimed, node.b + 1, true))});
   }
   return inputs;
 }
 
-void put(const Sparsity& pattern, int row, int column, const Traced& value, std::vector<Traced>* values) {
-  const auto first = pattern.column_index.begin() + pattern.first(row), last = pattern.column_index.begin() + pattern.first(row + 1);
+void put(const Sparsity& pattern, int row, int column, const Traced& value,
+         std::vector<Traced>* values) {
+  const auto first = pattern.column_index.begin() + pattern.first(row),
+             last = pattern.column_index.begin() + pattern.first(row + 1);
   const auto entry = std::lower_bound(first, last, column);
   if (entry == last || *entry != column)
-    throw std::logic_error("derivative (" + std::to_string(row) + ", " + std::to_string(column) + ") is outside the pattern");
+    throw std::logic_error("derivative (" + std::to_string(row) + ", " + std::to_string(column) +
+                           ") is outside the pattern");
   (*values)[to_index(entry - pattern.column_index.begin())] = value;
 }
 
@@ -67,7 +73,8 @@ ColumnSet merged(const ColumnSet& x, const ColumnSet& y) {
   return both;
 }
 
-/// The columns of (q, s), v and z side by side that each node depends on. Most nodes share their sets with others.
+/// The columns of (q, s), v and z side by side that each node depends on. Most nodes share their
+/// sets with others.
 class Dependencies {
  public:
   Dependencies(const Recording& recording, const Layout& layout);
@@ -84,10 +91,12 @@ class Dependencies {
   int unite(int x, int y) {
     if (x > y) std::swap(x, y);
     if (x == y || x == kEmpty) return y;
-    const auto [known, is_new] = united_.try_emplace((static_cast<std::uint64_t>(x) << 32U) | static_cast<std::uint64_t>(y), kEmpty);
+    const auto [known, is_new] = united_.try_emplace(
+        (static_cast<std::uint64_t>(x) << 32U) | static_cast<std::uint64_t>(y), kEmpty);
     if (is_new) {
       ColumnSet both = merged(sets_[to_index(x)], sets_[to_index(y)]);
-      const bool is_x = both.size() == sets_[to_index(x)].size(), is_y = both.size() == sets_[to_index(y)].size();
+      const bool is_x = both.size() == sets_[to_index(x)].size(),
+                 is_y = both.size() == sets_[to_index(y)].size();
       known->second = is_x ? x : is_y ? y : add(std::move(both));
     }
     return known->second;
@@ -98,7 +107,8 @@ class Dependencies {
   std::unordered_map<std::uint64_t, int> united_;
 };
 
-Dependencies::Dependencies(const Recording& recording, const Layout& layout) : sets_(1), set_of_(to_index(recording.size()), kEmpty) {
+Dependencies::Dependencies(const Recording& recording, const Layout& layout)
+    : sets_(1), set_of_(to_index(recording.size()), kEmpty) {
   const int positions = layout.positions();
   for (int n = 0; n < recording.size(); ++n) {
     const Recording::Node& node = recording.node(n);
@@ -109,14 +119,16 @@ Dependencies::Dependencies(const Recording& recording, const Layout& layout) : s
       if (node.a == Arrays::kV) set = add({positions + node.b});
       if (node.a == Arrays::kZ) set = add({positions + layout.n + node.b});
     } else if (node.varies && node.operation != Operation::kRound) {
-      set = node.b < 0 ? set_of_[to_index(node.a)] : unite(set_of_[to_index(node.a)], set_of_[to_index(node.b)]);
+      set = node.b < 0 ? set_of_[to_index(node.a)]
+                       : unite(set_of_[to_index(node.a)], set_of_[to_index(node.b)]);
     }
   }
 }
 
 using Turned = std::function<bool(unsigned)>;
 
-/// Adds the columns that each row depends on if the decisions at some places are turned round. @return the places of all decisions.
+/// Adds the columns that each row depends on if the decisions at some places are turned round.
+/// @return the places of all decisions.
 std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<ColumnSet>* rows) {
   Recording recording;
   recording.turn(std::move(turned));
@@ -131,8 +143,8 @@ std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<
   return recording.places();
 }
 
-// Turned round: none, all, each place alone, all but each place. So every combination of up to three places that follow one another in one
-// law is seen, and every joint takes part at once.
+// Turned round: none, all, each place alone, all but each place. So every combination of up to
+// three places that follow one another in one law is seen, and every joint takes part at once.
 void add_all_branches(const System& system, std::vector<ColumnSet>* rows) {
   std::vector<unsigned> places = add_rows(system, nullptr, rows);
   if (places.empty()) return;
@@ -160,8 +172,10 @@ Sparsity part_of(const std::vector<ColumnSet>& rows, int first, int count) {
 
 }  // namespace
 
-RecordedEquations::RecordedEquations(const System& system, Recording* to) : recording(to), formulas(system) {
-  // One parameter more than there are: with a model without parameters nothing else would refer to the recording.
+RecordedEquations::RecordedEquations(const System& system, Recording* to)
+    : recording(to), formulas(system) {
+  // One parameter more than there are: with a model without parameters nothing else would refer to
+  // the recording.
   const int parameter = recording->leaf(Recording::kSupplied, -1, false);
   std::vector<Traced> parameters;
   for (double value : system.parameters()) parameters.emplace_back(recording, parameter, value);
@@ -170,7 +184,8 @@ RecordedEquations::RecordedEquations(const System& system, Recording* to) : reco
   state.resize(system.layout());
   for (std::size_t k = 0; k < state.turns.size(); ++k)
     state.turns[k] = Traced(recording, recording->leaf(kTurns, static_cast<int>(k), true));
-  // Results must depend on time through functions of time alone: a NaN that is used refuses the recording.
+  // Results must depend on time through functions of time alone: a NaN that is used refuses the
+  // recording.
   state.t = std::numeric_limits<double>::quiet_NaN();
   make_leaves(Arrays::kQ, recording, &state.q), make_leaves(Arrays::kV, recording, &state.v);
   make_leaves(Arrays::kS, recording, &state.s), make_leaves(Arrays::kZ, recording, &state.z);
@@ -181,32 +196,39 @@ void RecordedEquations::record_placement(VectorX<Traced>* q, VectorX<Traced>* v)
   const TreeLayout tree(view.system.robot());
   VectorX<Traced> theta(tree.size), rate(tree.size);
   make_leaves(Arrays::kQ, recording, &theta), make_leaves(Arrays::kV, recording, &rate);
-  state_coordinates(view.system, tree, view.design.constants, link_motions(view.system.robot(), tree, view.design.parameters, theta, rate),
+  state_coordinates(view.system, tree, view.design.constants,
+                    link_motions(view.system.robot(), tree, view.design.parameters, theta, rate),
                     theta, rate, q, v);
 }
 
-std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,
-                                            Recording* recording) {
+std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values,
+                                            EliminationOrder order, Recording* recording) {
   std::vector<int> outputs;
   for (const Traced& value : values) outputs.push_back(value.node_in(recording));
   const Layout& layout = system.layout();
-  return derive_jacobian(recording, outputs, inputs_of(recording, {layout.positions(), layout.n, layout.columns()}), order);
+  return derive_jacobian(recording, outputs,
+                         inputs_of(recording, {layout.positions(), layout.n, layout.columns()}),
+                         order);
 }
 
-Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, bool rates_only,
+Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
+                                           EliminationOrder order, bool rates_only,
                                            RecordedEquations* recorded) {
   Recording* const recording = recorded->recording;
-  const Columns columns{patterns.position.columns, patterns.velocity.columns, patterns.rate.columns};
+  const Columns columns{patterns.position.columns, patterns.velocity.columns,
+                        patterns.rate.columns};
   std::vector<int> outputs;
   for (const Traced& row : recorded->G) outputs.push_back(row.node_in(recording));
   outputs.push_back(recorded->g.node_in(recording));
   Linearization<Traced> derivatives;
   derivatives.resize(patterns);
-  for (const JacobianEntry& entry : derive_jacobian(recording, outputs, inputs_of(recording, columns, rates_only), order)) {
+  for (const JacobianEntry& entry :
+       derive_jacobian(recording, outputs, inputs_of(recording, columns, rates_only), order)) {
     if (entry.column < columns.velocity())
       put(patterns.position, entry.row, entry.column, entry.value, &derivatives.position);
     else if (entry.column < columns.rate())
-      put(patterns.velocity, entry.row, entry.column - columns.velocity(), entry.value, &derivatives.velocity);
+      put(patterns.velocity, entry.row, entry.column - columns.velocity(), entry.value,
+          &derivatives.velocity);
     else if (entry.column < columns.time())
       put(patterns.rate, entry.row, entry.column - columns.rate(), entry.value, &derivatives.rate);
     else
@@ -220,7 +242,8 @@ ByVariable<Sparsity> record_patterns(const System& system) {
   std::vector<ColumnSet> rows(to_index(layout.columns()) + 1);
   add_all_branches(system, &rows);
   const int positions = layout.positions();
-  return {part_of(rows, 0, positions), part_of(rows, positions, layout.n), part_of(rows, positions + layout.n, layout.columns())};
+  return {part_of(rows, 0, positions), part_of(rows, positions, layout.n),
+          part_of(rows, positions + layout.n, layout.columns())};
 }
 
 }  // namespace codesign

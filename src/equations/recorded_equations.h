@@ -11,15 +11,17 @@
 
 namespace codesign {
 
-/// The equations of one mechanism, evaluated with the scalar that records. The constructor makes the leaves: q, v, s and z (arrays
-/// EquationArrays::kQ to kZ), turn references (kTurns) and expressions of the design; functions of time follow where they are used.
+/// The equations of one mechanism, evaluated with the scalar that records. The constructor makes
+/// the leaves: q, v, s and z (arrays EquationArrays::kQ to kZ), turn references (kTurns) and
+/// expressions of the design; functions of time follow where they are used.
 struct RecordedEquations {
   static constexpr int kTurns = Recording::kTimed + 1;
 
   /// @param system and `recording` must outlive this.
   RecordedEquations(const System& system, Recording* recording);
 
-  /// Records q and v at tree coordinates, TreeLayout, and their rates, which are the leaves of kQ and kV here.
+  /// Records q and v at tree coordinates, TreeLayout, and their rates, which are the leaves of kQ
+  /// and kV here.
   void record_placement(VectorX<Traced>* q, VectorX<Traced>* v);
   /// Records G and g, theory (14), (21).
   void record_residual() { formulas.residual(state, &G, &g); }
@@ -31,21 +33,24 @@ struct RecordedEquations {
   Traced g;           ///< after record_residual()
 };
 
-/// The gradients of recorded numbers by the state and the time; JacobianEntry::column counts (q, s), v, z and t side by side.
-std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values, EliminationOrder order,
-                                            Recording* recording);
+/// The gradients of recorded numbers by the state and the time; JacobianEntry::column counts (q,
+/// s), v, z and t side by side.
+std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values,
+                                            EliminationOrder order, Recording* recording);
 
-/// G_q and G_s, G_v, G_z and G_t, and in one more row the same derivatives of g, derived from the recorded residual alone; theory (14).
-/// @param patterns of the result, of record_patterns(). @param order of the elimination. @param rates_only derives G_z alone; the other
-/// entries are zero. @param recorded nodes are appended to its
-/// recording.
+/// G_q and G_s, G_v, G_z and G_t, and in one more row the same derivatives of g, derived from the
+/// recorded residual alone; theory (14).
+/// @param patterns of the result, of record_patterns(). @param order of the elimination. @param
+/// rates_only derives G_z alone; the other entries are zero. @param recorded nodes are appended to
+/// its recording.
 /// @throws std::logic_error for a derivative that is not in the patterns.
-Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns, EliminationOrder order, bool rates_only,
+Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
+                                           EliminationOrder order, bool rates_only,
                                            RecordedEquations* recorded);
 
-/// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row, column) is there if the recorded row depends
-/// on the column's variable in some branch. Columns: Layout::positions() of (q, s),
-/// Layout::n of v, Layout::columns() of z.
+/// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row,
+/// column) is there if the recorded row depends on the column's variable in some branch. Columns:
+/// Layout::positions() of (q, s), Layout::n of v, Layout::columns() of z.
 ByVariable<Sparsity> record_patterns(const System& system);
 
 }  // namespace codesign

@@ -11,17 +11,21 @@
 
 namespace codesign {
 
-/// A smooth bound above the largest |z_i| - 1: m + log(sum exp(s(z_i - m)) + exp(s(-z_i - m))) / s - 1 with m the largest |z_i|; it exceeds
-/// that maximum by at most log(2 N) / s. doc/theory.md (47).
+/// A smooth bound above the largest |z_i| - 1: m + log(sum exp(s(z_i - m)) + exp(s(-z_i - m))) / s
+/// - 1 with m the largest |z_i|; it exceeds that maximum by at most log(2 N) / s. doc/theory.md
+/// (47).
 /// @param by_z may be null; else receives the derivatives.
 double limit_envelope(const Eigen::VectorXd& z, double sharpness, Eigen::VectorXd* by_z);
 
-/// The smooth program of the search for a trajectory, doc/theory.md (46), (47): the information criterion, to be minimized, and one row per
-/// limited signal, to be kept at most zero. Not thread-safe.
+/// The smooth program of the search for a trajectory, doc/theory.md (46), (47): the information
+/// criterion, to be minimized, and one row per limited signal, to be kept at most zero. Not
+/// thread-safe.
 class ExcitationProgram {
  public:
-  /// @param columns of the information's Jacobian that count. All other arguments must outlive this.
-  ExcitationProgram(const TrajectorySpace& space, const MotionLimits& limits, const Information& information, std::vector<int> columns,
+  /// @param columns of the information's Jacobian that count. All other arguments must outlive
+  /// this.
+  ExcitationProgram(const TrajectorySpace& space, const MotionLimits& limits,
+                    const Information& information, std::vector<int> columns,
                     ExcitedMotion* motion);
 
   Eigen::Index size() const { return space_.size(); }
@@ -31,15 +35,17 @@ class ExcitationProgram {
   void set_sharpness(double sharpness) { sharpness_ = sharpness; }
 
   struct Value {
-    Status status;             ///< not ok: the motion cannot be followed, or its efforts do not determine all columns
-    double criterion = 0.0;    ///< (46a), for the samples of the program
-    Eigen::VectorXd limits;    ///< the envelope of each signal
-    double worst = 0.0;        ///< largest |z| of all signals at the samples; at most 1 within the limits
+    Status status;  ///< not ok: the motion cannot be followed, or its efforts do not determine all
+                    ///< columns
+    double criterion = 0.0;  ///< (46a), for the samples of the program
+    Eigen::VectorXd limits;  ///< the envelope of each signal
+    double worst = 0.0;  ///< largest |z| of all signals at the samples; at most 1 within the limits
     Eigen::VectorXd gradient;  ///< derivative of the criterion; empty unless requested
     Eigen::MatrixXd limits_x;  ///< rows x size
   };
   Value evaluate(const Eigen::VectorXd& x, bool with_gradient);
-  /// Only Value::worst, without derivatives of the efforts by parameters; infinite if the motion cannot be followed.
+  /// Only Value::worst, without derivatives of the efforts by parameters; infinite if the motion
+  /// cannot be followed.
   double worst_of(const Eigen::VectorXd& x);
 
  private:

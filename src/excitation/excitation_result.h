@@ -14,10 +14,11 @@ namespace codesign {
 /// The predicted uncertainty of one number, identified from a recording along a trajectory.
 struct PredictedNumber {
   std::string name, unit;
-  double nominal = 0.0;                  ///< value at which the prediction is made
-  bool is_determined = true;             ///< whether any trajectory determines it
-  double deviation_before = 0.0;         ///< standard deviation with the plain trajectory; infinite if that does not determine the number
-  double deviation = 0.0;                ///< standard deviation with the trajectory found
+  double nominal = 0.0;           ///< value at which the prediction is made
+  bool is_determined = true;      ///< whether any trajectory determines it
+  double deviation_before = 0.0;  ///< standard deviation with the plain trajectory; infinite if
+                                  ///< that does not determine the number
+  double deviation = 0.0;         ///< standard deviation with the trajectory found
   double half_before = 0.0, half = 0.0;  ///< half the width of the interval
 };
 
@@ -36,12 +37,14 @@ struct ExcitationStart {
 
 /// The result of excite().
 struct ExcitationResult {
-  Status status;            ///< ok, kCancelled, kNotIdentifiable (the other members are set, too), kInfeasible, or a failure at the start
+  Status status;            ///< ok, kCancelled, kNotIdentifiable (the other members are set, too),
+                            ///< kInfeasible, or a failure at the start
   std::string termination;  ///< of the best search
-  std::vector<PredictedNumber> numbers;            ///< empty: no trajectory was found
-  std::vector<std::string> undetermined;           ///< sentences about numbers that no trajectory determines
-  double criterion_before = 0.0, criterion = 0.0;  ///< (46a) of the recordings; infinite if they determine too few numbers
-  int counted = 0;                                 ///< number of identified numbers, or sums of them, in the criterion
+  std::vector<PredictedNumber> numbers;   ///< empty: no trajectory was found
+  std::vector<std::string> undetermined;  ///< sentences about numbers that no trajectory determines
+  double criterion_before = 0.0,
+         criterion = 0.0;  ///< (46a) of the recordings; infinite if they determine too few numbers
+  int counted = 0;         ///< number of identified numbers, or sums of them, in the criterion
   TrajectoryPoints before, points;
   Eigen::VectorXd rest;          ///< positions of the joints at both ends
   Eigen::MatrixXd coefficients;  ///< coefficients of the shapes (45), shapes x joints
@@ -50,7 +53,8 @@ struct ExcitationResult {
   int evaluations = 0;
   double cpu_seconds = 0.0;
 
-  /// Factor by which the volume of the confidence ellipsoid is smaller than with the plain trajectory.
+  /// Factor by which the volume of the confidence ellipsoid is smaller than with the plain
+  /// trajectory.
   double volume_factor() const;
 };
 

@@ -21,15 +21,21 @@ namespace codesign {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kTold = 8;                // number of mixed trajectories that decide which numbers trajectories determine
-constexpr int kDrawsPerStart = 4;       // number of mixed trajectories drawn for each start, since some may not be followed
+constexpr int kTold =
+    8;  // number of mixed trajectories that decide which numbers trajectories determine
+constexpr int kDrawsPerStart =
+    4;  // number of mixed trajectories drawn for each start, since some may not be followed
 constexpr double kInsideLimits = 0.99;  // a search begins within this share of the limits
 
 /// Positions of the excited joints at the study's start.
 Eigen::VectorXd start_positions(const Problem& problem, const std::vector<MeasuredJoint>& joints) {
   StartWorkspace start(*problem.system(), problem.parameters());
   if (Status status = start.solve_positions(); !status.ok())
-    throw InputError({{problem.study().file, 0}, "initial_state", status.cause, "", "a start that can be assembled"});
+    throw InputError({{problem.study().file, 0},
+                      "initial_state",
+                      status.cause,
+                      "",
+                      "a start that can be assembled"});
   Eigen::VectorXd positions(to_signed(joints.size()));
   for (std::size_t k = 0; k < joints.size(); ++k)
     for (std::size_t joint = 0; joint < problem.robot().joints.size(); ++joint)
@@ -48,7 +54,8 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
 /// One call of excite().
 class Excitation {
  public:
-  Excitation(const Problem& problem, const ExcitationObserver& observer, const std::atomic<bool>* cancel)
+  Excitation(const Problem& problem, const ExcitationObserver& observer,
+             const std::atomic<bool>* cancel)
       : problem_(problem),
         description_(*problem.study().excitation),
         observer_(observer),
@@ -74,7 +81,8 @@ class Excitation {
   void take(Eigen::VectorXd x, const std::string& termination);
   Status record(const Eigen::VectorXd& x, TrajectoryPoints* points, Eigen::MatrixXd* J);
   void predict_before();
-  void set_numbers(const ParameterCovariance& known, double PredictedNumber::*deviation, double PredictedNumber::*half);
+  void set_numbers(const ParameterCovariance& known, double PredictedNumber::*deviation,
+                   double PredictedNumber::*half);
   void conclude();
   Eigen::VectorXd mixed(int k) const { return space_.mixed(numbers_.row(k).transpose()); }
 
@@ -99,8 +107,8 @@ class Excitation {
   ExcitationResult result_;
 };
 
-// Finds a plain trajectory around the middle of the joints' ranges or, if the mechanism cannot be assembled or held there, around the
-// study's start.
+// Finds a plain trajectory around the middle of the joints' ranges or, if the mechanism cannot be
+// assembled or held there, around the study's start.
 bool Excitation::find_plain() {
   for (const bool at_start : {false, true}) {
     plain_ = at_start ? space_.plain_around(start_) : space_.plain();
@@ -116,7 +124,8 @@ bool Excitation::find_plain() {
   result_.status = plain_extremes_.status;
   if (!result_.status.ok()) return false;
   result_.status = {StatusCode::kInfeasible, 0.0,
-                    "not even at rest are all limits kept; the worst is at " + readable(100.0 * plain_extremes_.worst) + " % of its limit"};
+                    "not even at rest are all limits kept; the worst is at " +
+                        readable(100.0 * plain_extremes_.worst) + " % of its limit"};
   return false;
 }
 
@@ -126,16 +135,18 @@ bool Excitation::move_within(Eigen::VectorXd* x) {
   for (int k = 0; k < kMostSteps && !is_set(cancel_); ++k) {
     const double worst = probe_.worst_of(*x);
     if (worst <= kInsideLimits) return true;
-    *x = space_.shrunk(*x, std::isfinite(worst) ? std::max(0.5, 1.0 - 1.2 * (worst - 0.98 * kInsideLimits)) : 0.7);
+    *x = space_.shrunk(
+        *x, std::isfinite(worst) ? std::max(0.5, 1.0 - 1.2 * (worst - 0.98 * kInsideLimits)) : 0.7);
   }
   return false;
 }
 
-/// Finds the numbers that some trajectory determines, by the rank of the stacked Jacobians of several trajectories.
+/// Finds the numbers that some trajectory determines, by the rank of the stacked Jacobians of
+/// several trajectories.
 Status Excitation::find_told() {
   const double rate = description_.sample_rate;
-  const std::vector<double> times =
-      times_in_period(description_.period, std::min<Eigen::Index>(400, to_signed(description_.period * rate)));
+  const std::vector<double> times = times_in_period(
+      description_.period, std::min<Eigen::Index>(400, to_signed(description_.period * rate)));
   const SampledShapes shapes(space_.basis(), times);
   Eigen::MatrixXd stacked(0, variables_.size());
   for (int k = -1; k < kTold; ++k) {
@@ -151,7 +162,8 @@ Status Excitation::find_told() {
   }
   const Identifiability found = find_identifiable(stacked);
   for (int column = 0; column < static_cast<int>(variables_.size()); ++column)
-    if (std::find(found.dependent.begin(), found.dependent.end(), column) == found.dependent.end()) told_.push_back(column);
+    if (std::find(found.dependent.begin(), found.dependent.end(), column) == found.dependent.end())
+      told_.push_back(column);
   is_determined_ = found.is_determined;
   result_.undetermined = describe_undetermined(found, variables_.names());
   result_.counted = static_cast<int>(told_.size());
@@ -160,7 +172,8 @@ Status Excitation::find_told() {
 
 /// The way-points of a trajectory, and the Jacobian of the residuals of its recording; theory (46).
 Status Excitation::record(const Eigen::VectorXd& x, TrajectoryPoints* points, Eigen::MatrixXd* J) {
-  const double step = 1.0 / description_.sample_rate, duration = description_.period * description_.periods;
+  const double step = 1.0 / description_.sample_rate,
+               duration = description_.period * description_.periods;
   points->joints = names_of(limits_.joints);
   points->times.clear();
   for (Eigen::Index k = 0; static_cast<double>(k) * step < duration * (1.0 + 1e-9); ++k)
@@ -176,7 +189,8 @@ Status Excitation::record(const Eigen::VectorXd& x, TrajectoryPoints* points, Ei
   return {};
 }
 
-void Excitation::set_numbers(const ParameterCovariance& known, double PredictedNumber::*deviation, double PredictedNumber::*half) {
+void Excitation::set_numbers(const ParameterCovariance& known, double PredictedNumber::*deviation,
+                             double PredictedNumber::*half) {
   for (std::size_t k = 0; k < result_.numbers.size(); ++k) {
     const auto i = to_signed(k);
     result_.numbers[k].*deviation = std::sqrt(known.covariance(i, i));
@@ -198,14 +212,16 @@ void Excitation::predict_before() {
     result_.numbers.push_back(std::move(number));
   }
   const double level = problem_.study().identification->intervals.level;
-  set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation_before, &PredictedNumber::half_before);
+  set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation_before,
+              &PredictedNumber::half_before);
   result_.criterion_before = information_criterion(J, told_, nullptr);
   best_ = plain_;
   extremes_ = plain_extremes_;
   result_.criterion = result_.criterion_before;
 }
 
-/// Changes the trajectory of a search until it is within all limits between the samples, too, and keeps it if it is the best so far.
+/// Changes the trajectory of a search until it is within all limits between the samples, too, and
+/// keeps it if it is the best so far.
 void Excitation::take(Eigen::VectorXd x, const std::string& termination) {
   // After a cancel, too, the result is completed, since little work is left.
   motion_.obey(nullptr);
@@ -230,9 +246,10 @@ void Excitation::search(const Eigen::VectorXd& start) {
     interrupted_ = interrupted_ || (observer_ && !observer_(trial)) || is_set(cancel_);
     return !interrupted_;
   };
-  const TrajectorySearchResult found =
-      search_trajectory(description_, start, static_cast<int>(result_.starts.size()) + 1, watching, &program);
-  result_.starts.push_back({found.initial_criterion, found.criterion, found.evaluations, found.termination});
+  const TrajectorySearchResult found = search_trajectory(
+      description_, start, static_cast<int>(result_.starts.size()) + 1, watching, &program);
+  result_.starts.push_back(
+      {found.initial_criterion, found.criterion, found.evaluations, found.termination});
   result_.evaluations += found.evaluations;
   if (std::isfinite(found.criterion)) take(found.x, found.termination);
 }
@@ -256,18 +273,22 @@ void Excitation::conclude() {
   result_.status = record(best_, &result_.points, &J);
   if (!result_.status.ok()) return;
   const double level = problem_.study().identification->intervals.level;
-  set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation, &PredictedNumber::half);
+  set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation,
+              &PredictedNumber::half);
   result_.rest = space_.rest(best_);
   result_.coefficients = space_.coefficients(best_);
-  for (std::size_t s = 0; s < limits_.signals.size(); ++s) result_.limits.push_back({limits_.signals[s], extremes_.signals[s]});
+  for (std::size_t s = 0; s < limits_.signals.size(); ++s)
+    result_.limits.push_back({limits_.signals[s], extremes_.signals[s]});
   if (is_set(cancel_) || interrupted_) {
     result_.status = {StatusCode::kCancelled, 0.0, "cancelled"};
     result_.termination = "cancelled";
   } else if (!result_.undetermined.empty()) {
     result_.status = {StatusCode::kNotIdentifiable, 0.0, "no trajectory determines all numbers"};
-    for (std::size_t k = 0; k < result_.undetermined.size(); ++k) result_.status.cause += (k == 0 ? ": " : "; ") + result_.undetermined[k];
+    for (std::size_t k = 0; k < result_.undetermined.size(); ++k)
+      result_.status.cause += (k == 0 ? ": " : "; ") + result_.undetermined[k];
   } else if (!std::isfinite(result_.criterion)) {
-    result_.status = {StatusCode::kNotIdentifiable, 0.0, "no single trajectory was found that determines all numbers"};
+    result_.status = {StatusCode::kNotIdentifiable, 0.0,
+                      "no single trajectory was found that determines all numbers"};
   }
 }
 
@@ -275,8 +296,8 @@ ExcitationResult Excitation::run() {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   motion_.obey(cancel_);
   result_.termination = "start_failed";
-  numbers_ = unit_points(SamplerKind::kSobol, std::max(kTold, kDrawsPerStart * description_.starts), static_cast<int>(space_.size()),
-                         description_.seed);
+  numbers_ = unit_points(SamplerKind::kSobol, std::max(kTold, kDrawsPerStart * description_.starts),
+                         static_cast<int>(space_.size()), description_.seed);
   if (find_plain()) {
     result_.status = find_told();
     if (result_.status.ok()) predict_before();
@@ -293,9 +314,12 @@ ExcitationResult Excitation::run() {
 
 }  // namespace
 
-double ExcitationResult::volume_factor() const { return std::exp(0.5 * (criterion_before - criterion)); }
+double ExcitationResult::volume_factor() const {
+  return std::exp(0.5 * (criterion_before - criterion));
+}
 
-ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer, const std::atomic<bool>* cancel) {
+ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer,
+                        const std::atomic<bool>* cancel) {
   return Excitation(problem, observer, cancel).run();
 }
 

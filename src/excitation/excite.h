@@ -9,11 +9,14 @@
 
 namespace codesign {
 
-/// Finds the trajectory within all limits from whose recording the numbers of `identify:` are expected to be known best, doc/theory.md
-/// (45)-(47), at the parameters' start values.
-/// @param problem with blocks `excite` and `identify` in its study. @param observer called after each evaluation; false ends the search.
-/// @param cancel the search ends soon after it is set, from any thread, with the best trajectory so far; null: never
+/// Finds the trajectory within all limits from whose recording the numbers of `identify:` are
+/// expected to be known best, doc/theory.md (45)-(47), at the parameters' start values.
+/// @param problem with blocks `excite` and `identify` in its study. @param observer called after
+/// each evaluation; false ends the search.
+/// @param cancel the search ends soon after it is set, from any thread, with the best trajectory so
+/// far; null: never
 /// @throws InputError as motion_limits() and ExcitedMotion
-ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer, const std::atomic<bool>* cancel);
+ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer,
+                        const std::atomic<bool>* cancel);
 
 }  // namespace codesign

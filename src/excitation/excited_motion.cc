@@ -17,8 +17,10 @@
 namespace codesign {
 namespace {
 
-constexpr Eigen::Index kSamplesInARow = 8;  // fixed, so that results do not depend on the number of threads
-constexpr double kDifference = 1e-5;        // relative step of central differences; their error is about its square
+constexpr Eigen::Index kSamplesInARow =
+    8;  // fixed, so that results do not depend on the number of threads
+constexpr double kDifference =
+    1e-5;  // relative step of central differences; their error is about its square
 
 Status at_time_sample(Eigen::Index sample, Status status) {
   status.cause = "sample " + std::to_string(sample) + " of the trajectory: " + status.cause;
@@ -27,7 +29,8 @@ Status at_time_sample(Eigen::Index sample, Status status) {
 
 Status cancelled() { return {StatusCode::kCancelled, 0.0, "cancelled"}; }
 
-/// Calls make_driven_system() with messages for this use: they name the study, where make_driven_system() names recordings.
+/// Calls make_driven_system() with messages for this use: they name the study, where
+/// make_driven_system() names recordings.
 DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJoint>& joints) {
   try {
     return make_driven_system(system, joints);
@@ -35,8 +38,11 @@ DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJ
     InputFault fault = error.fault();
     if (fault.element == "identify") fault.element = "excite.joints";
     if (fault.allowed.rfind("recordings", 0) == 0) {
-      fault.message = "its motion is not determined: it is not among excite.joints, and does not follow from them";
-      fault.allowed = "as many independent joints under excite.joints as there are degrees of freedom";
+      fault.message =
+          "its motion is not determined: it is not among excite.joints, and does not follow from "
+          "them";
+      fault.allowed =
+          "as many independent joints under excite.joints as there are degrees of freedom";
     }
     throw InputError(fault);
   }
@@ -69,14 +75,19 @@ struct ExcitedMotion::PathWorker {
   RowJacobian jacobian;
 };
 
-ExcitedMotion::ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJoint> joints, const std::vector<MeasuredJoint>& followers,
+ExcitedMotion::ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJoint> joints,
+                             const std::vector<MeasuredJoint>& followers,
                              std::vector<double> parameters, int threads)
-    : system_(system), joints_(std::move(joints)), driven_(driven_by(system, joints_)), parameters_(std::move(parameters)) {
+    : system_(system),
+      joints_(std::move(joints)),
+      driven_(driven_by(system, joints_)),
+      parameters_(std::move(parameters)) {
   const System& mechanism = *driven_.system;
   for (const MeasuredJoint& follower : followers)
     for (std::size_t joint = 0; joint < mechanism.robot().joints.size(); ++joint) {
       if (mechanism.robot().joints[joint].name != follower.name) continue;
-      const CouplingTerm term = drive_of(mechanism.robot(), mechanism.topology(), static_cast<int>(joint)).terms.front();
+      const CouplingTerm term =
+          drive_of(mechanism.robot(), mechanism.topology(), static_cast<int>(joint)).terms.front();
       followers_.push_back({term.pair, term.element});
     }
   workers_.resize(to_index(std::max(threads, 1)));
@@ -84,16 +95,21 @@ ExcitedMotion::ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJ
 
 ExcitedMotion::~ExcitedMotion() = default;
 
-Eigen::Index ExcitedMotion::parameters() const { return to_signed(driven_.system->whole_study().tuned.size()); }
+Eigen::Index ExcitedMotion::parameters() const {
+  return to_signed(driven_.system->whole_study().tuned.size());
+}
 
 Status ExcitedMotion::begin(const Eigen::VectorXd& positions) {
-  if (Status status = assemble_driven(system_, joints_, driven_, parameters_, positions, &rest_); !status.ok()) return status;
+  if (Status status = assemble_driven(system_, joints_, driven_, parameters_, positions, &rest_);
+      !status.ok())
+    return status;
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(positions.size());
   for (std::unique_ptr<PathWorker>& worker : workers_) {
     worker = std::make_unique<PathWorker>(driven_);
     worker->set_design(parameters_);
     State<double> state = rest_;
-    if (Status status = worker->motion.follow({positions, still, still}, &state); !status.ok()) return status;
+    if (Status status = worker->motion.follow({positions, still, still}, &state); !status.ok())
+      return status;
     worker->motion.settle();
     if (worker == workers_.back()) rest_ = state;
   }
@@ -120,14 +136,17 @@ Status ExcitedMotion::in_blocks(Eigen::Index samples, const Work& work) {
   return {};
 }
 
-void ExcitedMotion::read(PathWorker* worker, const State<double>& state, Eigen::Index column, Eigen::MatrixXd* effort,
-                         Eigen::MatrixXd* position, Eigen::MatrixXd* velocity) const {
-  for (Eigen::Index k = 0; k < joints(); ++k) (*effort)(k, column) = worker->motion.effort(state, static_cast<int>(k));
+void ExcitedMotion::read(PathWorker* worker, const State<double>& state, Eigen::Index column,
+                         Eigen::MatrixXd* effort, Eigen::MatrixXd* position,
+                         Eigen::MatrixXd* velocity) const {
+  for (Eigen::Index k = 0; k < joints(); ++k)
+    (*effort)(k, column) = worker->motion.effort(state, static_cast<int>(k));
   if (followers_.empty()) return;
   Formulas<double>& formulas = worker->motion.equations().formulas();
   formulas.load(state);
   for (std::size_t k = 0; k < followers_.size(); ++k) {
-    const CoordinateMotion<double>& at = formulas.coordinate(followers_[k].pair, followers_[k].element);
+    const CoordinateMotion<double>& at =
+        formulas.coordinate(followers_[k].pair, followers_[k].element);
     (*position)(to_signed(k), column) = at.position;
     (*velocity)(to_signed(k), column) = at.rate;
   }
@@ -145,9 +164,12 @@ Status ExcitedMotion::respond(const DrivePath& path, bool with_jacobian, PathRes
   State<double> state = rest_;
   for (Eigen::Index sample = 0; sample < samples; ++sample) {
     if (is_set(cancel_)) return cancelled();
-    const Eigen::VectorXd q = path.position.col(sample), v = path.velocity.col(sample), a = path.acceleration.col(sample);
-    if (Status status = first.motion.follow({q, v, a}, &state); !status.ok()) return at_time_sample(sample, status);
-    read(&first, state, sample, &response->effort, &response->follower_position, &response->follower_velocity);
+    const Eigen::VectorXd q = path.position.col(sample), v = path.velocity.col(sample),
+                          a = path.acceleration.col(sample);
+    if (Status status = first.motion.follow({q, v, a}, &state); !status.ok())
+      return at_time_sample(sample, status);
+    read(&first, state, sample, &response->effort, &response->follower_position,
+         &response->follower_velocity);
     states_[to_index(sample)] = state;
   }
   if (!with_jacobian) return {};
@@ -156,44 +178,56 @@ Status ExcitedMotion::respond(const DrivePath& path, bool with_jacobian, PathRes
   });
 }
 
-Status ExcitedMotion::differentiate_sample(const DrivePath& path, Eigen::Index sample, PathWorker* worker, Slopes* slopes) const {
+Status ExcitedMotion::differentiate_sample(const DrivePath& path, Eigen::Index sample,
+                                           PathWorker* worker, Slopes* slopes) const {
   const Eigen::Index n = joints();
   const bool with_jacobian = slopes->jacobian.rows() > 0;
   worker->effort.resize(n, 2);
   worker->position.resize(followers(), 2);
   worker->velocity.resize(followers(), 2);
   worker->jacobian.resize(2 * n, parameters());
-  std::array<Eigen::VectorXd, 3> given = {path.position.col(sample), path.velocity.col(sample), path.acceleration.col(sample)};
+  std::array<Eigen::VectorXd, 3> given = {path.position.col(sample), path.velocity.col(sample),
+                                          path.acceleration.col(sample)};
   for (Eigen::Index direction = 0; direction < 3 * n; ++direction) {
     double& moved = given[to_index(direction / n)][direction % n];
     const double here = moved, step = kDifference * std::max(1.0, std::abs(here));
     for (Eigen::Index side = 0; side < 2; ++side) {
       moved = side == 0 ? here - step : here + step;
       worker->state = states_[to_index(sample)];
-      if (Status status = worker->motion.solve({given[0], given[1], given[2]}, &worker->state); !status.ok()) return status;
+      if (Status status = worker->motion.solve({given[0], given[1], given[2]}, &worker->state);
+          !status.ok())
+        return status;
       read(worker, worker->state, side, &worker->effort, &worker->position, &worker->velocity);
       if (!with_jacobian) continue;
-      if (Status status = worker->differentiate(worker->state, side * n, &worker->jacobian); !status.ok()) return status;
+      if (Status status = worker->differentiate(worker->state, side * n, &worker->jacobian);
+          !status.ok())
+        return status;
     }
     moved = here;
     const double factor = 0.5 / step;
     const Eigen::Index column = sample * 3 * n + direction;
     slopes->effort.col(column) = factor * (worker->effort.col(1) - worker->effort.col(0));
-    slopes->follower_position.col(column) = factor * (worker->position.col(1) - worker->position.col(0));
-    slopes->follower_velocity.col(column) = factor * (worker->velocity.col(1) - worker->velocity.col(0));
-    if (with_jacobian) slopes->jacobian.middleRows(column * n, n) = factor * (worker->jacobian.bottomRows(n) - worker->jacobian.topRows(n));
+    slopes->follower_position.col(column) =
+        factor * (worker->position.col(1) - worker->position.col(0));
+    slopes->follower_velocity.col(column) =
+        factor * (worker->velocity.col(1) - worker->velocity.col(0));
+    if (with_jacobian)
+      slopes->jacobian.middleRows(column * n, n) =
+          factor * (worker->jacobian.bottomRows(n) - worker->jacobian.topRows(n));
   }
   return {};
 }
 
-Status ExcitedMotion::differentiate(const DrivePath& path, const PathResponse& response, Slopes* slopes) {
+Status ExcitedMotion::differentiate(const DrivePath& path, const PathResponse& response,
+                                    Slopes* slopes) {
   const Eigen::Index columns = path.samples() * 3 * joints();
   slopes->effort.resize(joints(), columns);
   slopes->follower_position.resize(followers(), columns);
   slopes->follower_velocity.resize(followers(), columns);
   slopes->jacobian.resize(response.jacobian.rows() > 0 ? columns * joints() : 0, parameters());
-  return in_blocks(path.samples(),
-                   [&](Eigen::Index sample, PathWorker* worker) { return differentiate_sample(path, sample, worker, slopes); });
+  return in_blocks(path.samples(), [&](Eigen::Index sample, PathWorker* worker) {
+    return differentiate_sample(path, sample, worker, slopes);
+  });
 }
 
 }  // namespace codesign

@@ -23,37 +23,43 @@ struct DrivePath {
 
 /// The response of a mechanism to a DrivePath.
 struct PathResponse {
-  Eigen::MatrixXd effort;                                ///< of the excited joints [N m or N], joints x samples
+  Eigen::MatrixXd effort;  ///< of the excited joints [N m or N], joints x samples
   Eigen::MatrixXd follower_position, follower_velocity;  ///< followers x samples
-  RowJacobian jacobian;  ///< d effort / d rho, (samples * joints) x tuned parameters, row sample * joints + k; empty unless requested
+  RowJacobian jacobian;  ///< d effort / d rho, (samples * joints) x tuned parameters, row sample *
+                         ///< joints + k; empty unless requested
 };
 
-/// Inverse dynamics of a mechanism along motions that a search proposes, at one design, with exact derivatives of the efforts by the tuned
-/// parameters; doc/theory.md (28), (46). Not thread-safe itself; the results are the same to the last bit for any number of threads.
+/// Inverse dynamics of a mechanism along motions that a search proposes, at one design, with exact
+/// derivatives of the efforts by the tuned parameters; doc/theory.md (28), (46). Not thread-safe
+/// itself; the results are the same to the last bit for any number of threads.
 class ExcitedMotion {
  public:
-  /// @param system as make_system() compiled it; must outlive this. @param joints the excited joints, all with an effort; they determine
-  /// the motion.
+  /// @param system as make_system() compiled it; must outlive this. @param joints the excited
+  /// joints, all with an effort; they determine the motion.
   /// @param followers other joints with one coordinate. @param parameters all named parameters.
   /// @throws InputError as make_driven_system(), and for a follower that moves no mass.
-  ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJoint> joints, const std::vector<MeasuredJoint>& followers,
-                std::vector<double> parameters, int threads);
+  ExcitedMotion(const CompiledSystem& system, std::vector<MeasuredJoint> joints,
+                const std::vector<MeasuredJoint>& followers, std::vector<double> parameters,
+                int threads);
   ~ExcitedMotion();
 
   Eigen::Index joints() const { return to_signed(joints_.size()); }
   Eigen::Index followers() const { return to_signed(followers_.size()); }
   Eigen::Index parameters() const;
 
-  /// Assembles the mechanism at positions of the excited joints; motions must begin near these positions.
+  /// Assembles the mechanism at positions of the excited joints; motions must begin near these
+  /// positions.
   Status begin(const Eigen::VectorXd& positions);
   /// Call it after begin() has succeeded. Statuses as DrivenMotion; the cause names the sample.
   Status respond(const DrivePath& path, bool with_jacobian, PathResponse* response);
 
-  /// Derivatives of the last response by the motion: direction order * joints + j is position (0), velocity (1) or acceleration (2) of
-  /// joint j, column sample * 3 joints + direction. Central differences of exact numbers, (46b).
+  /// Derivatives of the last response by the motion: direction order * joints + j is position (0),
+  /// velocity (1) or acceleration (2) of joint j, column sample * 3 joints + direction. Central
+  /// differences of exact numbers, (46b).
   struct Slopes {
     Eigen::MatrixXd effort, follower_position, follower_velocity;
-    RowJacobian jacobian;  ///< rows (sample * 3 joints + direction) * joints + k; empty unless the response had one
+    RowJacobian jacobian;  ///< rows (sample * 3 joints + direction) * joints + k; empty unless the
+                           ///< response had one
   };
   Status differentiate(const DrivePath& path, const PathResponse& response, Slopes* slopes);
 
@@ -67,9 +73,10 @@ class ExcitedMotion {
   };
   template <class Work>
   Status in_blocks(Eigen::Index samples, const Work& work);
-  void read(PathWorker* worker, const State<double>& state, Eigen::Index column, Eigen::MatrixXd* effort, Eigen::MatrixXd* position,
-            Eigen::MatrixXd* velocity) const;
-  Status differentiate_sample(const DrivePath& path, Eigen::Index sample, PathWorker* worker, Slopes* slopes) const;
+  void read(PathWorker* worker, const State<double>& state, Eigen::Index column,
+            Eigen::MatrixXd* effort, Eigen::MatrixXd* position, Eigen::MatrixXd* velocity) const;
+  Status differentiate_sample(const DrivePath& path, Eigen::Index sample, PathWorker* worker,
+                              Slopes* slopes) const;
 
   const CompiledSystem& system_;
   const std::vector<MeasuredJoint> joints_;

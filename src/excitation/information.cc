@@ -23,7 +23,8 @@ RecordedEffort shown_by(const EffortSensor& sensor, const Eigen::VectorXd& effor
   return {std::move(times), std::move(values)};
 }
 
-/// Adds to `by_effort` the contribution of the derivatives `by_slope` by the slopes of a RecordedEffort at equal steps.
+/// Adds to `by_effort` the contribution of the derivatives `by_slope` by the slopes of a
+/// RecordedEffort at equal steps.
 void add_by_slopes(const Eigen::VectorXd& by_slope, double step, Eigen::VectorXd* by_effort) {
   const Eigen::Index last = by_slope.size() - 1;
   if (last < 2) return;
@@ -43,7 +44,8 @@ void add_by_slopes(const Eigen::VectorXd& by_slope, double step, Eigen::VectorXd
 
 }  // namespace
 
-Information::Information(const FitVariables& variables, std::vector<std::string> joints, Eigen::VectorXd noise)
+Information::Information(const FitVariables& variables, std::vector<std::string> joints,
+                         Eigen::VectorXd noise)
     : variables_(variables), joints_(std::move(joints)), noise_(std::move(noise)) {}
 
 Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step) const {
@@ -56,7 +58,8 @@ Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step)
     const FitVariables::SensorColumns at = variables_.columns(name);
     const RecordedEffort shown = shown_by(sensor, response.effort.row(joint), step);
     for (Eigen::Index sample = 0; sample < samples; ++sample) {
-      const EffortResidual residual = effort_residual(sensor, shown, step * static_cast<double>(sample), response.effort(joint, sample));
+      const EffortResidual residual = effort_residual(
+          sensor, shown, step * static_cast<double>(sample), response.effort(joint, sample));
       auto row = J.row(joint * samples + sample);
       row.head(variables_.tuned()) = residual.by_effort * response.jacobian.row(sample * n + joint);
       if (at.scale >= 0) row[at.scale] = residual.by_scale;
@@ -64,15 +67,18 @@ Eigen::MatrixXd Information::jacobian(const PathResponse& response, double step)
       if (at.offset >= 0) row[at.offset] = residual.by_effort;
     }
     J.middleRows(joint * samples, samples) /= noise_[joint];
-    efforts.segment(joint * samples, samples) = response.effort.row(joint).transpose() / noise_[joint];
+    efforts.segment(joint * samples, samples) =
+        response.effort.row(joint).transpose() / noise_[joint];
   }
   clear_rounding(variables_.start(), &J, efforts.norm());
   return J;
 }
 
-Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacobian, Eigen::Index samples, double step) const {
+Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacobian,
+                                                 Eigen::Index samples, double step) const {
   const auto n = to_signed(joints_.size());
-  ByResponse result{RowJacobian(samples * n, variables_.tuned()), Eigen::MatrixXd::Zero(n, samples)};
+  ByResponse result{RowJacobian(samples * n, variables_.tuned()),
+                    Eigen::MatrixXd::Zero(n, samples)};
   for (Eigen::Index joint = 0; joint < n; ++joint) {
     const std::string& name = joints_[to_index(joint)];
     const EffortSensor sensor = variables_.sensor(name, variables_.start());
@@ -80,10 +86,14 @@ Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacob
     const double by_effort = sensor.start_scale / sensor.scale, weight = 1.0 / noise_[joint];
     const auto block = by_jacobian.middleRows(joint * samples, samples);
     for (Eigen::Index sample = 0; sample < samples; ++sample)
-      result.jacobian.row(sample * n + joint) = weight * by_effort * block.row(sample).head(variables_.tuned());
-    if (at.scale >= 0) result.effort.row(joint) -= weight * by_effort / sensor.scale * block.col(at.scale).transpose();
+      result.jacobian.row(sample * n + joint) =
+          weight * by_effort * block.row(sample).head(variables_.tuned());
+    if (at.scale >= 0)
+      result.effort.row(joint) -=
+          weight * by_effort / sensor.scale * block.col(at.scale).transpose();
     if (at.delay < 0) continue;
-    // The derivative of the residual by the delay is minus the slope of the recorded effort, times the scale at the start.
+    // The derivative of the residual by the delay is minus the slope of the recorded effort, times
+    // the scale at the start.
     Eigen::VectorXd by_effort_of_slopes = Eigen::VectorXd::Zero(samples);
     add_by_slopes(-weight * by_effort * block.col(at.delay), step, &by_effort_of_slopes);
     result.effort.row(joint) += by_effort_of_slopes.transpose();
@@ -91,7 +101,8 @@ Information::ByResponse Information::by_response(const Eigen::MatrixXd& by_jacob
   return result;
 }
 
-double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& columns, Eigen::MatrixXd* by_jacobian) {
+double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& columns,
+                             Eigen::MatrixXd* by_jacobian) {
   const auto count = to_signed(columns.size());
   if (by_jacobian != nullptr) by_jacobian->setZero(J.rows(), J.cols());
   if (count == 0) return 0.0;
@@ -99,7 +110,8 @@ double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& c
   Eigen::VectorXd lengths(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     lengths[k] = J.col(columns[to_index(k)]).norm();
-    if (!(lengths[k] > 0.0) || !std::isfinite(lengths[k])) return std::numeric_limits<double>::infinity();
+    if (!(lengths[k] > 0.0) || !std::isfinite(lengths[k]))
+      return std::numeric_limits<double>::infinity();
     A.col(k) = J.col(columns[to_index(k)]) / lengths[k];
   }
   const Eigen::MatrixXd R = upper_factor(A);
@@ -108,7 +120,8 @@ double information_criterion(const Eigen::MatrixXd& J, const std::vector<int>& c
     Eigen::MatrixXd by_A = A;  // A (A^T A)^-1
     R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(by_A);
     R.transpose().triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(by_A);
-    for (Eigen::Index k = 0; k < count; ++k) by_jacobian->col(columns[to_index(k)]) = -2.0 * by_A.col(k) / lengths[k];
+    for (Eigen::Index k = 0; k < count; ++k)
+      by_jacobian->col(columns[to_index(k)]) = -2.0 * by_A.col(k) / lengths[k];
   }
   return -2.0 * (R.diagonal().array().log().sum() + lengths.array().log().sum());
 }

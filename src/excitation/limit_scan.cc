@@ -12,16 +12,22 @@ namespace {
 
 using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kScanPerWave = 64;
-constexpr int kRounds = 14;            // each round halves the intervals beside a peak, and reduces the error of the peak to a quarter
-constexpr double kMissed = 1e-11;      // peaks between the times that rise less do not count
-constexpr double kFarOutside = 1e6;    // beyond it a peak's exact height does not matter, and differences of heights may be no numbers
-constexpr double kKept = 1.0 - 1e-8;   // target of fit(): the errors of peaks are smaller than the remainder
-constexpr double kLeastFactor = 1e-6;  // smallest factor of fit(): smaller motions determine nothing
+constexpr int kRounds = 14;  // each round halves the intervals beside a peak, and reduces the error
+                             // of the peak to a quarter
+constexpr double kMissed = 1e-11;    // peaks between the times that rise less do not count
+constexpr double kFarOutside = 1e6;  // beyond it a peak's exact height does not matter, and
+                                     // differences of heights may be no numbers
+constexpr double kKept =
+    1.0 - 1e-8;  // target of fit(): the errors of peaks are smaller than the remainder
+constexpr double kLeastFactor =
+    1e-6;  // smallest factor of fit(): smaller motions determine nothing
 constexpr int kMostFits = 100;
-constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3};  // fractions of a step around a change of direction
+constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2,
+                                  0.1,  0.3};  // fractions of a step around a change of direction
 
 /// The time between `from` and `to` at which the velocity of a joint changes its sign.
-double turning_time(const TrajectorySpace& space, const Eigen::VectorXd& coefficients, double from, double to) {
+double turning_time(const TrajectorySpace& space, const Eigen::VectorXd& coefficients, double from,
+                    double to) {
   const auto velocity = [&](double time) { return space.basis().at(time).rate.dot(coefficients); };
   const bool rises = velocity(from) < 0.0;
   for (int k = 0; k < 40; ++k) {
@@ -47,9 +53,11 @@ std::vector<double> LimitScan::first_times(const Eigen::VectorXd& x) const {
   for (Eigen::Index joint = 0; joint < space_.joints(); ++joint)
     for (Eigen::Index k = 1; k < velocity.cols(); ++k) {
       if ((velocity(joint, k - 1) < 0.0) == (velocity(joint, k) < 0.0)) continue;
-      const double turn = turning_time(space_, c.col(joint), step * static_cast<double>(k - 1), step * static_cast<double>(k));
+      const double turn = turning_time(space_, c.col(joint), step * static_cast<double>(k - 1),
+                                       step * static_cast<double>(k));
       for (const double beside : kBesideTurn)
-        for (const double side : {-1.0, 1.0}) times.push_back(std::clamp(turn + side * beside * step, 0.0, basis.period()));
+        for (const double side : {-1.0, 1.0})
+          times.push_back(std::clamp(turn + side * beside * step, 0.0, basis.period()));
     }
   times.push_back(basis.period());
   std::sort(times.begin(), times.end());
@@ -57,7 +65,8 @@ std::vector<double> LimitScan::first_times(const Eigen::VectorXd& x) const {
   return times;
 }
 
-Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& times, std::vector<ScanPoint>* points) {
+Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& times,
+                           std::vector<ScanPoint>* points) {
   const DrivePath path = space_.path(x, SampledShapes(space_.basis(), times));
   PathResponse response;
   if (Status status = motion_.respond(path, false, &response); !status.ok()) return status;
@@ -66,9 +75,10 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
     ScanPoint point{times[k], Eigen::VectorXd(to_signed(limits_.signals.size()))};
     for (std::size_t s = 0; s < limits_.signals.size(); ++s) {
       const LimitedSignal& signal = limits_.signals[s];
-      const Eigen::MatrixXd& from = signal.is_follower
-                                        ? signal.kind == Kind::kPosition ? response.follower_position : response.follower_velocity
-                                    : signal.kind == Kind::kEffort   ? response.effort
+      const Eigen::MatrixXd& from = signal.is_follower             ? signal.kind == Kind::kPosition
+                                                                         ? response.follower_position
+                                                                         : response.follower_velocity
+                                    : signal.kind == Kind::kEffort ? response.effort
                                     : signal.kind == Kind::kPosition ? path.position
                                     : signal.kind == Kind::kVelocity ? path.velocity
                                                                      : path.acceleration;
@@ -76,20 +86,23 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
     }
     points->push_back(std::move(point));
   }
-  std::sort(points->begin(), points->end(), [](const ScanPoint& a, const ScanPoint& b) { return a.time < b.time; });
+  std::sort(points->begin(), points->end(),
+            [](const ScanPoint& a, const ScanPoint& b) { return a.time < b.time; });
   return {};
 }
 
-// The middles of both intervals beside each peak that may exceed the highest or lowest value of its signal, as estimated from the bend of
-// its neighbours.
+// The middles of both intervals beside each peak that may exceed the highest or lowest value of its
+// signal, as estimated from the bend of its neighbours.
 std::vector<double> LimitScan::finer_times(const std::vector<ScanPoint>& points) const {
   std::vector<double> times;
   for (std::size_t s = 0; s < limits_.signals.size(); ++s)
     for (const double side : {-1.0, 1.0}) {
       double farthest = -std::numeric_limits<double>::infinity();
-      for (const ScanPoint& point : points) farthest = std::max(farthest, side * relative(point, s));
+      for (const ScanPoint& point : points)
+        farthest = std::max(farthest, side * relative(point, s));
       for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-        const double before = side * relative(points[k - 1], s), here = side * relative(points[k], s),
+        const double before = side * relative(points[k - 1], s),
+                     here = side * relative(points[k], s),
                      after = side * relative(points[k + 1], s);
         const double bend = 2.0 * here - before - after;
         if (here < before || here < after || bend < kMissed || here + bend < farthest) continue;
@@ -110,7 +123,8 @@ LimitScan::Extremes LimitScan::scan(const Eigen::VectorXd& x) {
     extremes.status = evaluate(x, times, &points);
     if (!extremes.status.ok()) return extremes;
     for (const ScanPoint& point : points)
-      for (std::size_t s = 0; s < limits_.signals.size(); ++s) extremes.worst = std::max(extremes.worst, std::abs(relative(point, s)));
+      for (std::size_t s = 0; s < limits_.signals.size(); ++s)
+        extremes.worst = std::max(extremes.worst, std::abs(relative(point, s)));
     if (extremes.worst > kFarOutside) break;
     times = finer_times(points);
   }
@@ -132,9 +146,11 @@ bool LimitScan::fit(Eigen::VectorXd* x, Extremes* extremes) {
     *extremes = scan(*x);
     if (extremes->status.is_interrupted()) return false;
     if (extremes->status.ok() && extremes->worst <= 1.0) return true;
-    // Gravity and the rest position do not shrink with the excursion, so that a reduction by the excess may not suffice; the next one is
-    // then twice as large.
-    const double factor = extremes->status.ok() ? std::max(0.5, 1.0 / (1.0 + haste * (extremes->worst - kKept))) : 0.8;
+    // Gravity and the rest position do not shrink with the excursion, so that a reduction by the
+    // excess may not suffice; the next one is then twice as large.
+    const double factor = extremes->status.ok()
+                              ? std::max(0.5, 1.0 / (1.0 + haste * (extremes->worst - kKept)))
+                              : 0.8;
     haste = std::min(2.0 * haste, 64.0);
     total *= factor;
     *x = space_.shrunk(*x, factor);

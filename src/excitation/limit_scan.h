@@ -16,8 +16,9 @@ struct ScannedSignal {
   double lowest = 0.0, highest = 0.0;
 };
 
-/// Searches the extreme values of all limited signals over a whole period: at many times, with more times where a joint changes its
-/// direction, since friction changes its sign there within a small part of a sample, and with ever finer times at the largest peaks.
+/// Searches the extreme values of all limited signals over a whole period: at many times, with more
+/// times where a joint changes its direction, since friction changes its sign there within a small
+/// part of a sample, and with ever finer times at the largest peaks.
 class LimitScan {
  public:
   /// All arguments must outlive this.
@@ -25,14 +26,15 @@ class LimitScan {
       : space_(space), limits_(limits), motion_(*motion) {}
 
   struct Extremes {
-    Status status;                       ///< not ok: the motion cannot be followed
-    double worst = 0.0;                  ///< largest |z| of all signals; at most 1 within the limits
+    Status status;       ///< not ok: the motion cannot be followed
+    double worst = 0.0;  ///< largest |z| of all signals; at most 1 within the limits
     std::vector<ScannedSignal> signals;  ///< in the order of MotionLimits::signals
   };
   Extremes scan(const Eigen::VectorXd& x);
 
-  /// Reduces all excursions by the same factor, no more than necessary to stay within all limits. @return false if the positions at rest
-  /// violate a limit, or if even a small motion cannot be followed.
+  /// Reduces all excursions by the same factor, no more than necessary to stay within all limits.
+  /// @return false if the positions at rest violate a limit, or if even a small motion cannot be
+  /// followed.
   bool fit(Eigen::VectorXd* x, Extremes* extremes);
 
  private:
@@ -41,7 +43,8 @@ class LimitScan {
     Eigen::VectorXd values;  ///< values of the signals
   };
   std::vector<double> first_times(const Eigen::VectorXd& x) const;
-  Status evaluate(const Eigen::VectorXd& x, const std::vector<double>& times, std::vector<ScanPoint>* points);
+  Status evaluate(const Eigen::VectorXd& x, const std::vector<double>& times,
+                  std::vector<ScanPoint>* points);
   std::vector<double> finer_times(const std::vector<ScanPoint>& points) const;
   double relative(const ScanPoint& point, std::size_t signal) const;
 

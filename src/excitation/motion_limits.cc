@@ -28,14 +28,21 @@ struct Ranges {
     lower[k] = std::max(lower[k], low);
     upper[k] = std::min(upper[k], high);
   }
-  void narrow(Kind kind, double magnitude) { narrow(kind, -std::abs(magnitude), std::abs(magnitude)); }
+  void narrow(Kind kind, double magnitude) {
+    narrow(kind, -std::abs(magnitude), std::abs(magnitude));
+  }
 };
 
-Ranges ranges_of(const JointDescription& joint, const std::vector<double>& parameters, const MotionLimitDescription* more) {
+Ranges ranges_of(const JointDescription& joint, const std::vector<double>& parameters,
+                 const MotionLimitDescription* more) {
   Ranges ranges;
-  if (has_stops(joint)) ranges.narrow(Kind::kPosition, joint.limit->lower.at(parameters), joint.limit->upper.at(parameters));
-  if (joint.limit && joint.limit->bounds_velocity()) ranges.narrow(Kind::kVelocity, joint.limit->velocity.at(parameters));
-  if (joint.limit && joint.limit->bounds_effort()) ranges.narrow(Kind::kEffort, joint.limit->effort.at(parameters));
+  if (has_stops(joint))
+    ranges.narrow(Kind::kPosition, joint.limit->lower.at(parameters),
+                  joint.limit->upper.at(parameters));
+  if (joint.limit && joint.limit->bounds_velocity())
+    ranges.narrow(Kind::kVelocity, joint.limit->velocity.at(parameters));
+  if (joint.limit && joint.limit->bounds_effort())
+    ranges.narrow(Kind::kEffort, joint.limit->effort.at(parameters));
   if (!more) return ranges;
   if (more->position) ranges.narrow(Kind::kPosition, (*more->position)[0], (*more->position)[1]);
   if (more->velocity) ranges.narrow(Kind::kVelocity, *more->velocity);
@@ -44,23 +51,28 @@ Ranges ranges_of(const JointDescription& joint, const std::vector<double>& param
   return ranges;
 }
 
-void require_room(const JointDescription& joint, const Ranges& ranges, const SourceLocation& where, const std::string& element) {
+void require_room(const JointDescription& joint, const Ranges& ranges, const SourceLocation& where,
+                  const std::string& element) {
   if (ranges.lower[0] < ranges.upper[0]) return;
-  throw InputError({where, element, "no position is within the limits of the study and of " + joint.element(),
-                    "[" + readable(ranges.lower[0]) + ", " + readable(ranges.upper[0]) + "]", "lower below upper"});
+  throw InputError({where, element,
+                    "no position is within the limits of the study and of " + joint.element(),
+                    "[" + readable(ranges.lower[0]) + ", " + readable(ranges.upper[0]) + "]",
+                    "lower below upper"});
 }
 
 /// @param index in `joints` or `followers`.
-void add_signals(const JointDescription& joint, const Ranges& ranges, bool is_follower, std::size_t index, MotionLimits* limits) {
+void add_signals(const JointDescription& joint, const Ranges& ranges, bool is_follower,
+                 std::size_t index, MotionLimits* limits) {
   for (std::size_t k = 0; k < (is_follower ? 2U : 4U); ++k) {
     if (!std::isfinite(ranges.lower[k]) && !std::isfinite(ranges.upper[k])) continue;
-    limits->signals.push_back(
-        {static_cast<Kind>(k), is_follower, to_signed(index), ranges.lower[k], ranges.upper[k], joint.name + "/" + kKindNames[k]});
+    limits->signals.push_back({static_cast<Kind>(k), is_follower, to_signed(index), ranges.lower[k],
+                               ranges.upper[k], joint.name + "/" + kKindNames[k]});
   }
 }
 
 const JointDescription& joint_named(const RobotDescription& robot, const std::string& name) {
-  return *std::find_if(robot.joints.begin(), robot.joints.end(), [&](const JointDescription& joint) { return joint.name == name; });
+  return *std::find_if(robot.joints.begin(), robot.joints.end(),
+                       [&](const JointDescription& joint) { return joint.name == name; });
 }
 
 void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimits* limits) {
@@ -68,7 +80,8 @@ void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimi
   const Ranges ranges = ranges_of(joint, problem.parameters(), &excited.limits);
   require_room(joint, ranges, excited.limits.where, excited.limits.element);
   if (!std::isfinite(ranges.upper[to_index(Kind::kVelocity)]))
-    throw InputError({excited.limits.where, excited.limits.element, "the joint has no largest velocity, so that no motion is the best", "",
+    throw InputError({excited.limits.where, excited.limits.element,
+                      "the joint has no largest velocity, so that no motion is the best", "",
                       "velocity here, or in <limit> of " + joint.element()});
   add_signals(joint, ranges, false, limits->joints.size(), limits);
   limits->joints.push_back({joint.name, true, 1.0, excited.limits.where});
@@ -79,19 +92,23 @@ void add_follower(const Problem& problem, std::size_t index, MotionLimits* limit
   if (joint.is_loop || !has_one_coordinate(joint.type)) return;
   const std::vector<MotionLimitDescription>& described = problem.study().excitation->followers;
   const auto more =
-      std::find_if(described.begin(), described.end(), [&](const MotionLimitDescription& one) { return one.joint == joint.name; });
+      std::find_if(described.begin(), described.end(),
+                   [&](const MotionLimitDescription& one) { return one.joint == joint.name; });
   const bool is_described = more != described.end();
   for (const MeasuredJoint& excited : limits->joints)
     if (excited.name == joint.name) return;
   if (problem.system()->topology().joint_pair[index] < 0) {
-    if (is_described) throw InputError({more->where, more->element, "the joint moves no mass", joint.name, "joints that do"});
+    if (is_described)
+      throw InputError(
+          {more->where, more->element, "the joint moves no mass", joint.name, "joints that do"});
     return;
   }
   const Ranges ranges = ranges_of(joint, problem.parameters(), is_described ? &*more : nullptr);
   const std::size_t before = limits->signals.size();
   if (is_described) require_room(joint, ranges, more->where, more->element);
   add_signals(joint, ranges, true, limits->followers.size(), limits);
-  if (limits->signals.size() > before) limits->followers.push_back({joint.name, false, 1.0, is_described ? more->where : joint.where});
+  if (limits->signals.size() > before)
+    limits->followers.push_back({joint.name, false, 1.0, is_described ? more->where : joint.where});
 }
 
 }  // namespace
@@ -110,7 +127,8 @@ MotionLimits motion_limits(const Problem& problem) {
     add_excited(problem, excited[k], &limits);
     limits.noise[to_signed(k)] = excited[k].noise;
   }
-  for (std::size_t index = 0; index < problem.robot().joints.size(); ++index) add_follower(problem, index, &limits);
+  for (std::size_t index = 0; index < problem.robot().joints.size(); ++index)
+    add_follower(problem, index, &limits);
   return limits;
 }
 

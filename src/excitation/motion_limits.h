@@ -28,16 +28,18 @@ struct LimitedSignal {
 /// The excited joints, and the limits of their motion.
 struct MotionLimits {
   std::vector<MeasuredJoint> joints, followers;
-  Eigen::VectorXd noise;               ///< standard deviations of the efforts of `joints` [N m or N]
+  Eigen::VectorXd noise;  ///< standard deviations of the efforts of `joints` [N m or N]
   std::vector<LimitedSignal> signals;  ///< limits of `joints`, in their order, then of `followers`
 
   /// The limit of this kind of an excited joint; null: none.
   const LimitedSignal* find(Eigen::Index joint, LimitedSignal::Kind kind) const;
 };
 
-/// The narrower limits of `<limit>` and the study's `excite:`. Followers are the joints of the tree that have a limit and are not excited.
+/// The narrower limits of `<limit>` and the study's `excite:`. Followers are the joints of the tree
+/// that have a limit and are not excited.
 /// @param problem with a block `excite` in its study.
-/// @throws InputError for ranges that exclude each other, excited joints without a largest velocity, and limits of joints that move no mass
+/// @throws InputError for ranges that exclude each other, excited joints without a largest
+/// velocity, and limits of joints that move no mass
 MotionLimits motion_limits(const Problem& problem);
 
 }  // namespace codesign

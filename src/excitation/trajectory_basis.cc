@@ -6,7 +6,6 @@
 namespace codesign {
 namespace {
 
-
 /// A function with its first two derivatives.
 struct Shape {
   double value, rate, acceleration;
@@ -21,7 +20,8 @@ Shape cubic_spline(double u) {
   }
   if (u <= 1.0) return {u * u * u / 6.0, 0.5 * u * u, u};
   const double s = u - 1.0;
-  return {(1.0 + 3.0 * s + 3.0 * s * s - 3.0 * s * s * s) / 6.0, 0.5 * (1.0 + 2.0 * s - 3.0 * s * s), 1.0 - 3.0 * s};
+  return {(1.0 + 3.0 * s + 3.0 * s * s - 3.0 * s * s * s) / 6.0,
+          0.5 * (1.0 + 2.0 * s - 3.0 * s * s), 1.0 - 3.0 * s};
 }
 
 }  // namespace
@@ -32,11 +32,14 @@ TrajectoryBasis::TrajectoryBasis(const ExcitationDescription& description)
       waves_(kind_ == TrajectoryKind::kFourier ? description.harmonics : description.knots),
       size_(kind_ == TrajectoryKind::kFourier ? 2 * (waves_ - 1) : waves_ - 3) {}
 
-double TrajectoryBasis::shortest_wave() const { return (kind_ == TrajectoryKind::kFourier ? 1.0 : 4.0) * period_ / waves_; }
+double TrajectoryBasis::shortest_wave() const {
+  return (kind_ == TrajectoryKind::kFourier ? 1.0 : 4.0) * period_ / waves_;
+}
 
 TrajectoryBasis::Shapes TrajectoryBasis::at(double time) const {
   Shapes shapes;
-  for (Eigen::VectorXd* part : {&shapes.value, &shapes.rate, &shapes.acceleration}) part->setZero(size_);
+  for (Eigen::VectorXd* part : {&shapes.value, &shapes.rate, &shapes.acceleration})
+    part->setZero(size_);
   const double begun = time - period_ * std::floor(time / period_);
   if (kind_ == TrajectoryKind::kFourier)
     add_fourier(begun, &shapes);
@@ -45,7 +48,8 @@ TrajectoryBasis::Shapes TrajectoryBasis::at(double time) const {
   return shapes;
 }
 
-// Each shape combines neighbouring harmonics: the velocities of two sines, and the accelerations of two cosines, cancel at time 0.
+// Each shape combines neighbouring harmonics: the velocities of two sines, and the accelerations of
+// two cosines, cancel at time 0.
 void TrajectoryBasis::add_fourier(double time, Shapes* shapes) const {
   const double omega = 2.0 * M_PI / period_;
   const auto add = [&](int harmonic, double sign) {
@@ -64,7 +68,8 @@ void TrajectoryBasis::add_fourier(double time, Shapes* shapes) const {
   }
 }
 
-// The B-splines that lie within the period: at the ends of its support a cubic B-spline and its first two derivatives are zero.
+// The B-splines that lie within the period: at the ends of its support a cubic B-spline and its
+// first two derivatives are zero.
 void TrajectoryBasis::add_spline(double time, Shapes* shapes) const {
   const double step = period_ / waves_;
   for (Eigen::Index k = 0; k < size_; ++k) {
@@ -83,7 +88,8 @@ Eigen::VectorXd TrajectoryBasis::plain(int k) const {
   }
   const auto swings = static_cast<double>(1 + k % 4);
   for (Eigen::Index i = 0; i < size_; ++i)
-    coefficients[i] = std::sin(M_PI * swings * static_cast<double>(i + 1) / static_cast<double>(size_ + 1));
+    coefficients[i] =
+        std::sin(M_PI * swings * static_cast<double>(i + 1) / static_cast<double>(size_ + 1));
   return coefficients;
 }
 

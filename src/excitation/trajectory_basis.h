@@ -10,8 +10,9 @@
 
 namespace codesign {
 
-/// The shapes f_k(t) of trajectories q(t) = q_rest + sum c_k f_k(t), doc/theory.md (45). Shapes are periodic; at the begin of the period
-/// value, velocity and acceleration of each shape are zero, so that every sum of shapes begins and ends at rest.
+/// The shapes f_k(t) of trajectories q(t) = q_rest + sum c_k f_k(t), doc/theory.md (45). Shapes are
+/// periodic; at the begin of the period value, velocity and acceleration of each shape are zero, so
+/// that every sum of shapes begins and ends at rest.
 class TrajectoryBasis {
  public:
   /// @param kind, period, harmonics or knots as the study's reader admits them
@@ -19,7 +20,8 @@ class TrajectoryBasis {
 
   Eigen::Index size() const { return size_; }
   double period() const { return period_; }
-  /// Shortest time in which a shape goes up and down: the period of the highest harmonic, or four intervals between knots [s].
+  /// Shortest time in which a shape goes up and down: the period of the highest harmonic, or four
+  /// intervals between knots [s].
   double shortest_wave() const;
 
   /// Values, rates [1/s] and accelerations [1/s^2] of all shapes.
@@ -28,7 +30,8 @@ class TrajectoryBasis {
   };
   Shapes at(double time) const;
 
-  /// Coefficients of a plain motion, which swings there and back. @param k selects one of several different plain motions
+  /// Coefficients of a plain motion, which swings there and back. @param k selects one of several
+  /// different plain motions
   Eigen::VectorXd plain(int k) const;
 
  private:
@@ -41,15 +44,18 @@ class TrajectoryBasis {
   Eigen::Index size_;
 };
 
-/// The motion of several joints at given times, with the expected efforts; in the joints' units, joints x times.
+/// The motion of several joints at given times, with the expected efforts; in the joints' units,
+/// joints x times.
 struct TrajectoryPoints {
   std::vector<std::string> joints;
   std::vector<double> times;  ///< ascending from 0 [s]
   Eigen::MatrixXd position, velocity, acceleration, effort;
 };
 
-/// Callback that writes points as one trajectory_msgs/JointTrajectory into a bag. The caller provides it, since this library does not
-/// depend on ROS. @throws OutputError if the bag cannot be written. An existing file is replaced.
-using TrajectoryBagWriter = std::function<void(const std::string& path, const TrajectoryPoints& points)>;
+/// Callback that writes points as one trajectory_msgs/JointTrajectory into a bag. The caller
+/// provides it, since this library does not depend on ROS. @throws OutputError if the bag cannot be
+/// written. An existing file is replaced.
+using TrajectoryBagWriter =
+    std::function<void(const std::string& path, const TrajectoryPoints& points)>;
 
 }  // namespace codesign

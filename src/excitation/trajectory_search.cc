@@ -14,12 +14,15 @@
 namespace codesign {
 namespace {
 
-constexpr double kSharpness[] = {60.0, 600.0};  // of the envelopes in the first and the second search
-constexpr double kTolerance = 1e-5;             // of the criterion, which is a logarithm: this change is 5 millionths of the volume
+constexpr double kSharpness[] = {60.0,
+                                 600.0};  // of the envelopes in the first and the second search
+constexpr double kTolerance =
+    1e-5;  // of the criterion, which is a logarithm: this change is 5 millionths of the volume
 constexpr double kRowTolerance = 1e-7;
 constexpr double kInside = 0.999, kFarBeyond = 3.0;  // of the limits
 constexpr int kMostShrinks = 3;
-constexpr int kMostCalls = 3;  // calls by NLopt per point: SLSQP asks for the value, then for the gradient, and counts differently
+constexpr int kMostCalls = 3;  // calls by NLopt per point: SLSQP asks for the value, then for the
+                               // gradient, and counts differently
 
 nlopt::algorithm method_of(TrajectorySearchMethod method) {
   switch (method) {
@@ -36,14 +39,16 @@ nlopt::algorithm method_of(TrajectorySearchMethod method) {
 /// The state that NLopt's callbacks share.
 class TrajectorySearch {
  public:
-  TrajectorySearch(const ExcitationDescription& description, int start, const ExcitationObserver& observer, ExcitationProgram* program)
+  TrajectorySearch(const ExcitationDescription& description, int start,
+                   const ExcitationObserver& observer, ExcitationProgram* program)
       : description_(description), start_(start), observer_(observer), program_(*program) {}
 
   TrajectorySearchResult run(const Eigen::VectorXd& x) {
     result_.x = x;
     result_.criterion = result_.initial_criterion = std::numeric_limits<double>::infinity();
     for (const double sharpness : kSharpness) {
-      most_ = sharpness == kSharpness[0] ? (2 * description_.max_evaluations + 2) / 3 : description_.max_evaluations;
+      most_ = sharpness == kSharpness[0] ? (2 * description_.max_evaluations + 2) / 3
+                                         : description_.max_evaluations;
       const int left = most_ - result_.evaluations;
       if (interrupted_ || left <= 0) break;
       program_.set_sharpness(sharpness);
@@ -60,8 +65,9 @@ class TrajectorySearch {
     optimizer.set_lower_bounds({lower.begin(), lower.end()});
     optimizer.set_upper_bounds({upper.begin(), upper.end()});
     optimizer.set_min_objective(&TrajectorySearch::objective_callback, this);
-    optimizer.add_inequality_mconstraint(&TrajectorySearch::limits_callback, this,
-                                         std::vector<double>(to_index(program_.rows()), kRowTolerance));
+    optimizer.add_inequality_mconstraint(
+        &TrajectorySearch::limits_callback, this,
+        std::vector<double>(to_index(program_.rows()), kRowTolerance));
     optimizer.set_ftol_abs(kTolerance);
     optimizer.set_maxeval(kMostCalls * evaluations);
     std::vector<double> x(result_.x.begin(), result_.x.end());
@@ -85,7 +91,8 @@ class TrajectorySearch {
     return search.last_.criterion;
   }
 
-  static void limits_callback(unsigned count, double* values, unsigned size, const double* x, double* gradient, void* self) {
+  static void limits_callback(unsigned count, double* values, unsigned size, const double* x,
+                              double* gradient, void* self) {
     auto& search = *static_cast<TrajectorySearch*>(self);
     search.evaluate_at(size, x, gradient != nullptr);
     const bool usable = search.last_.status.ok();
@@ -102,8 +109,8 @@ class TrajectorySearch {
       Eigen::Map<RowMajor>(gradient, count, size).setZero();
   }
 
-  /// The value of a motion that cannot be followed: worse than all values so far, and larger with growing distance, so that a line search
-  /// turns back.
+  /// The value of a motion that cannot be followed: worse than all values so far, and larger with
+  /// growing distance, so that a line search turns back.
   double step_back(double* gradient) const {
     const Eigen::VectorXd away = last_x_ - result_.x;
     if (gradient) Eigen::Map<Eigen::VectorXd>(gradient, away.size()) = 2.0 * away;
@@ -114,8 +121,10 @@ class TrajectorySearch {
   void evaluate_at(unsigned size, const double* at, bool with_gradient) {
     const Eigen::Map<const Eigen::VectorXd> x(at, size);
     if (interrupted_) throw nlopt::forced_stop();
-    if (last_x_.size() == x.size() && last_x_ == x && (last_has_gradient_ || !with_gradient)) return;
-    // A request for the gradient at the point of the last value does not count as another evaluation.
+    if (last_x_.size() == x.size() && last_x_ == x && (last_has_gradient_ || !with_gradient))
+      return;
+    // A request for the gradient at the point of the last value does not count as another
+    // evaluation.
     const bool is_new = last_x_.size() != x.size() || last_x_ != x;
     if (is_new && result_.evaluations >= most_) throw nlopt::forced_stop();
     last_x_ = x;
@@ -132,7 +141,8 @@ class TrajectorySearch {
       keep(last_x_, last_);
       keep_within_limits();
     }
-    const ExcitationTrial trial{start_, result_.evaluations, last_.status, last_.criterion, last_.worst};
+    const ExcitationTrial trial{start_, result_.evaluations, last_.status, last_.criterion,
+                                last_.worst};
     interrupted_ = last_.status.is_interrupted() || (observer_ && !observer_(trial));
     if (interrupted_) throw nlopt::forced_stop();
   }
@@ -143,7 +153,8 @@ class TrajectorySearch {
     result_.x = x;
   }
 
-  // With many joints a search stays outside the limits for long. With reduced excursions such a point is often better than the start.
+  // With many joints a search stays outside the limits for long. With reduced excursions such a
+  // point is often better than the start.
   void keep_within_limits() {
     ExcitationProgram::Value value;
     value.worst = last_.worst;
@@ -170,8 +181,10 @@ class TrajectorySearch {
 
 }  // namespace
 
-TrajectorySearchResult search_trajectory(const ExcitationDescription& description, const Eigen::VectorXd& x, int start,
-                                         const ExcitationObserver& observer, ExcitationProgram* program) {
+TrajectorySearchResult search_trajectory(const ExcitationDescription& description,
+                                         const Eigen::VectorXd& x, int start,
+                                         const ExcitationObserver& observer,
+                                         ExcitationProgram* program) {
   return TrajectorySearch(description, start, observer, program).run(x);
 }
 

@@ -28,9 +28,12 @@ struct TrajectorySearchResult {
   std::string termination;
 };
 
-/// Searches twice from one start with an algorithm of NLopt: with blunt envelopes of the limits, then with sharp envelopes.
+/// Searches twice from one start with an algorithm of NLopt: with blunt envelopes of the limits,
+/// then with sharp envelopes.
 /// @param x the start, within the limits and with a finite criterion.
-TrajectorySearchResult search_trajectory(const ExcitationDescription& description, const Eigen::VectorXd& x, int start,
-                                         const ExcitationObserver& observer, ExcitationProgram* program);
+TrajectorySearchResult search_trajectory(const ExcitationDescription& description,
+                                         const Eigen::VectorXd& x, int start,
+                                         const ExcitationObserver& observer,
+                                         ExcitationProgram* program);
 
 }  // namespace codesign

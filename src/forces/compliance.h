@@ -8,13 +8,16 @@
 
 namespace codesign {
 
-/// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g') [N or N m], which pushes the joint back into its range; never
-/// negative.
+/// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g') [N or N m], which
+/// pushes the joint back into its range; never negative.
 ///
-/// delta(g) is 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3 s^5 + s^6) with s = g/w in between; three times continuously
-/// differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes the force larger while the excess grows than while it falls.
-/// @param excess g, by which the joint is beyond its limit [m or rad], @param rate g' [m/s or rad/s],
-/// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m or rad].
+/// delta(g) is 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3 s^5 + s^6) with s = g/w in
+/// between; three times continuously differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes
+/// the force larger while the excess grows than while it falls.
+/// @param excess g, by which the joint is beyond its limit [m or rad], @param rate g' [m/s or
+/// rad/s],
+/// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m
+/// or rad].
 template <class T>
 T joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
   using std::sqrt;
@@ -50,18 +53,22 @@ template <class T>
 struct SpringForce {
   T length{0.0};                         ///< l [m]
   T tension{0.0};                        ///< k (l - l_0) + c l', positive if it pulls [N]
-  Vector3<T> pull = Vector3<T>::Zero();  ///< tension d/l, the force on the first point; -pull acts on the second [N]
+  Vector3<T> pull = Vector3<T>::Zero();  ///< tension d/l, the force on the first point; -pull acts
+                                         ///< on the second [N]
 };
 
-/// delta of theory (13b) [m]: far below the length of any spring, it keeps the direction finite where the points meet.
+/// delta of theory (13b) [m]: far below the length of any spring, it keeps the direction finite
+/// where the points meet.
 constexpr double kSpringSmoothing = 1e-9;
 
-/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d + delta^2),
-/// pull = (k (l - l_0) + c l') d/l. Analytic everywhere; where the points meet the pull is zero for any free length.
+/// Linear spring and damper along the line between two points, doc/theory.md (13b): l = sqrt(d.d +
+/// delta^2), pull = (k (l - l_0) + c l') d/l. Analytic everywhere; where the points meet the pull
+/// is zero for any free length.
 /// @param d from the first point to the second [m], @param rate its time derivative [m/s],
 /// @param stiffness k [N/m], @param damping c [N s/m], @param free_length l_0 [m].
 template <class T>
-SpringForce<T> spring_damper(const Vector3<T>& d, const Vector3<T>& rate, const T& stiffness, const T& damping, const T& free_length) {
+SpringForce<T> spring_damper(const Vector3<T>& d, const Vector3<T>& rate, const T& stiffness,
+                             const T& damping, const T& free_length) {
   using std::sqrt;
   SpringForce<T> s;
   s.length = sqrt(dot(d, d) + T(kSpringSmoothing * kSpringSmoothing));

@@ -34,7 +34,12 @@ using L = ControlLoad;
 // name, output, gains, input, load, reads_rate, is_pid
 constexpr ControlLaw kControlTable[] = {
     {"basis", {as_given, as_given}, "", I::kShape},
-    {"computed_torque", {computed_torque, computed_torque}, "pd", I::kOwnPosition, L::kDemanded, true},
+    {"computed_torque",
+     {computed_torque, computed_torque},
+     "pd",
+     I::kOwnPosition,
+     L::kDemanded,
+     true},
     {"pd_gravity", {pd_gravity, pd_gravity}, "pd", I::kOwnPosition, L::kAtRest, true},
     {"pid", {pid, pid}, "pid", I::kSignal, L::kNone, true, true},
     {"state_feedback", {as_given, as_given}, "", I::kFeedback},
@@ -42,9 +47,12 @@ constexpr ControlLaw kControlTable[] = {
 
 }  // namespace
 
-const ControllerKind ControllerKind::kBasis{kControlTable[0]}, ControllerKind::kComputedTorque{kControlTable[1]},
-    ControllerKind::kPdGravity{kControlTable[2]}, ControllerKind::kPid{kControlTable[3]}, ControllerKind::kStateFeedback{kControlTable[4]};
+const ControllerKind ControllerKind::kBasis{kControlTable[0]},
+    ControllerKind::kComputedTorque{kControlTable[1]}, ControllerKind::kPdGravity{kControlTable[2]},
+    ControllerKind::kPid{kControlTable[3]}, ControllerKind::kStateFeedback{kControlTable[4]};
 
-std::vector<ControllerKind> control_laws() { return std::vector<ControllerKind>(std::begin(kControlTable), std::end(kControlTable)); }
+std::vector<ControllerKind> control_laws() {
+  return std::vector<ControllerKind>(std::begin(kControlTable), std::end(kControlTable));
+}
 
 }  // namespace codesign

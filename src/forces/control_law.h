@@ -9,13 +9,15 @@
 
 namespace codesign {
 
-/// The PID law u = p e + i s + d e', theory (C3), with the error e, its integral s and its rate e'. The gains are the derivatives of u by
-/// e, s and e'.
+/// The PID law u = p e + i s + d e', theory (C3), with the error e, its integral s and its rate e'.
+/// The gains are the derivatives of u by e, s and e'.
 template <class T>
 struct Pid {
   T p{0.0}, i{0.0}, d{0.0};
 
-  T output(const T& error, const T& integral, const T& error_rate) const { return p * error + i * integral + d * error_rate; }
+  T output(const T& error, const T& integral, const T& error_rate) const {
+    return p * error + i * integral + d * error_rate;
+  }
 };
 
 /// A saturated effort and its derivative by the requested effort.
@@ -46,16 +48,19 @@ SaturatedEffort<T> saturate(const T& u, const T& u_max) {
 template <class T>
 struct ControlValues {
   Pid<T> gains;
-  T error{0.0}, integral{0.0}, error_rate{0.0};  ///< e = setpoint - input, its integral and its rate, [unit of the input], s, 1/s
-  T clamped{0.0};                                ///< k_i times the integral within i_clamp; the integral is then zero
-  T load{0.0};                                   ///< inverse dynamics, see ControlLoad [N m or N]
-  T given{0.0};                                  ///< u_0(t) - sum of K_i (x_i - r_i(t)) of (C7), or the shape u(t) of (C8)
+  T error{0.0}, integral{0.0},
+      error_rate{
+          0.0};    ///< e = setpoint - input, its integral and its rate, [unit of the input], s, 1/s
+  T clamped{0.0};  ///< k_i times the integral within i_clamp; the integral is then zero
+  T load{0.0};     ///< inverse dynamics, see ControlLoad [N m or N]
+  T given{0.0};    ///< u_0(t) - sum of K_i (x_i - r_i(t)) of (C7), or the shape u(t) of (C8)
 
   /// p e + i s + d e' of (C3).
   T pid() const { return gains.output(error, integral, error_rate) + clamped; }
 };
 
-/// The output u before any limit [N m or N, positive along the coordinate that the controller drives].
+/// The output u before any limit [N m or N, positive along the coordinate that the controller
+/// drives].
 template <class T>
 using ControlFunction = T (*)(const ControlValues<T>& x);
 
@@ -71,10 +76,12 @@ enum class ControlInput {
 enum class ControlLoad {
   kNone,
   kAtRest,   ///< the load that holds it against gravity, (C5)
-  kDemanded  ///< the load at the accelerations setpoint'' + pid() that all controllers of this kind demand, (C6)
+  kDemanded  ///< the load at the accelerations setpoint'' + pid() that all controllers of this kind
+             ///< demand, (C6)
 };
 
-/// A control law, one row of the table in control_law.cc: its name, what it reads, and one function of values; doc/theory.md (C3)-(C8).
+/// A control law, one row of the table in control_law.cc: its name, what it reads, and one function
+/// of values; doc/theory.md (C3)-(C8).
 struct ControlLaw {
   const char* name;  ///< the value of the controller's `type`
   Law<ControlFunction> output;
@@ -82,10 +89,13 @@ struct ControlLaw {
   ControlInput input = ControlInput::kSignal;
   ControlLoad load = ControlLoad::kNone;
   bool reads_rate = false;  ///< whether it reads the rate of the error, if there is a gain d
-  bool is_pid = false;      ///< whether the output is pid(), which a robot may also sample, clamp and filter, (50)-(52)
+  bool is_pid = false;  ///< whether the output is pid(), which a robot may also sample, clamp and
+                        ///< filter, (50)-(52)
 
   /// Whether the law compares an input with a setpoint.
-  bool has_error() const { return input == ControlInput::kSignal || input == ControlInput::kOwnPosition; }
+  bool has_error() const {
+    return input == ControlInput::kSignal || input == ControlInput::kOwnPosition;
+  }
 };
 
 /// The law of a controller.
@@ -93,10 +103,11 @@ class ControllerKind : public RowReference<ControlLaw> {
  public:
   using RowReference::RowReference;
   static const ControllerKind kPid,  ///< p e + i int e dt + d de/dt, with e = setpoint - input
-      kPdGravity,                    ///< p e + d de/dt + the load that holds the joint against gravity
-      kComputedTorque,               ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
-      kStateFeedback,                ///< feedforward - sum gain (signal - reference)
-      kBasis;                        ///< a shaped input, a function of time only
+      kPdGravity,       ///< p e + d de/dt + the load that holds the joint against gravity
+      kComputedTorque,  ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt +
+                        ///< p e
+      kStateFeedback,   ///< feedforward - sum gain (signal - reference)
+      kBasis;           ///< a shaped input, a function of time only
 };
 
 /// The library's control laws, by name.

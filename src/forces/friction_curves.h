@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-/// Friction coefficient of Brown and McPhee (2016) without the viscous term, the bracket in the paper's (1); doc/theory.md (10):
+/// Friction coefficient of Brown and McPhee (2016) without the viscous term, the bracket in the
+/// paper's (1); doc/theory.md (10):
 ///   S(v) = mu_d tanh(4 v / v_t) + (mu_s - mu_d) (v / v_t) / ((v / (2 v_t))^2 + 3/4)^2.
 /// @param v sliding velocity with sign [m/s]. @param v_t transition velocity, > 0 [m/s].
 template <class T>
@@ -19,8 +20,9 @@ T brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t
   return mu_dynamic * tanh(4.0 * u) + (mu_static - mu_dynamic) / (d * d) * u;
 }
 
-// Friction whose numbers differ with the sign of the velocity; doc/theory.md (48). Analytic, and dissipative like each of the two laws:
-// both oppose the motion, and each counts with a share between 0 and 1.
+// Friction whose numbers differ with the sign of the velocity; doc/theory.md (48). Analytic, and
+// dissipative like each of the two laws: both oppose the motion, and each counts with a share
+// between 0 and 1.
 
 /// The share of the forward numbers, w(v) = (1 + tanh(4 v / v_t)) / 2.
 /// @param v sliding velocity with sign [m/s]. @param v_t transition velocity, > 0 [m/s].
@@ -35,7 +37,8 @@ T forward_share(const T& v, const T& v_t) {
 template <class T, class Curve>
 T directional_friction(const Curve& S, const T& v, const FrictionNumbers<T>& c) {
   const T back = S(v, c.mu_static_backward, c.mu_dynamic_backward, c.transition_velocity);
-  const T more = S(v, T(c.mu_static - c.mu_static_backward), T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
+  const T more = S(v, T(c.mu_static - c.mu_static_backward),
+                   T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
   return back + forward_share<T>(v, c.transition_velocity) * more;
 }
 
@@ -47,8 +50,8 @@ T directional_viscous(const T& rate, const T& radius, const FrictionNumbers<T>& 
   return (c.viscous_backward + w * (c.viscous - c.viscous_backward)) * rate;
 }
 
-/// Brown and McPhee's friction coefficient divided by the sliding speed s, as a function of s^2; analytic also at rest; doc/theory.md
-/// (13a).
+/// Brown and McPhee's friction coefficient divided by the sliding speed s, as a function of s^2;
+/// analytic also at rest; doc/theory.md (13a).
 /// @param square s^2 [m^2/s^2], @param v_t transition velocity [m/s].
 /// @return S(s)/s [s/m].
 template <class T>
@@ -59,18 +62,22 @@ T friction_per_speed(const T& square, const T& mu_static, const T& mu_dynamic, c
   return (T(4.0) * mu_dynamic * h + (mu_static - mu_dynamic) / (d * d)) / v_t;
 }
 
-/// The load L = S(|u|) N u/|u| [N] of a contact that slips in D directions, with the same coefficient in all of them, theory (13a). It
-/// opposes the slip, with the power -L . u; zero at rest.
-/// @param u slip velocity [m/s], @param normal N [N], @param per_speed S(|u|)/|u| [s/m] as a function of u.u.
+/// The load L = S(|u|) N u/|u| [N] of a contact that slips in D directions, with the same
+/// coefficient in all of them, theory (13a). It opposes the slip, with the power -L . u; zero at
+/// rest.
+/// @param u slip velocity [m/s], @param normal N [N], @param per_speed S(|u|)/|u| [s/m] as a
+/// function of u.u.
 template <class T, int D, class PerSpeed>
-Eigen::Matrix<T, D, 1> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal, const PerSpeed& per_speed) {
+Eigen::Matrix<T, D, 1> isotropic_friction(const Eigen::Matrix<T, D, 1>& u, const T& normal,
+                                          const PerSpeed& per_speed) {
   T square(0.0);
   for (int k = 0; k < D; ++k) square += u[k] * u[k];
   const T sigma = per_speed(square);
   return normal * (sigma * u);
 }
 
-/// The length of a vector, for signals. At zero, where it has no derivative, the derivative is set to zero.
+/// The length of a vector, for signals. At zero, where it has no derivative, the derivative is set
+/// to zero.
 template <class T, int D>
 T length_of(const Eigen::Matrix<T, D, 1>& u) {
   using std::sqrt;

@@ -13,16 +13,25 @@ namespace {
 
 // name, title, curve, per_speed, bristle, dwells, directional, divides_by_mu_dynamic
 constexpr FrictionLaw kFrictionTable[] = {
-    {"brown_mcphee", "Brown and McPhee", {brown_mcphee, brown_mcphee}, {friction_per_speed, friction_per_speed}, {}, false, true, false},
+    {"brown_mcphee",
+     "Brown and McPhee",
+     {brown_mcphee, brown_mcphee},
+     {friction_per_speed, friction_per_speed},
+     {},
+     false,
+     true,
+     false},
     {"gonthier", "Gonthier", {}, {}, {gonthier, gonthier}, true, false, false},
     {"lugre", "LuGre", {}, {}, {lugre, lugre}, false, false, true},
 };
 
 }  // namespace
 
-const FrictionModel FrictionModel::kBrownMcPhee{kFrictionTable[0]}, FrictionModel::kGonthier{kFrictionTable[1]},
-    FrictionModel::kLuGre{kFrictionTable[2]};
+const FrictionModel FrictionModel::kBrownMcPhee{kFrictionTable[0]},
+    FrictionModel::kGonthier{kFrictionTable[1]}, FrictionModel::kLuGre{kFrictionTable[2]};
 
-std::vector<FrictionModel> friction_laws() { return std::vector<FrictionModel>(std::begin(kFrictionTable), std::end(kFrictionTable)); }
+std::vector<FrictionModel> friction_laws() {
+  return std::vector<FrictionModel>(std::begin(kFrictionTable), std::end(kFrictionTable));
+}
 
 }  // namespace codesign

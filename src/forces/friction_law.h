@@ -13,8 +13,9 @@ namespace codesign {
 /// The states of a friction law with bristles; theory (13e), (13f). They start at zero.
 template <class T>
 struct BristleState {
-  Vector3<T> zeta = Vector3<T>::Zero();  ///< deflection times sigma_0, which is a friction per normal force [-]; one per slip direction
-  T dwell{0.0};                          ///< s_dw [-]: 1 after a long rest, 0 while sliding; Gonthier's model only
+  Vector3<T> zeta = Vector3<T>::Zero();  ///< deflection times sigma_0, which is a friction per
+                                         ///< normal force [-]; one per slip direction
+  T dwell{0.0};  ///< s_dw [-]: 1 after a long rest, 0 while sliding; Gonthier's model only
 };
 
 /// Friction and the rates of the states at one instant.
@@ -25,33 +26,38 @@ struct Bristle {
   T dwell_rate{0.0};                     ///< s_dw' [1/s]
 };
 
-/// The friction S(v) per normal force as a function of the sliding velocity [m/s], odd in v; theory (10).
+/// The friction S(v) per normal force as a function of the sliding velocity [m/s], odd in v; theory
+/// (10).
 template <class T>
 using FrictionCurve = T (*)(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t);
 /// S(|u|)/|u| [s/m] as a function of u.u; theory (13a).
 template <class T>
-using FrictionPerSpeed = T (*)(const T& square, const T& mu_static, const T& mu_dynamic, const T& v_t);
+using FrictionPerSpeed = T (*)(const T& square, const T& mu_static, const T& mu_dynamic,
+                               const T& v_t);
 /// Friction per normal force and rates of the states; theory (13e), (13f).
 template <class T>
-using BristleFunction = Bristle<T> (*)(const Vector3<T>& u, const BristleState<T>& state, const FrictionNumbers<T>& c);
+using BristleFunction = Bristle<T> (*)(const Vector3<T>& u, const BristleState<T>& state,
+                                       const FrictionNumbers<T>& c);
 
-/// A friction law, one row of the table in friction_law.cc: its name, and one function of values. A law without states has `curve`, a law
-/// with states `bristle`.
+/// A friction law, one row of the table in friction_law.cc: its name, and one function of values. A
+/// law without states has `curve`, a law with states `bristle`.
 struct FrictionLaw {
   const char* name;   ///< the value of `<codesign:friction model>`
   const char* title;  ///< its name in sentences
   Law<FrictionCurve> curve{};
-  Law<FrictionPerSpeed> per_speed{};   ///< for joints that slip in several directions; without it, curve(|u|)/|u| just beside rest
-  Law<BristleFunction> bristle{};      ///< zeta for each slip coordinate
-  bool dwells = false;                 ///< `bristle` also has the state s_dw
-  bool directional = false;            ///< `curve` is linear in mu_s and mu_d, which may differ for motion against the axis, theory (48)
+  Law<FrictionPerSpeed> per_speed{};  ///< for joints that slip in several directions; without it,
+                                      ///< curve(|u|)/|u| just beside rest
+  Law<BristleFunction> bristle{};     ///< zeta for each slip coordinate
+  bool dwells = false;                ///< `bristle` also has the state s_dw
+  bool directional = false;  ///< `curve` is linear in mu_s and mu_d, which may differ for motion
+                             ///< against the axis, theory (48)
   bool divides_by_mu_dynamic = false;  ///< mu_dynamic must not be zero
 
   /// Whether the law uses a number; other numbers are refused, since they would have no effect.
   bool uses(const FrictionNumberRule& rule) const {
     using L = FrictionNumberRule::Laws;
-    return rule.laws == L::kAll || (rule.laws == L::kBristles && bristle) || (rule.laws == L::kDwelling && dwells) ||
-           (rule.laws == L::kDirectional && directional);
+    return rule.laws == L::kAll || (rule.laws == L::kBristles && bristle) ||
+           (rule.laws == L::kDwelling && dwells) || (rule.laws == L::kDirectional && directional);
   }
 };
 
@@ -69,8 +75,10 @@ std::vector<FrictionModel> friction_laws();
 template <class T>
 T per_speed(const FrictionLaw& law, const T& square, const FrictionNumbers<T>& c) {
   using std::sqrt;
-  if (law.per_speed) return law.per_speed.of<T>(square, c.mu_static, c.mu_dynamic, c.transition_velocity);
-  constexpr double kRest = 1e-6;  // speed over v_t that counts as rest, where the quotient has a limit but no value
+  if (law.per_speed)
+    return law.per_speed.of<T>(square, c.mu_static, c.mu_dynamic, c.transition_velocity);
+  constexpr double kRest =
+      1e-6;  // speed over v_t that counts as rest, where the quotient has a limit but no value
   const T rest = kRest * c.transition_velocity, speed = sqrt(square + rest * rest);
   return law.curve.of<T>(speed, c.mu_static, c.mu_dynamic, c.transition_velocity) / speed;
 }

@@ -7,8 +7,9 @@ namespace codesign {
 
 class Traced;
 
-/// A function of values for the two scalars of formulas: double computes, Traced records. Function<T> is a pointer to the function for T.
-/// Written {f, f} for a function template f; {} for none.
+/// A function of values for the two scalars of formulas: double computes, Traced records.
+/// Function<T> is a pointer to the function for T. Written {f, f} for a function template f; {} for
+/// none.
 template <template <class> class Function>
 struct Law {
   Function<double> computed = nullptr;
@@ -24,16 +25,22 @@ struct Law {
   }
 };
 
-/// Refers to a row of a table of laws. The row must outlive it. Two are equal if they refer to the same row.
+/// Refers to a row of a table of laws. The row must outlive it. Two are equal if they refer to the
+/// same row.
 template <class Row>
 class RowReference {
  public:
-  constexpr RowReference(const Row& row) : row_(&row) {}  // NOLINT(google-explicit-constructor): a row is used as its own reference
+  constexpr RowReference(const Row& row)
+      : row_(&row) {}  // NOLINT(google-explicit-constructor): a row is used as its own reference
 
   constexpr const Row& operator*() const { return *row_; }
   constexpr const Row* operator->() const { return row_; }
-  friend constexpr bool operator==(const RowReference& a, const RowReference& b) { return a.row_ == b.row_; }
-  friend constexpr bool operator!=(const RowReference& a, const RowReference& b) { return a.row_ != b.row_; }
+  friend constexpr bool operator==(const RowReference& a, const RowReference& b) {
+    return a.row_ == b.row_;
+  }
+  friend constexpr bool operator!=(const RowReference& a, const RowReference& b) {
+    return a.row_ != b.row_;
+  }
 
  private:
   const Row* row_;

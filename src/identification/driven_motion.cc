@@ -12,11 +12,14 @@ namespace codesign {
 namespace {
 
 constexpr int kMostIterations = 40;
-constexpr double kRounding = 4e-15;       // a relative step below this is rounding
-constexpr double kConverged = 1e-11;      // a relative step below this that no longer shrinks is rounding, too
-constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose rounding is divided by a compliance of 1e-9
-constexpr double kSlow = 0.05;            // if a step is larger than this fraction of the previous one, the matrix is factorized anew
-constexpr double kFar = 0.5;              // [rad] a larger turn of a body or joint might leave the branch
+constexpr double kRounding = 4e-15;  // a relative step below this is rounding
+constexpr double kConverged =
+    1e-11;  // a relative step below this that no longer shrinks is rounding, too
+constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose
+                                          // rounding is divided by a compliance of 1e-9
+constexpr double kSlow = 0.05;  // if a step is larger than this fraction of the previous one, the
+                                // matrix is factorized anew
+constexpr double kFar = 0.5;    // [rad] a larger turn of a body or joint might leave the branch
 constexpr int kMostDivisions = 12;
 
 /// Convergence of a Newton iteration by the sizes of its steps, relative to the unknowns.
@@ -37,14 +40,23 @@ class Convergence {
   bool slow_ = false;
 };
 
-Status singular() { return {StatusCode::kSingularMatrix, 0.0, "the matrix of the equations of the driven motion is singular"}; }
+Status singular() {
+  return {StatusCode::kSingularMatrix, 0.0,
+          "the matrix of the equations of the driven motion is singular"};
+}
 
-Status not_closed() { return {StatusCode::kAssemblyFailed, 0.0, "the loops and couplings cannot follow the measured positions"}; }
+Status not_closed() {
+  return {StatusCode::kAssemblyFailed, 0.0,
+          "the loops and couplings cannot follow the measured positions"};
+}
 
 }  // namespace
 
 DrivenMotion::DrivenMotion(const DrivenSystem& driven)
-    : system_(*driven.system), drives_(static_cast<int>(driven.drives.size())), equations_(system_), matrix_(system_) {
+    : system_(*driven.system),
+      drives_(static_cast<int>(driven.drives.size())),
+      equations_(system_),
+      matrix_(system_) {
   const Layout& layout = system_.layout();
   derivatives_.resize(system_.patterns());
   step_.setZero(layout.columns());
@@ -58,7 +70,8 @@ DrivenMotion::DrivenMotion(const DrivenSystem& driven)
     columns_.push_back(layout.element_column(at.pair, at.element));
     if (columns_.back() >= 0) uncertain_[layout.lambda_column(system_.drive_row(k))] = 0.0;
   }
-  all_given_ = layout.n == drives_ && layout.m == drives_ && std::count(columns_.begin(), columns_.end(), -1) == 0;
+  all_given_ = layout.n == drives_ && layout.m == drives_ &&
+               std::count(columns_.begin(), columns_.end(), -1) == 0;
 }
 
 // A small turn is twice the change of an Euler parameter.
@@ -79,7 +92,9 @@ void DrivenMotion::note_turns(int body) {
     turns_[column++] = is_turn(system_.robot().joints[to_index(element.joint)].type) ? 1.0 : 0.0;
 }
 
-void DrivenMotion::set_design(const std::vector<double>& parameters) { equations_.set_design(parameters); }
+void DrivenMotion::set_design(const std::vector<double>& parameters) {
+  equations_.set_design(parameters);
+}
 
 void DrivenMotion::forget() {
   matrix_.forget();
@@ -92,7 +107,8 @@ void DrivenMotion::give(In<double> given, VectorX<double>* x) const {
     if (const int column = columns_[to_index(k)]; column >= 0) (*x)[column] = given[k];
 }
 
-// Where all coordinates are given, the solutions are those of the unit columns of the drives, the same at all states.
+// Where all coordinates are given, the solutions are those of the unit columns of the drives, the
+// same at all states.
 Status DrivenMotion::linearize(const State<double>& state) {
   if (all_given_ && is_factored_) return {};
   double g = 0.0;
@@ -101,8 +117,8 @@ Status DrivenMotion::linearize(const State<double>& state) {
   return is_factored_ ? Status() : singular();
 }
 
-// Like the projection (17): the rows of G below the rows of the bodies are Phi_q times the unknown, so that one matrix serves positions,
-// velocities and rates.
+// Like the projection (17): the rows of G below the rows of the bodies are Phi_q times the unknown,
+// so that one matrix serves positions, velocities and rates.
 void DrivenMotion::find_correction(Part part, In<double> given, const State<double>& state) {
   const Layout& layout = system_.layout();
   equations_.constraint_errors(state, &Phi_, &Phi_rate_);
@@ -121,7 +137,9 @@ Status DrivenMotion::solve_positions(In<double> given, State<double>* state) {
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     find_correction(Part::kPositions, given, *state);
     const double size = step_.head(layout.n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!std::isfinite(size) || step_.head(layout.n).cwiseProduct(turns_).cwiseAbs().maxCoeff() > kFar) return not_closed();
+    if (!std::isfinite(size) ||
+        step_.head(layout.n).cwiseProduct(turns_).cwiseAbs().maxCoeff() > kFar)
+      return not_closed();
     state->q -= step_.head(layout.n);
     if (convergence.done(size / (1.0 + state->q.cwiseAbs().maxCoeff()))) return {};
     if (iteration > 0 && convergence.slow())
@@ -143,7 +161,8 @@ Status DrivenMotion::solve_velocities(In<double> given, State<double>* state) {
     if (iteration > 0 && convergence.slow())
       if (Status status = linearize(*state); !status.ok()) return status;
   }
-  return {StatusCode::kInitialVelocityFailed, 0.0, "the loops and couplings cannot follow the measured velocities"};
+  return {StatusCode::kInitialVelocityFailed, 0.0,
+          "the loops and couplings cannot follow the measured velocities"};
 }
 
 Status DrivenMotion::solve_rates(In<double> given, State<double>* state) {
@@ -152,16 +171,19 @@ Status DrivenMotion::solve_rates(In<double> given, State<double>* state) {
   Convergence convergence(system_.compliance() == 0.0 ? kConverged : kSharedRounding);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     equations_.residual(*state, &step_, &g);
-    for (int k = 0; k < drives_; ++k) step_[system_.layout().lambda_column(system_.drive_row(k))] -= given[k];
+    for (int k = 0; k < drives_; ++k)
+      step_[system_.layout().lambda_column(system_.drive_row(k))] -= given[k];
     matrix_.lu().solve(step_);
     const double size = step_.cwiseProduct(uncertain_).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!std::isfinite(size)) return {StatusCode::kNonFinite, 0.0, "the equations of the driven motion are not finite"};
+    if (!std::isfinite(size))
+      return {StatusCode::kNonFinite, 0.0, "the equations of the driven motion are not finite"};
     state->z -= step_;
     if (convergence.done(size / (1.0 + state->z.cwiseAbs().maxCoeff()))) return {};
     if (convergence.slow())
       if (Status status = linearize(*state); !status.ok()) return status;
   }
-  return {StatusCode::kInitialReactionsFailed, 0.0, "no reactions satisfy the equations of the driven motion with friction"};
+  return {StatusCode::kInitialReactionsFailed, 0.0,
+          "no reactions satisfy the equations of the driven motion with friction"};
 }
 
 Status DrivenMotion::solve(const DriveMotion& given, State<double>* state) {
@@ -183,7 +205,8 @@ Status DrivenMotion::move_to(In<double> given, int depth, State<double>* state) 
   }
   if (depth == kMostDivisions) return status;
   std::vector<double> half(given.begin(), given.end());
-  for (std::size_t k = 0; k < half.size(); ++k) half[k] = 0.5 * (half[k] + state->turns[to_index(turn_slots_[k])]);
+  for (std::size_t k = 0; k < half.size(); ++k)
+    half[k] = 0.5 * (half[k] + state->turns[to_index(turn_slots_[k])]);
   if (Status first = move_to(half, depth + 1, state); !first.ok()) return first;
   return move_to(given, depth + 1, state);
 }

@@ -18,37 +18,49 @@ class CompiledSystem;
 struct MeasuredJoint {
   std::string name;
   bool with_effort = false;  ///< its effort was measured, too, or is known to be zero
-  double deviation = 1.0;    ///< standard deviation of its measured position [rad or m]; only the ratios between joints count, theory (28a)
+  double deviation = 1.0;    ///< standard deviation of its measured position [rad or m]; only the
+                             ///< ratios between joints count, theory (28a)
   SourceLocation where;      ///< where the joint is named, for messages
 };
 
-/// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine the motion are driven. Each drive adds a
-/// constraint row whose multiplier is minus the effort. The study of the system has neither controllers nor an objective.
+/// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine
+/// the motion are driven. Each drive adds a constraint row whose multiplier is minus the effort.
+/// The study of the system has neither controllers nor an objective.
 struct DrivenSystem {
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<int>
-      drives;  ///< the driven joints as indices in the list of measured joints, ascending; drive k has row System::drive_row(k)
-  std::vector<int> surplus;  ///< the surplus joints, likewise as indices: their motion follows from the motion of the drives
+  std::vector<int> drives;   ///< the driven joints as indices in the list of measured joints,
+                             ///< ascending; drive k has row System::drive_row(k)
+  std::vector<int> surplus;  ///< the surplus joints, likewise as indices: their motion follows from
+                             ///< the motion of the drives
 };
 
-/// @param of the mechanism as make_system() compiled it; its redundant reactions are shared as in that system.
-/// @param positions measured positions, one column per instant, at which the rank of the loops is examined if the rank at the study's start
-/// is an exception, as in a stretched-out linkage; may have no columns.
-/// @throws InputError for unknown or repeated joints and joints without one coordinate, for a joint whose motion the measured joints do not
-/// determine, for more joints with an effort than degrees of freedom, and for friction laws with states.
-DrivenSystem make_driven_system(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+/// @param of the mechanism as make_system() compiled it; its redundant reactions are shared as in
+/// that system.
+/// @param positions measured positions, one column per instant, at which the rank of the loops is
+/// examined if the rank at the study's start is an exception, as in a stretched-out linkage; may
+/// have no columns.
+/// @throws InputError for unknown or repeated joints and joints without one coordinate, for a joint
+/// whose motion the measured joints do not determine, for more joints with an effort than degrees
+/// of freedom, and for friction laws with states.
+DrivenSystem make_driven_system(const CompiledSystem& of,
+                                const std::vector<MeasuredJoint>& measured,
                                 const Eigen::MatrixXd& positions = {});
 
-/// The measured joints that determine the motion of the mechanism, as make_driven_system() chooses drives; friction laws with states are
-/// allowed. @throws InputError as make_driven_system() otherwise does
-std::vector<std::string> independent_joints(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+/// The measured joints that determine the motion of the mechanism, as make_driven_system() chooses
+/// drives; friction laws with states are allowed. @throws InputError as make_driven_system()
+/// otherwise does
+std::vector<std::string> independent_joints(const CompiledSystem& of,
+                                            const std::vector<MeasuredJoint>& measured,
                                             const Eigen::MatrixXd& positions = {});
 
-/// A position of the mechanism from which the first instant of a recording is assembled: all measured joints are near `positions` [rad or
-/// m, order of `measured`], the drives exactly at them.
-/// @param of, measured as in make_driven_system(). @param driven its result. @param parameters all named parameters. @param state of
-/// driven.system; velocities, accelerations and multipliers are zero.
-Status assemble_driven(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured, const DrivenSystem& driven,
-                       const std::vector<double>& parameters, const Eigen::VectorXd& positions, State<double>* state);
+/// A position of the mechanism from which the first instant of a recording is assembled: all
+/// measured joints are near `positions` [rad or m, order of `measured`], the drives exactly at
+/// them.
+/// @param of, measured as in make_driven_system(). @param driven its result. @param parameters all
+/// named parameters. @param state of driven.system; velocities, accelerations and multipliers are
+/// zero.
+Status assemble_driven(const CompiledSystem& of, const std::vector<MeasuredJoint>& measured,
+                       const DrivenSystem& driven, const std::vector<double>& parameters,
+                       const Eigen::VectorXd& positions, State<double>* state);
 
 }  // namespace codesign

@@ -14,37 +14,44 @@ namespace codesign {
 /// Below this share of a joint's effort, a fit counts as one that does not explain it.
 constexpr double kExplainedHalf = 0.5;
 
-/// The share of a recorded column that the computed one explains: one minus the sum of squares of the residuals over that of the recorded
-/// values about their mean; a mean of more than ten times the variation counts with a hundredth of its square. Negative: worse than
-/// nothing.
+/// The share of a recorded column that the computed one explains: one minus the sum of squares of
+/// the residuals over that of the recorded values about their mean; a mean of more than ten times
+/// the variation counts with a hundredth of its square. Negative: worse than nothing.
 double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& residuals);
 
-/// What the efforts of a joint, inverse dynamics and a drive's friction and inertia, say about a recorded column; doc/theory.md (39c).
+/// What the efforts of a joint, inverse dynamics and a drive's friction and inertia, say about a
+/// recorded column; doc/theory.md (39c).
 struct DriveLineFit {
   double share = 0.0;  ///< explained_share() of the column, at least 0
-  double scale = 0.0;  ///< factor of the computed effort, at least 0; 0 where friction and rotor explain nearly all
+  double scale = 0.0;  ///< factor of the computed effort, at least 0; 0 where friction and rotor
+                       ///< explain nearly all
 };
 
-/// @param computed, velocity, acceleration of the joint. @param recorded any column at the same times
-DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration,
-                            const Eigen::VectorXd& recorded);
+/// @param computed, velocity, acceleration of the joint. @param recorded any column at the same
+/// times
+DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::VectorXd& velocity,
+                            const Eigen::VectorXd& acceleration, const Eigen::VectorXd& recorded);
 
 /// A joint whose recorded efforts contradict inverse dynamics of the model as it stands.
 struct EffortDoubt {
   std::string joint;
-  double share = 0.0;   ///< DriveLineFit::share of the effort as recorded
-  std::string mistake;  ///< what would explain it: `with the other sign`; empty if no simple mistake does
+  double share = 0.0;  ///< DriveLineFit::share of the effort as recorded
+  std::string
+      mistake;  ///< what would explain it: `with the other sign`; empty if no simple mistake does
   double mended = 0.0;  ///< share with the mistake mended
 };
 
-/// Compares recorded efforts with inverse dynamics of the model as it stands and looks for the mistake that explains a contradiction:
-/// another sign, another unit, exchanged columns, exchanged or reversed joints. About 400 samples of each recording are used. Empty if
-/// nothing contradicts, if no joint has efforts in all recordings, or if the model cannot follow the recorded motion.
+/// Compares recorded efforts with inverse dynamics of the model as it stands and looks for the
+/// mistake that explains a contradiction: another sign, another unit, exchanged columns, exchanged
+/// or reversed joints. About 400 samples of each recording are used. Empty if nothing contradicts,
+/// if no joint has efforts in all recordings, or if the model cannot follow the recorded motion.
 /// @throws InputError as identify()
-std::vector<EffortDoubt> find_effort_doubts(const Problem& problem, const std::vector<JointRecording>& recordings);
+std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
+                                            const std::vector<JointRecording>& recordings);
 
 /// Warnings `recording_effort` for the doubts whose mistake is known.
-Warnings warnings_of(const IdentificationDescription& options, const std::vector<EffortDoubt>& doubts);
+Warnings warnings_of(const IdentificationDescription& options,
+                     const std::vector<EffortDoubt>& doubts);
 
 /// `with the other sign the model as it stands would explain 93 % of it`; empty without a mistake.
 std::string sentence_of(const EffortDoubt& doubt);

@@ -11,11 +11,12 @@ namespace codesign {
 namespace {
 
 const JointMotion& motion_of(const MeasuredMotion& recording, const std::string& joint) {
-  return *std::find_if(recording.joints.begin(), recording.joints.end(), [&](const JointMotion& motion) { return motion.joint == joint; });
+  return *std::find_if(recording.joints.begin(), recording.joints.end(),
+                       [&](const JointMotion& motion) { return motion.joint == joint; });
 }
 
-InputError recording_error(const JointRecording& recording, const std::string& message, const std::string& value,
-                           const std::string& allowed) {
+InputError recording_error(const JointRecording& recording, const std::string& message,
+                           const std::string& value, const std::string& allowed) {
   return InputError({recording.where, recording.element, message, value, allowed});
 }
 
@@ -26,11 +27,14 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
   return names;
 }
 
-bool has_positions(const JointSamples& samples) { return !samples.position.empty() || (!samples.velocity.empty() && samples.start); }
+bool has_positions(const JointSamples& samples) {
+  return !samples.position.empty() || (!samples.velocity.empty() && samples.start);
+}
 
 // Drivers without a sensor and joints without a motor record zeros: their efforts are not known.
 bool has_efforts(const JointSamples& samples) {
-  return std::any_of(samples.effort.begin(), samples.effort.end(), [](double effort) { return effort != 0.0; });
+  return std::any_of(samples.effort.begin(), samples.effort.end(),
+                     [](double effort) { return effort != 0.0; });
 }
 
 }  // namespace
@@ -43,12 +47,14 @@ std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>
     if (!has_positions(samples))
       throw recording_error(first, "the recording has no positions of this joint", samples.joint,
                             samples.velocity.empty() ? "positions of each joint"
-                                                     : "positions, or start: {" + samples.joint + ": POSITION} with its velocity");
+                                                     : "positions, or start: {" + samples.joint +
+                                                           ": POSITION} with its velocity");
     for (const JointRecording& other : recordings) {
       const JointSamples* found = other.find(joint.name);
       if (!found || !has_positions(*found))
-        throw recording_error(other, "the recording has no positions of a joint that " + first.element + " has", joint.name,
-                              "the same joints in all recordings");
+        throw recording_error(
+            other, "the recording has no positions of a joint that " + first.element + " has",
+            joint.name, "the same joints in all recordings");
       joint.with_effort = joint.with_effort && has_efforts(*found);
     }
     joints.push_back(std::move(joint));
@@ -56,19 +62,24 @@ std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>
   for (const JointRecording& other : recordings)
     for (const JointSamples& samples : other.joints)
       if (!first.find(samples.joint))
-        throw recording_error(other, "the recording has a joint that " + first.element + " lacks", samples.joint,
-                              "the same joints in all recordings");
+        throw recording_error(other, "the recording has a joint that " + first.element + " lacks",
+                              samples.joint, "the same joints in all recordings");
   return joints;
 }
 
-void require_efforts(const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings) {
-  if (std::none_of(joints.begin(), joints.end(), [](const MeasuredJoint& joint) { return joint.with_effort; }))
-    throw recording_error(recordings.front(), "no joint has efforts in all recordings, so that there is nothing to fit", "",
-                          "efforts of at least one joint, or residual: motion");
+void require_efforts(const std::vector<MeasuredJoint>& joints,
+                     const std::vector<JointRecording>& recordings) {
+  if (std::none_of(joints.begin(), joints.end(),
+                   [](const MeasuredJoint& joint) { return joint.with_effort; }))
+    throw recording_error(recordings.front(),
+                          "no joint has efforts in all recordings, so that there is nothing to fit",
+                          "", "efforts of at least one joint, or residual: motion");
 }
 
-EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariables& variables, std::vector<MeasuredJoint> joints,
-                                 std::vector<MeasuredMotion> recordings, const FilterOptions& filter, int threads)
+EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
+                                 std::vector<MeasuredJoint> joints,
+                                 std::vector<MeasuredMotion> recordings,
+                                 const FilterOptions& filter, int threads)
     : variables_(variables), recordings_(std::move(recordings)), filter_(filter) {
   const std::vector<std::string> names = names_of(joints);
   std::vector<bool> with_effort;
@@ -101,15 +112,21 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
   MotionSamples samples;
   begins_.assign(1, 0);
   for (const MeasuredMotion& recording : recordings_)
-    begins_.push_back(begins_.back() + (filter_.residual_cutoff > 0.0 ? recording.times.count : recording.fitted()));
+    begins_.push_back(begins_.back() +
+                      (filter_.residual_cutoff > 0.0 ? recording.times.count : recording.fitted()));
   samples.begins.assign(begins_.begin(), begins_.end() - 1);
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto is_fitted = [&](const MeasuredMotion& recording) { return variables_.start_column(recording.element, joints[j]) >= 0; };
-    if (std::any_of(recordings_.begin(), recordings_.end(), is_fitted)) samples.shifted.push_back(static_cast<int>(j));
+    const auto is_fitted = [&](const MeasuredMotion& recording) {
+      return variables_.start_column(recording.element, joints[j]) >= 0;
+    };
+    if (std::any_of(recordings_.begin(), recordings_.end(), is_fitted))
+      samples.shifted.push_back(static_cast<int>(j));
   }
   for (const MeasuredMotion& recording : recordings_) {
     start_columns_.emplace_back();
-    for (int j : samples.shifted) start_columns_.back().push_back(variables_.start_column(recording.element, joints[to_index(j)]));
+    for (int j : samples.shifted)
+      start_columns_.back().push_back(
+          variables_.start_column(recording.element, joints[to_index(j)]));
   }
   for (Eigen::MatrixXd* rows : {&samples.position, &samples.velocity, &samples.acceleration})
     rows->resize(to_signed(joints.size()), begins_.back());
@@ -119,7 +136,9 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
       const JointMotion& motion = motion_of(recording, joints[j]);
       const auto row = to_signed(j);
       for (Eigen::Index k = begins_[r]; k < begins_[r + 1]; ++k) {
-        const Eigen::Index at = filter_.residual_cutoff > 0.0 ? k - begins_[r] : recording.first + (k - begins_[r]) * recording.every;
+        const Eigen::Index at = filter_.residual_cutoff > 0.0
+                                    ? k - begins_[r]
+                                    : recording.first + (k - begins_[r]) * recording.every;
         samples.position(row, k) = motion.position[at];
         samples.velocity(row, k) = motion.velocity[at];
         samples.acceleration(row, k) = motion.acceleration[at];
@@ -132,24 +151,28 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
 std::vector<double> EffortResiduals::times() const {
   std::vector<double> times;
   for (const MeasuredMotion& motion : recordings_)
-    for (Eigen::Index k = 0; k < motion.fitted(); ++k) times.push_back(motion.times.at(motion.first + k * motion.every));
+    for (Eigen::Index k = 0; k < motion.fitted(); ++k)
+      times.push_back(motion.times.at(motion.first + k * motion.every));
   return times;
 }
 
 double EffortResiduals::time(std::size_t recording, Eigen::Index sample) const {
   const MeasuredMotion& motion = recordings_[recording];
-  return motion.times.at(filter_.residual_cutoff > 0.0 ? sample : motion.first + sample * motion.every);
+  return motion.times.at(filter_.residual_cutoff > 0.0 ? sample
+                                                       : motion.first + sample * motion.every);
 }
 
-void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes,
-                           Eigen::MatrixXd* columns) const {
+void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x,
+                           bool with_slopes, Eigen::MatrixXd* columns) const {
   const EffortSensor sensor = variables_.sensor(outputs_[output], x);
   const FitVariables::SensorColumns at = variables_.columns(outputs_[output]);
-  const Eigen::Index drives = model_efforts_.rows(), drive = drives_[output], count = begins_[recording + 1] - begins_[recording];
+  const Eigen::Index drives = model_efforts_.rows(), drive = drives_[output],
+                     count = begins_[recording + 1] - begins_[recording];
   columns->setZero(count, with_slopes ? 1 + x.size() : 1);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Index sample = begins_[recording] + k;
-    const EffortResidual residual = effort_residual(sensor, efforts_[recording][output], time(recording, k), model_efforts_(drive, sample));
+    const EffortResidual residual = effort_residual(
+        sensor, efforts_[recording][output], time(recording, k), model_efforts_(drive, sample));
     (*columns)(k, 0) = residual.value;
     if (!with_slopes) continue;
     columns->row(k).segment(1, variables_.tuned()) =
@@ -159,7 +182,9 @@ void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eige
     if (at.offset >= 0) (*columns)(k, 1 + at.offset) = residual.by_effort;
     for (std::size_t s = 0; s < start_columns_[recording].size(); ++s)
       if (const int start = start_columns_[recording][s]; start >= 0)
-        (*columns)(k, 1 + start) = residual.by_effort * model_jacobian_(sample * drives + drive, variables_.tuned() + to_signed(s));
+        (*columns)(k, 1 + start) =
+            residual.by_effort *
+            model_jacobian_(sample * drives + drive, variables_.tuned() + to_signed(s));
   }
 }
 
@@ -167,9 +192,11 @@ Eigen::MatrixXd EffortResiduals::fitted(std::size_t recording, Eigen::MatrixXd* 
   const MeasuredMotion& motion = recordings_[recording];
   if (!(filter_.residual_cutoff > 0.0)) return *columns;
   ZeroPhaseFilter::Workspace workspace;
-  ZeroPhaseFilter(filter_.order, filter_.residual_cutoff, motion.times.rate()).apply_to_columns(*columns, &workspace);
+  ZeroPhaseFilter(filter_.order, filter_.residual_cutoff, motion.times.rate())
+      .apply_to_columns(*columns, &workspace);
   Eigen::MatrixXd kept(motion.fitted(), columns->cols());
-  for (Eigen::Index k = 0; k < kept.rows(); ++k) kept.row(k) = columns->row(motion.first + k * motion.every);
+  for (Eigen::Index k = 0; k < kept.rows(); ++k)
+    kept.row(k) = columns->row(motion.first + k * motion.every);
   return kept;
 }
 
@@ -179,7 +206,8 @@ void EffortResiduals::record() {
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     for (std::size_t o = 0; o < outputs_.size(); ++o) {
       Eigen::MatrixXd columns(begins_[r + 1] - begins_[r], 1);
-      for (Eigen::Index k = 0; k < columns.rows(); ++k) columns(k, 0) = efforts_[r][o].at(time(r, k)).value;
+      for (Eigen::Index k = 0; k < columns.rows(); ++k)
+        columns(k, 0) = efforts_[r][o].at(time(r, k)).value;
       columns *= variables_.sensor(outputs_[o], variables_.start()).start_scale;
       recorded_.col(to_signed(o)).segment(row, lengths_[r]) = fitted(r, &columns).col(0);
     }
@@ -189,10 +217,12 @@ void EffortResiduals::record() {
 
 Eigen::MatrixXd EffortResiduals::shifts(const Eigen::VectorXd& x) const {
   Eigen::MatrixXd shifts =
-      Eigen::MatrixXd::Zero(start_columns_.empty() ? 0 : to_signed(start_columns_.front().size()), to_signed(start_columns_.size()));
+      Eigen::MatrixXd::Zero(start_columns_.empty() ? 0 : to_signed(start_columns_.front().size()),
+                            to_signed(start_columns_.size()));
   for (Eigen::Index r = 0; r < shifts.cols(); ++r)
     for (Eigen::Index s = 0; s < shifts.rows(); ++s)
-      if (const int column = start_columns_[to_index(r)][to_index(s)]; column >= 0) shifts(s, r) = x[column] - variables_.start()[column];
+      if (const int column = start_columns_[to_index(r)][to_index(s)]; column >= 0)
+        shifts(s, r) = x[column] - variables_.start()[column];
   return shifts;
 }
 
@@ -204,7 +234,8 @@ Status EffortResiduals::begin(const Eigen::VectorXd& x) {
 }
 
 Status EffortResiduals::place(const Eigen::VectorXd& x) {
-  constexpr double kNear = 0.1;  // [rad or m]: within this distance the samples still find their solutions
+  constexpr double kNear =
+      0.1;  // [rad or m]: within this distance the samples still find their solutions
   const Eigen::MatrixXd here = shifts(x);
   if (here.size() == 0) return {};
   model_->shift(here);
@@ -217,15 +248,19 @@ Status EffortResiduals::place(const Eigen::VectorXd& x) {
 }
 
 void EffortResiduals::clear_starts_without_effect(Eigen::MatrixXd* jacobian) const {
-  constexpr double kLeastEffect = 1e-10;  // relative to the recorded efforts, for a change of the start by 1 rad or 1 m
+  constexpr double kLeastEffect =
+      1e-10;  // relative to the recorded efforts, for a change of the start by 1 rad or 1 m
   for (const std::vector<int>& recording : start_columns_)
     for (int column : recording)
-      if (column >= 0 && jacobian->col(column).norm() <= kLeastEffect * recorded_.norm()) jacobian->col(column).setZero();
+      if (column >= 0 && jacobian->col(column).norm() <= kLeastEffect * recorded_.norm())
+        jacobian->col(column).setZero();
 }
 
-Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
+Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                                 Eigen::MatrixXd* jacobian) {
   if (Status placed = place(x); !placed.ok()) return placed;
-  Status status = model_->evaluate(variables_.parameters(x), &model_efforts_, jacobian ? &model_jacobian_ : nullptr);
+  Status status = model_->evaluate(variables_.parameters(x), &model_efforts_,
+                                   jacobian ? &model_jacobian_ : nullptr);
   if (!status.ok()) return status;
   const auto outputs = to_signed(outputs_.size());
   residuals->resize(rows_, outputs);
@@ -238,7 +273,8 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
       fill(r, o, x, jacobian != nullptr, &columns);
       const Eigen::MatrixXd kept = fitted(r, &columns);
       residuals->col(output).segment(row, lengths_[r]) = kept.col(0);
-      if (jacobian) jacobian->middleRows(output * rows_ + row, lengths_[r]) = kept.rightCols(x.size());
+      if (jacobian)
+        jacobian->middleRows(output * rows_ + row, lengths_[r]) = kept.rightCols(x.size());
     }
     row += lengths_[r];
   }
@@ -246,7 +282,8 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   return {};
 }
 
-void EffortResiduals::motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::MatrixXd* acceleration) const {
+void EffortResiduals::motion_of_outputs(Eigen::MatrixXd* velocity,
+                                        Eigen::MatrixXd* acceleration) const {
   velocity->resize(model_->samples(), to_signed(outputs_.size()));
   acceleration->resizeLike(*velocity);
   for (std::size_t o = 0; o < outputs_.size(); ++o) {
@@ -255,7 +292,8 @@ void EffortResiduals::motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::Matrix
   }
 }
 
-// The slope of the computed effort serves as a column without noise: it is independent of the noise in the recorded effort.
+// The slope of the computed effort serves as a column without noise: it is independent of the noise
+// in the recorded effort.
 std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x) {
   constexpr double kLeastShare = 0.01;
   std::vector<DelaySignal> signals;
@@ -265,14 +303,16 @@ std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x
       signals.push_back({outputs_[o], column, to_signed(o), 1.0, {}});
   if (signals.empty() || !evaluate(x, &residuals, nullptr).ok()) return signals;
   for (DelaySignal& signal : signals) {
-    const auto o = to_index(std::find(outputs_.begin(), outputs_.end(), signal.joint) - outputs_.begin());
+    const auto o =
+        to_index(std::find(outputs_.begin(), outputs_.end(), signal.joint) - outputs_.begin());
     const EffortSensor sensor = variables_.sensor(signal.joint, x);
     double both = 0.0, slopes = 0.0;
     Eigen::Index row = 0;
     signal.slopes.resize(rows_);
     for (std::size_t r = 0; r < recordings_.size(); ++r) {
       const MeasuredMotion& motion = recordings_[r];
-      const double step = motion.times.step * static_cast<double>(filter_.residual_cutoff > 0.0 ? 1 : motion.every);
+      const double step =
+          motion.times.step * static_cast<double>(filter_.residual_cutoff > 0.0 ? 1 : motion.every);
       Eigen::MatrixXd columns(begins_[r + 1] - begins_[r], 2);
       for (Eigen::Index k = 0; k < columns.rows(); ++k) {
         const double effort = model_efforts_(drives_[o], begins_[r] + k);

@@ -10,12 +10,15 @@
 namespace codesign {
 
 template <int N>
-EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes, std::vector<int> shifted)
+EffortTangent<N>::EffortTangent(const CompiledSystem& system, LaneRange<N> lanes,
+                                std::vector<int> shifted)
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
       lanes_(lanes),
-      seeded_{lanes.first, std::clamp(static_cast<int>(system.whole_study().tuned.size()) - lanes.first, 0, lanes.count)},
+      seeded_{lanes.first,
+              std::clamp(static_cast<int>(system.whole_study().tuned.size()) - lanes.first, 0,
+                         lanes.count)},
       shifted_(std::move(shifted)),
       equations_(system),
       y_(at_.size()),
@@ -41,14 +44,14 @@ void EffortTangent<N>::correct(const DrivenMotion& motion, const Directions<N>& 
 }
 
 template <int N>
-void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row,
-                                     RowJacobian* jacobian) {
+void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<double>& state,
+                                     Eigen::Index first_row, RowJacobian* jacobian) {
   y_.setZero();
   constraint_errors(state);
   // Positions and velocities do not depend on parameters that do not change the geometry.
   if (!Phi_.isZero(0.0) || !Phi_rate_.isZero(0.0)) {
-    // The compliance does not change the converged solution, but it reduces one correction by its share; a second correction removes this
-    // error.
+    // The compliance does not change the converged solution, but it reduces one correction by its
+    // share; a second correction removes this error.
     const int rounds = system_.compliance() == 0.0 ? 1 : 2;
     for (int round = 0; round < rounds; ++round) {
       correct(motion, Phi_, at_.x());
@@ -65,7 +68,8 @@ void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<dou
   // The effort is minus the multiplier, whose derivative is minus the solution.
   for (int k = 0; k < motion.drives(); ++k) {
     const int column = layout_.lambda_column(system_.drive_row(k));
-    for (int lane = 0; lane < lanes_.count; ++lane) (*jacobian)(first_row + k, lanes_.first + lane) = solution_(lane, column);
+    for (int lane = 0; lane < lanes_.count; ++lane)
+      (*jacobian)(first_row + k, lanes_.first + lane) = solution_(lane, column);
   }
 }
 

@@ -17,13 +17,16 @@ namespace codesign {
 /// The recorded effort of one joint; outside the recording its first and last values hold.
 using RecordedEffort = SampledFunction;
 
-/// The effort sensor of a joint, often a motor current. From the effort tau on the child it records the number r(t + delay) = (tau(t) +
-/// offset) / scale; doc/theory.md (28c).
+/// The effort sensor of a joint, often a motor current. From the effort tau on the child it records
+/// the number r(t + delay) = (tau(t) + offset) / scale; doc/theory.md (28c).
 struct EffortSensor {
-  double scale = 1.0;        ///< N m (or N) per unit of the recorded number: the torque constant, gear included
-  double offset = 0.0;       ///< recorded in addition to the effort that the mechanism needs [N m or N]
-  double delay = 0.0;        ///< delay of the recorded effort relative to the recorded motion [s]; negative: the effort is early
-  double start_scale = 1.0;  ///< scale at the start of the identification; it gives residuals their unit
+  double scale =
+      1.0;  ///< N m (or N) per unit of the recorded number: the torque constant, gear included
+  double offset = 0.0;  ///< recorded in addition to the effort that the mechanism needs [N m or N]
+  double delay = 0.0;   ///< delay of the recorded effort relative to the recorded motion [s];
+                        ///< negative: the effort is early
+  double start_scale =
+      1.0;  ///< scale at the start of the identification; it gives residuals their unit
 };
 
 /// The residual of one joint at one instant and its derivatives.
@@ -35,10 +38,12 @@ struct EffortResidual {
 };
 
 /// @param effort tau of the model at `time`.
-EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort& recorded, double time, double effort);
+EffortResidual effort_residual(const EffortSensor& sensor, const RecordedEffort& recorded,
+                               double time, double effort);
 
-/// The unknowns x of an identification: the tuned parameters in the order of Study::tuned, then the fitted numbers of effort sensors, joint
-/// by joint in the order of the study: scale, delay, offset; then the fitted start positions, recording by recording.
+/// The unknowns x of an identification: the tuned parameters in the order of Study::tuned, then the
+/// fitted numbers of effort sensors, joint by joint in the order of the study: scale, delay,
+/// offset; then the fitted start positions, recording by recording.
 class FitVariables {
  public:
   /// Indices of the numbers of one sensor in x; -1: known.
@@ -46,9 +51,11 @@ class FitVariables {
     int scale = -1, delay = -1, offset = -1;
   };
 
-  /// @param study with a block `identify`; must outlive this. @param robot its joints determine the units of starts and offsets; null: no
-  /// units. @param settings values of parameters in the recordings that the variables are for
-  explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr, std::vector<RecordedSetting> settings = {});
+  /// @param study with a block `identify`; must outlive this. @param robot its joints determine the
+  /// units of starts and offsets; null: no units. @param settings values of parameters in the
+  /// recordings that the variables are for
+  explicit FitVariables(const Study& study, const RobotDescription* robot = nullptr,
+                        std::vector<RecordedSetting> settings = {});
 
   Eigen::Index size() const { return start_.size(); }
   Eigen::Index tuned() const { return to_signed(study_.tuned.size()); }
@@ -59,16 +66,18 @@ class FitVariables {
   const Eigen::VectorXd& lower() const { return lower_; }  ///< -infinity: none
   const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// The standard deviation of each variable about its start before the fit, doc/theory.md (39b); infinite: nothing is known. Free inertias
-  /// have one of a weak prior.
+  /// The standard deviation of each variable about its start before the fit, doc/theory.md (39b);
+  /// infinite: nothing is known. Free inertias have one of a weak prior.
   Eigen::VectorXd prior_deviations() const;
 
   /// All named parameters, in the order of Study::parameters.
   std::vector<double> parameters(const Eigen::VectorXd& x) const;
-  /// The effort sensor of a joint. The sensor of a joint that the study does not name has scale 1, no offset and no delay.
+  /// The effort sensor of a joint. The sensor of a joint that the study does not name has scale 1,
+  /// no offset and no delay.
   EffortSensor sensor(const std::string& joint, const Eigen::VectorXd& x) const;
   SensorColumns columns(const std::string& joint) const;
-  /// Index of the start position of a joint in a recording in x; -1: known. @param recording `identify.data[0]`
+  /// Index of the start position of a joint in a recording in x; -1: known. @param recording
+  /// `identify.data[0]`
   int start_column(const std::string& recording, const std::string& joint) const;
 
  private:
@@ -87,7 +96,9 @@ class FitVariables {
   Eigen::VectorXd start_, lower_, upper_;
 };
 
-/// The free inertias of which all ten numbers are among `names`: link and indices in the order of kLogCholeskyNames.
-std::vector<std::pair<std::string, std::array<int, 10>>> free_inertias(const std::vector<std::string>& names);
+/// The free inertias of which all ten numbers are among `names`: link and indices in the order of
+/// kLogCholeskyNames.
+std::vector<std::pair<std::string, std::array<int, 10>>> free_inertias(
+    const std::vector<std::string>& names);
 
 }  // namespace codesign

@@ -18,32 +18,44 @@
 namespace codesign {
 namespace {
 
-std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem, const FitVariables& variables,
-                                                    const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
+std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
+                                                    const FitVariables& variables,
+                                                    const std::vector<MeasuredJoint>& joints,
+                                                    const std::vector<JointRecording>& recordings,
                                                     Warnings* warnings) {
   const IdentificationDescription& options = *problem.study().identification;
   const int threads = worker_threads(problem.study().ensemble.engine);
   if (options.residual == ResidualKind::kMotion)
-    return std::make_unique<MotionResiduals>(*problem.system(), variables, options, joints, recordings, threads, warnings);
+    return std::make_unique<MotionResiduals>(*problem.system(), variables, options, joints,
+                                             recordings, threads, warnings);
   require_efforts(joints, recordings);
   const FilterOptions& filter = options.filter;
   std::vector<MeasuredMotion> motions;
   motions.reserve(recordings.size());
-  for (const JointRecording& recording : recordings) motions.push_back(measured_motion(recording, filter, warnings));
-  return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions), filter, threads);
+  for (const JointRecording& recording : recordings)
+    motions.push_back(measured_motion(recording, filter, warnings));
+  return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions),
+                                           filter, threads);
 }
 
 /// Recordings with the same values of parameters have one model.
-std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem, const FitVariables& variables,
-                                                   const std::vector<MeasuredJoint>& joints, const std::vector<JointRecording>& recordings,
+std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
+                                                   const FitVariables& variables,
+                                                   const std::vector<MeasuredJoint>& joints,
+                                                   const std::vector<JointRecording>& recordings,
                                                    Warnings* warnings) {
-  const auto has_settings = [](const JointRecording& recording) { return !recording.settings.empty(); };
+  const auto has_settings = [](const JointRecording& recording) {
+    return !recording.settings.empty();
+  };
   if (std::none_of(recordings.begin(), recordings.end(), has_settings))
     return residuals_alike(problem, variables, joints, recordings, warnings);
   std::vector<StackedResiduals::Part> parts;
   for (auto begin = recordings.begin(); begin != recordings.end();) {
-    const auto end = std::find_if(begin, recordings.end(), [&](const JointRecording& other) { return !has_same_settings(other, *begin); });
-    auto variables_of = std::make_unique<FitVariables>(problem.study(), &problem.robot(), begin->settings);
+    const auto end = std::find_if(begin, recordings.end(), [&](const JointRecording& other) {
+      return !has_same_settings(other, *begin);
+    });
+    auto variables_of =
+        std::make_unique<FitVariables>(problem.study(), &problem.robot(), begin->settings);
     auto residuals = residuals_alike(problem, *variables_of, joints, {begin, end}, warnings);
     parts.push_back({std::move(variables_of), std::move(residuals)});
     begin = end;
@@ -71,8 +83,8 @@ FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& 
 }
 
 /// Computes the residuals of recordings that were not fitted, at x.
-Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, const LossOptions& loss, RecordingResiduals* residuals,
-                     IdentificationResult* result) {
+Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, const LossOptions& loss,
+                     RecordingResiduals* residuals, IdentificationResult* result) {
   Eigen::MatrixXd at_start, at_end;
   residuals->count_by(fit.spreads, loss);
   Status status = residuals->begin(variables.start());
@@ -88,17 +100,23 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
 Status not_identifiable(const std::vector<std::string>& sentences) {
   constexpr std::size_t kTold = 5;
   Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not determine all numbers"};
-  for (std::size_t k = 0; k < std::min(kTold, sentences.size()); ++k) status.cause += (k == 0 ? ": " : "; ") + sentences[k];
-  if (sentences.size() > kTold) status.cause += "; and " + std::to_string(sentences.size() - kTold) + " more (\"undetermined\")";
+  for (std::size_t k = 0; k < std::min(kTold, sentences.size()); ++k)
+    status.cause += (k == 0 ? ": " : "; ") + sentences[k];
+  if (sentences.size() > kTold)
+    status.cause +=
+        "; and " + std::to_string(sentences.size() - kTold) + " more (\"undetermined\")";
   return status;
 }
 
-/// Warnings about efforts or motions that the fit does not explain; only then mistakes in the recordings are looked for.
-Warnings told_of_unexplained(const Problem& problem, const std::vector<JointRecording>& recordings, const IdentificationResult& result,
-                             const std::atomic<bool>* cancel, Status* failure) {
+/// Warnings about efforts or motions that the fit does not explain; only then mistakes in the
+/// recordings are looked for.
+Warnings told_of_unexplained(const Problem& problem, const std::vector<JointRecording>& recordings,
+                             const IdentificationResult& result, const std::atomic<bool>* cancel,
+                             Status* failure) {
   const IdentificationDescription& options = *problem.study().identification;
   const bool is_doubtful =
-      std::any_of(result.data.begin(), result.data.end(), [](const OutputFit& fit) { return fit.explained < kExplainedHalf; });
+      std::any_of(result.data.begin(), result.data.end(),
+                  [](const OutputFit& fit) { return fit.explained < kExplainedHalf; });
   std::vector<EffortDoubt> doubts;
   if (is_doubtful && !is_set(cancel)) doubts = find_effort_doubts(problem, recordings);
   return unexplained_outputs(options, result, doubts, failure);
@@ -112,8 +130,11 @@ Warnings unmet_constraints(const Study& study, const std::vector<double>& parame
       warnings.push_back(
           warn("identified_outside_constraint",
                {constraint.where, constraint.element,
-                "the fit keeps bounds alone, and the identified values do not meet this constraint (margin " + to_decimal(margin) + ")",
-                constraint.text, "bounds or twins that leave such values out, other data, or no such constraint"}));
+                "the fit keeps bounds alone, and the identified values do not meet this constraint "
+                "(margin " +
+                    to_decimal(margin) + ")",
+                constraint.text,
+                "bounds or twins that leave such values out, other data, or no such constraint"}));
   return warnings;
 }
 
@@ -121,33 +142,44 @@ Warnings unmet_constraints(const Study& study, const std::vector<double>& parame
 
 void require_identification(const Problem& problem) {
   if (!problem.study().identification)
-    throw InputError({{problem.study().file, 1}, "identify", "the study has no recordings to identify from", "", "a block identify"});
+    throw InputError({{problem.study().file, 1},
+                      "identify",
+                      "the study has no recordings to identify from",
+                      "",
+                      "a block identify"});
 }
 
-IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings, const FitObserver& observer,
-                              const std::atomic<bool>* cancel) {
+IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings,
+                              const FitObserver& observer, const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *problem.study().identification;
   if (recordings.data.empty())
-    throw InputError({options.where, "identify.data", "the study has no recordings to identify from", "", "at least one recording"});
+    throw InputError({options.where, "identify.data",
+                      "the study has no recordings to identify from", "",
+                      "at least one recording"});
   const FitVariables variables(problem.study(), &problem.robot());
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
   all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
   const std::vector<MeasuredJoint> joints = require_same_joints(all);
-  const std::unique_ptr<RecordingResiduals> data = make_residuals(problem, variables, joints, recordings.data, &result.warnings);
+  const std::unique_ptr<RecordingResiduals> data =
+      make_residuals(problem, variables, joints, recordings.data, &result.warnings);
   RecordingResiduals& residuals = *data;
   std::unique_ptr<RecordingResiduals> holdout;
-  if (!recordings.holdout.empty()) holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
-  residuals.obey(cancel);  // The holdout does not: it is judged after a cancel, too, which takes two evaluations.
+  if (!recordings.holdout.empty())
+    holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
+  residuals.obey(cancel);  // The holdout does not: it is judged after a cancel, too, which takes
+                           // two evaluations.
 
   const FitProblem limits = fit_problem(problem, variables);
   result.status = residuals.begin(limits.start);
   if (!result.status.ok()) {
-    result.termination = result.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
+    result.termination =
+        result.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
     return result;
   }
-  const ResidualFit fit = fit_from_starts(limits, problem.study().ensemble.multistart, &residuals, observer, &result.searches);
+  const ResidualFit fit = fit_from_starts(limits, problem.study().ensemble.multistart, &residuals,
+                                          observer, &result.searches);
   result.status = fit.status;
   result.termination = fit.termination;
   result.evaluations = fit.evaluations;
@@ -156,15 +188,19 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   result.last_failure = fit.last_failure;
   if (fit.residuals.size() == 0) return result;
 
-  // The uncertainties at the best point are computed even after a cancel; they need no further evaluation.
+  // The uncertainties at the best point are computed even after a cancel; they need no further
+  // evaluation.
   result.x = fit.x;
   result.parameters = variables.parameters(fit.x);
   result.samples = residuals.rows();
   result.data = judge_outputs(residuals, residuals.recorded(), fit.start_residuals, fit.residuals);
   result.data_series = series_of(residuals, fit.residuals);
-  judge_numbers(variables, options, residuals.lengths(), residuals.delay_signals(fit.x), fit, &result);
-  if (options.intervals.profiles && !is_set(cancel)) add_profiles(limits, options, fit, &residuals, observer, cancel, &result);
-  if (options.intervals.profiles && is_set(cancel) && result.status.ok()) result.status = {StatusCode::kCancelled, 0.0, "cancelled"};
+  judge_numbers(variables, options, residuals.lengths(), residuals.delay_signals(fit.x), fit,
+                &result);
+  if (options.intervals.profiles && !is_set(cancel))
+    add_profiles(limits, options, fit, &residuals, observer, cancel, &result);
+  if (options.intervals.profiles && is_set(cancel) && result.status.ok())
+    result.status = {StatusCode::kCancelled, 0.0, "cancelled"};
   if (holdout) {
     const Status status = judge_holdout(variables, fit, options.loss, holdout.get(), &result);
     if (result.status.ok()) result.status = status;
@@ -176,7 +212,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
   append(result.warnings, &found);
   result.warnings = std::move(found);
   if (result.status.ok()) result.status = unexplained;
-  if (result.status.ok() && !result.undetermined.empty()) result.status = not_identifiable(result.undetermined);
+  if (result.status.ok() && !result.undetermined.empty())
+    result.status = not_identifiable(result.undetermined);
   result.cpu_seconds = timer.seconds();
   return result;
 }

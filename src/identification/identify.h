@@ -13,13 +13,15 @@ namespace codesign {
 /// @throws InputError if the study of the problem has no block `identify`.
 void require_identification(const Problem& problem);
 
-/// Fits the tuned parameters and the numbers of effort sensors to recordings, with their uncertainties; doc/theory.md (28)-(43). The
-/// holdout only serves to judge the fit; it is never fitted.
-/// @param problem with a block `identify` in its study. @param recordings as load_recordings() returns them.
-/// @param observer called after each evaluation; false ends the fit. @param cancel the fit ends soon after it is set, from any thread;
-/// null: never
+/// Fits the tuned parameters and the numbers of effort sensors to recordings, with their
+/// uncertainties; doc/theory.md (28)-(43). The holdout only serves to judge the fit; it is never
+/// fitted.
+/// @param problem with a block `identify` in its study. @param recordings as load_recordings()
+/// returns them.
+/// @param observer called after each evaluation; false ends the fit. @param cancel the fit ends
+/// soon after it is set, from any thread; null: never
 /// @throws InputError for recordings that do not fit the mechanism
-IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings, const FitObserver& observer,
-                              const std::atomic<bool>* cancel);
+IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings,
+                              const FitObserver& observer, const std::atomic<bool>* cancel);
 
 }  // namespace codesign

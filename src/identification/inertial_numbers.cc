@@ -36,7 +36,8 @@ Eigen::Matrix4d factor_slope(const Ten& x, int k, const Eigen::Matrix4d& U) {
 /// The ten numbers, in the order of kInertialNames, of a pseudo-inertia; linear in it.
 Ten numbers_of(const Eigen::Matrix4d& P) {
   Ten numbers;
-  numbers << P(3, 3), P(0, 3), P(1, 3), P(2, 3), P(1, 1) + P(2, 2), P(0, 0) + P(2, 2), P(0, 0) + P(1, 1), -P(0, 1), -P(1, 2), -P(0, 2);
+  numbers << P(3, 3), P(0, 3), P(1, 3), P(2, 3), P(1, 1) + P(2, 2), P(0, 0) + P(2, 2),
+      P(0, 0) + P(1, 1), -P(0, 1), -P(1, 2), -P(0, 2);
   return numbers;
 }
 
@@ -53,13 +54,15 @@ InertialNumbers inertial_numbers(const Eigen::Matrix<double, 10, 1>& log_cholesk
   return result;
 }
 
-LinearNumbers with_inertial_numbers(const std::vector<std::string>& names, const Eigen::VectorXd& x, const Eigen::MatrixXd& jacobian) {
+LinearNumbers with_inertial_numbers(const std::vector<std::string>& names, const Eigen::VectorXd& x,
+                                    const Eigen::MatrixXd& jacobian) {
   LinearNumbers result{names, x, jacobian, false};
   for (const auto& [link, columns] : free_inertias(names)) {
     result.is_changed = true;
     const InertialNumbers numbers = inertial_numbers(Ten(x(columns)));
     const LeastNorm inverse = least_norm(numbers.derivatives.transpose());
-    const Eigen::MatrixXd by_numbers = inverse.solve(Eigen::MatrixXd(jacobian(Eigen::all, columns).transpose())).transpose();
+    const Eigen::MatrixXd by_numbers =
+        inverse.solve(Eigen::MatrixXd(jacobian(Eigen::all, columns).transpose())).transpose();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const auto column = to_signed(k);
       result.names[to_index(columns[k])] = link + "_" + kInertialNames[k];

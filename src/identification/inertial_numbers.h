@@ -8,11 +8,14 @@
 
 namespace codesign {
 
-/// The ten numbers of a body in which efforts are linear: mass [kg], mass times centre [kg m] and the moments and products of inertia about
-/// the origin of its link [kg m^2]. Their names follow the name of the link: LINK_m and so on.
-inline constexpr std::array<const char*, 10> kInertialNames{"m", "mx", "my", "mz", "Jxx", "Jyy", "Jzz", "Jxy", "Jyz", "Jxz"};
+/// The ten numbers of a body in which efforts are linear: mass [kg], mass times centre [kg m] and
+/// the moments and products of inertia about the origin of its link [kg m^2]. Their names follow
+/// the name of the link: LINK_m and so on.
+inline constexpr std::array<const char*, 10> kInertialNames{"m",   "mx",  "my",  "mz",  "Jxx",
+                                                            "Jyy", "Jzz", "Jxy", "Jyz", "Jxz"};
 
-/// These numbers of a free inertia (28e), and their derivatives (rows) by its ten numbers in the order of kLogCholeskyNames (columns).
+/// These numbers of a free inertia (28e), and their derivatives (rows) by its ten numbers in the
+/// order of kLogCholeskyNames (columns).
 struct InertialNumbers {
   Eigen::Matrix<double, 10, 1> values;
   Eigen::Matrix<double, 10, 10> derivatives;
@@ -27,7 +30,9 @@ struct LinearNumbers {
   bool is_changed = false;  ///< whether there is a free inertia
 };
 
-/// The same fit with each whole free inertia among `names` in the numbers in which efforts are linear.
-LinearNumbers with_inertial_numbers(const std::vector<std::string>& names, const Eigen::VectorXd& x, const Eigen::MatrixXd& jacobian);
+/// The same fit with each whole free inertia among `names` in the numbers in which efforts are
+/// linear.
+LinearNumbers with_inertial_numbers(const std::vector<std::string>& names, const Eigen::VectorXd& x,
+                                    const Eigen::MatrixXd& jacobian);
 
 }  // namespace codesign

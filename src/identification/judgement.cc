@@ -15,67 +15,86 @@
 namespace codesign {
 namespace {
 
-constexpr double kNearBound = 1e-9;       // of the range, or of the magnitude: a number nearer to its bound than this is on the bound
-constexpr double kHoldoutFactor = 1.5;    // times the residuals of the fitted data: a holdout with larger residuals is not explained
-constexpr double kSlopeSignal = 0.8;      // share of signal in the slope of a recorded effort below which a warning is given
+constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number nearer to its
+                                        // bound than this is on the bound
+constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout with
+                                        // larger residuals is not explained
+constexpr double kSlopeSignal =
+    0.8;  // share of signal in the slope of a recorded effort below which a warning is given
 constexpr double kExplainsNothing = 0.1;  // share of an output below which a fit has failed
 constexpr double kWhiteBelow = 0.01;      // probability below which residuals do not count as white
 
-double rms_of(const Eigen::VectorXd& column) { return std::sqrt(column.squaredNorm() / static_cast<double>(column.size())); }
+double rms_of(const Eigen::VectorXd& column) {
+  return std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
+}
 
 bool is_at(double x, double bound, double range) {
-  return std::isfinite(bound) && std::abs(x - bound) <= kNearBound * (std::isfinite(range) ? range : std::abs(bound));
+  return std::isfinite(bound) &&
+         std::abs(x - bound) <= kNearBound * (std::isfinite(range) ? range : std::abs(bound));
 }
 
 /// The columns of the numbers that the data do not hold on a bound.
 std::vector<int> free_columns(const IdentificationResult& result) {
   std::vector<int> columns;
   for (std::size_t k = 0; k < result.numbers.size(); ++k)
-    if (!result.numbers[k].is_on_bound || !result.numbers[k].is_determined) columns.push_back(static_cast<int>(k));
+    if (!result.numbers[k].is_on_bound || !result.numbers[k].is_determined)
+      columns.push_back(static_cast<int>(k));
   return columns;
 }
 
 /// Weighted residuals with the columns of the free numbers.
-WeightedResiduals weighted_columns(const ResidualFit& fit, const LossOptions& loss, const std::vector<DelaySignal>& delays,
+WeightedResiduals weighted_columns(const ResidualFit& fit, const LossOptions& loss,
+                                   const std::vector<DelaySignal>& delays,
                                    const std::vector<int>& columns) {
   Eigen::MatrixXd by_x = fit.jacobian;
   for (const DelaySignal& delay : delays)
-    if (delay.slopes.size() > 0) by_x.col(delay.column).segment(delay.output * fit.residuals.rows(), delay.slopes.size()) = delay.slopes;
+    if (delay.slopes.size() > 0)
+      by_x.col(delay.column).segment(delay.output * fit.residuals.rows(), delay.slopes.size()) =
+          delay.slopes;
   WeightedResiduals weighted = weigh(fit.residuals, &by_x, fit.spreads, loss);
   weighted.jacobian = Eigen::MatrixXd(weighted.jacobian(Eigen::all, columns));
   return weighted;
 }
 
 /// The covariance of the free numbers, by the noise model of `intervals`.
-ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss, const SeriesLengths& lengths,
-                                  const IntervalOptions& intervals, const std::vector<DelaySignal>& delays,
+ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss,
+                                  const SeriesLengths& lengths, const IntervalOptions& intervals,
+                                  const std::vector<DelaySignal>& delays,
                                   const std::vector<int>& columns) {
   const WeightedResiduals weighted = weighted_columns(fit, loss, delays, columns);
-  return parameter_covariance(weighted.residuals, weighted.jacobian, lengths, intervals, fit.own_unknowns);
+  return parameter_covariance(weighted.residuals, weighted.jacobian, lengths, intervals,
+                              fit.own_unknowns);
 }
 
-/// What the data determine of numbers that they do not determine each, and the sentences about those. Free inertias appear by the numbers
-/// in which efforts are linear: combinations of these are the same for all values.
-void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fit, const SeriesLengths& lengths,
-                        const IntervalOptions& intervals, const std::vector<int>& columns, const std::vector<std::string>& names,
+/// What the data determine of numbers that they do not determine each, and the sentences about
+/// those. Free inertias appear by the numbers in which efforts are linear: combinations of these
+/// are the same for all values.
+void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fit,
+                        const SeriesLengths& lengths, const IntervalOptions& intervals,
+                        const std::vector<int>& columns, const std::vector<std::string>& names,
                         const ParameterCovariance& plain, IdentificationResult* result) {
   const LinearNumbers numbers = with_inertial_numbers(names, fit.x(columns), weighted.jacobian);
   const ParameterCovariance changed =
-      numbers.is_changed ? parameter_covariance(weighted.residuals, numbers.jacobian, lengths, intervals, fit.own_unknowns) : plain;
+      numbers.is_changed ? parameter_covariance(weighted.residuals, numbers.jacobian, lengths,
+                                                intervals, fit.own_unknowns)
+                         : plain;
   const Identifiability& found = changed.identifiability;
   result->undetermined = describe_undetermined(found, numbers.names);
   for (Eigen::Index i = 0; i < numbers.x.size(); ++i) {
     const auto k = to_index(i);
-    const bool is_dependent = std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) != found.dependent.end();
+    const bool is_dependent = std::find(found.dependent.begin(), found.dependent.end(),
+                                        static_cast<int>(i)) != found.dependent.end();
     const bool is_told_alone = found.is_determined[k] && numbers.names[k] == names[k];
     if (is_dependent || is_told_alone || plain.identifiability.dependent.empty()) continue;
     const double value = combination_value(found, numbers.x, i);
-    result->combinations.push_back({combination_of(found, numbers.names, i), value, changed.combination_deviation[i],
-                                    value - changed.combination_below[i], value + changed.combination_above[i]});
+    result->combinations.push_back(
+        {combination_of(found, numbers.names, i), value, changed.combination_deviation[i],
+         value - changed.combination_below[i], value + changed.combination_above[i]});
   }
 }
 
-void begin_numbers(const FitVariables& variables, const ResidualFit& fit, IdentificationResult* result) {
+void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
+                   IdentificationResult* result) {
   for (Eigen::Index k = 0; k < variables.size(); ++k) {
     IdentifiedNumber number;
     number.name = variables.names()[to_index(k)];
@@ -85,20 +104,26 @@ void begin_numbers(const FitVariables& variables, const ResidualFit& fit, Identi
     number.lower = variables.lower()[k];
     number.upper = variables.upper()[k];
     const double range = number.upper - number.lower;
-    number.is_on_bound = is_at(number.value, number.lower, range) || is_at(number.value, number.upper, range);
+    number.is_on_bound =
+        is_at(number.value, number.lower, range) || is_at(number.value, number.upper, range);
     result->numbers.push_back(std::move(number));
   }
 }
 
-/// If other numbers can compensate a number on a bound, the data do not hold it there: it is not determined.
-void release_undetermined(const ResidualFit& fit, const LossOptions& loss, IdentificationResult* result) {
-  const Identifiability all = find_identifiable(weigh(fit.residuals, &fit.jacobian, fit.spreads, loss).jacobian);
-  for (std::size_t k = 0; k < result->numbers.size(); ++k) result->numbers[k].is_determined = all.is_determined[k];
+/// If other numbers can compensate a number on a bound, the data do not hold it there: it is not
+/// determined.
+void release_undetermined(const ResidualFit& fit, const LossOptions& loss,
+                          IdentificationResult* result) {
+  const Identifiability all =
+      find_identifiable(weigh(fit.residuals, &fit.jacobian, fit.spreads, loss).jacobian);
+  for (std::size_t k = 0; k < result->numbers.size(); ++k)
+    result->numbers[k].is_determined = all.is_determined[k];
 }
 
 }  // namespace
 
-std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded, const Eigen::MatrixXd& start,
+std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded,
+                                     const Eigen::MatrixXd& start,
                                      const Eigen::MatrixXd& residuals) {
   std::vector<OutputFit> fits;
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
@@ -115,17 +140,19 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
   return fits;
 }
 
-void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
-                   const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result) {
+void judge_numbers(const FitVariables& variables, const IdentificationDescription& options,
+                   const SeriesLengths& lengths, const std::vector<DelaySignal>& delays,
+                   const ResidualFit& fit, IdentificationResult* result) {
   begin_numbers(variables, fit, result);
-  for (const DelaySignal& delay : delays) result->numbers[to_index(delay.column)].slope_signal = delay.share;
+  for (const DelaySignal& delay : delays)
+    result->numbers[to_index(delay.column)].slope_signal = delay.share;
   release_undetermined(fit, options.loss, result);
   const std::vector<int> columns = free_columns(*result);
   result->covariance.setZero(variables.size(), variables.size());
   if (columns.empty()) return;
   const WeightedResiduals weighted = weighted_columns(fit, options.loss, delays, columns);
-  const ParameterCovariance known =
-      parameter_covariance(weighted.residuals, weighted.jacobian, lengths, options.intervals, fit.own_unknowns);
+  const ParameterCovariance known = parameter_covariance(
+      weighted.residuals, weighted.jacobian, lengths, options.intervals, fit.own_unknowns);
   std::vector<std::string> names;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto i = to_signed(k);
@@ -135,19 +162,22 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
     number.low = number.value - known.below[i];
     number.high = number.value + known.above[i];
     names.push_back(number.name);
-    for (std::size_t j = 0; j < columns.size(); ++j) result->covariance(columns[k], columns[j]) = known.covariance(i, to_signed(j));
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      result->covariance(columns[k], columns[j]) = known.covariance(i, to_signed(j));
   }
   result->rank = known.identifiability.rank;
   result->lag = known.lag;
   judge_combinations(weighted, fit, lengths, options.intervals, columns, names, known, result);
 }
 
-void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
-                  const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result) {
+void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
+                  const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
+                  const std::atomic<bool>* cancel, IdentificationResult* result) {
   const std::vector<int> columns = free_columns(*result);
   IntervalOptions white = options.intervals;
   white.noise = NoiseModel::kWhite;
-  const ParameterCovariance plain = covariance_of(fit, options.loss, source->lengths(), white, {}, columns);
+  const ParameterCovariance plain =
+      covariance_of(fit, options.loss, source->lengths(), white, {}, columns);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     IdentifiedNumber& number = result->numbers[to_index(columns[k])];
     if (!number.is_determined || is_set(cancel)) continue;
@@ -156,7 +186,8 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
     ProfileProblem profile;
     profile.optimum = number.value;
     profile.cost = fit.cost;
-    profile.threshold = profile_threshold(options.intervals.level, plain.residual_variance, inflation, plain.degrees);
+    profile.threshold = profile_threshold(options.intervals.level, plain.residual_variance,
+                                          inflation, plain.degrees);
     profile.step = 0.5 * (number.high - number.low);
     profile.lower = number.lower;
     profile.upper = number.upper;
@@ -179,7 +210,8 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
   }
 }
 
-Warnings unexplained_outputs(const IdentificationDescription& options, const IdentificationResult& result,
+Warnings unexplained_outputs(const IdentificationDescription& options,
+                             const IdentificationResult& result,
                              const std::vector<EffortDoubt>& doubts, Status* failure) {
   Warnings warnings;
   for (const OutputFit& fit : result.data) {
@@ -187,19 +219,24 @@ Warnings unexplained_outputs(const IdentificationDescription& options, const Ide
     // A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`.
     const bool is_motion = options.residual == ResidualKind::kMotion;
     const std::string joint = is_motion ? fit.joint.substr(0, fit.joint.rfind('/')) : fit.joint;
-    const auto doubt = std::find_if(doubts.begin(), doubts.end(), [&joint](const EffortDoubt& of) { return of.joint == joint; });
+    const auto doubt = std::find_if(doubts.begin(), doubts.end(),
+                                    [&joint](const EffortDoubt& of) { return of.joint == joint; });
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
-    const std::string sentence = "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " + fit.joint +
-                                 ": sign, unit, order?" + (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
-                                 (mistake.empty() ? "" : " " + mistake);
+    const std::string sentence =
+        "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
+        fit.joint + ": sign, unit, order?" +
+        (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
+        (mistake.empty() ? "" : " " + mistake);
     const std::string allowed =
         is_motion
-            ? "at least half; positions in rad or m along the axis of the joint, efforts on the child in N m or N along the same axis, "
+            ? "at least half; positions in rad or m along the axis of the joint, efforts on the "
+              "child in N m or N along the same axis, "
               "and the controllers and loads that drove the recording"
             : "at least half; a recording in N m or N on the child, along the axis of its joint";
-    warnings.push_back(
-        warn(is_motion ? "motion_not_explained" : "effort_not_explained", {options.where, "identify.data", sentence, "", allowed}));
-    if (failure->ok() && (fit.explained < kExplainsNothing || !mistake.empty())) *failure = {StatusCode::kNotIdentifiable, 0.0, sentence};
+    warnings.push_back(warn(is_motion ? "motion_not_explained" : "effort_not_explained",
+                            {options.where, "identify.data", sentence, "", allowed}));
+    if (failure->ok() && (fit.explained < kExplainsNothing || !mistake.empty()))
+      *failure = {StatusCode::kNotIdentifiable, 0.0, sentence};
   }
   return warnings;
 }
@@ -209,41 +246,52 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
   for (std::size_t k = 0; k < result.holdout.size(); ++k) {
     const double here = result.holdout[k].rms, there = result.data[k].rms;
     if (!(here > kHoldoutFactor * there)) continue;
-    warnings.push_back(warn("holdout_failed", {options.where, "identify.holdout",
-                                               "the fitted model does not explain the holdout: root mean square of the residuals of " +
-                                                   result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
-                                               readable(here), "at most " + readable(kHoldoutFactor * there)}));
+    warnings.push_back(warn(
+        "holdout_failed",
+        {options.where, "identify.holdout",
+         "the fitted model does not explain the holdout: root mean square of the residuals of " +
+             result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
+         readable(here), "at most " + readable(kHoldoutFactor * there)}));
   }
   if (result.termination == "max_evaluations_reached")
     warnings.push_back(warn(
         "max_evaluations_reached",
-        {options.where, "optimizer.max_evaluations", "the fit ended before it reached an optimum; its numbers are those of the best point",
+        {options.where, "optimizer.max_evaluations",
+         "the fit ended before it reached an optimum; its numbers are those of the best point",
          std::to_string(result.evaluations), "more evaluations, or a larger relative_tolerance"}));
   if (2 * result.failed_evaluations > result.evaluations)
-    warnings.push_back(warn("fit_hindered", {options.where, "identify",
-                                             std::to_string(result.failed_evaluations) + " of " + std::to_string(result.evaluations) +
-                                                 " points could not be evaluated, the last one for: " + result.last_failure.cause,
-                                             "", "bounds or twins that leave such points out, or another start"}));
+    warnings.push_back(warn(
+        "fit_hindered",
+        {options.where, "identify",
+         std::to_string(result.failed_evaluations) + " of " + std::to_string(result.evaluations) +
+             " points could not be evaluated, the last one for: " + result.last_failure.cause,
+         "", "bounds or twins that leave such points out, or another start"}));
   for (const IdentifiedNumber& number : result.numbers)
     if (number.is_on_bound)
-      warnings.push_back(
-          warn("identified_on_bound", {options.where, number.name, "the fit ends on a bound, so that this number has no interval",
-                                       readable(number.value), "wider bounds, or other data"}));
+      warnings.push_back(warn("identified_on_bound",
+                              {options.where, number.name,
+                               "the fit ends on a bound, so that this number has no interval",
+                               readable(number.value), "wider bounds, or other data"}));
   for (const IdentifiedNumber& number : result.numbers)
     if (number.slope_signal < kSlopeSignal)
       warnings.push_back(
-          warn("delay_in_noise", {options.where, number.name,
-                                  "noise makes up for " + readable(100.0 * (1.0 - number.slope_signal), 2) +
-                                      " % of the slope of the recorded effort, by which this delay is found; its interval counts that, but "
-                                      "not that the delay is drawn to where samples are interpolated most smoothly",
-                                  readable(number.value), "a lower identify.filter.residual_cutoff, where the noise begins"}));
+          warn("delay_in_noise",
+               {options.where, number.name,
+                "noise makes up for " + readable(100.0 * (1.0 - number.slope_signal), 2) +
+                    " % of the slope of the recorded effort, by which this delay is found; its "
+                    "interval counts that, but "
+                    "not that the delay is drawn to where samples are interpolated most smoothly",
+                readable(number.value),
+                "a lower identify.filter.residual_cutoff, where the noise begins"}));
   for (const OutputFit& fit : result.data)
     if (options.intervals.noise == NoiseModel::kWhite && fit.whiteness.probability < kWhiteBelow)
       warnings.push_back(
-          warn("correlated_residuals", {options.where, "identify.intervals.noise",
-                                        "the residuals of " + fit.joint + " are correlated (correlation of neighbours " +
-                                            readable(fit.whiteness.first_correlation) + "), so that these intervals are too narrow",
-                                        "white", "correlated"}));
+          warn("correlated_residuals",
+               {options.where, "identify.intervals.noise",
+                "the residuals of " + fit.joint + " are correlated (correlation of neighbours " +
+                    readable(fit.whiteness.first_correlation) +
+                    "), so that these intervals are too narrow",
+                "white", "correlated"}));
   return warnings;
 }
 

@@ -11,29 +11,35 @@
 namespace codesign {
 
 /// One OutputFit per output. @param recorded, start, residuals rows x outputs
-std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded, const Eigen::MatrixXd& start,
+std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded,
+                                     const Eigen::MatrixXd& start,
                                      const Eigen::MatrixXd& residuals);
 
-/// Sets numbers, covariance, rank, lag and the sentences about numbers that the data do not determine, from a fit with a best point.
+/// Sets numbers, covariance, rank, lag and the sentences about numbers that the data do not
+/// determine, from a fit with a best point.
 /// @param delays their columns count without the noise of recorded efforts, doc/theory.md (33a)
-void judge_numbers(const FitVariables& variables, const IdentificationDescription& options, const SeriesLengths& lengths,
-                   const std::vector<DelaySignal>& delays, const ResidualFit& fit, IdentificationResult* result);
+void judge_numbers(const FitVariables& variables, const IdentificationDescription& options,
+                   const SeriesLengths& lengths, const std::vector<DelaySignal>& delays,
+                   const ResidualFit& fit, IdentificationResult* result);
 
-/// Computes intervals of the profile likelihood of all numbers that the data determine: each number is fixed in turn, and all others are
-/// fitted anew.
-/// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param observer called after each evaluation,
-/// with FitTrial::profile set; may be empty.
-void add_profiles(const FitProblem& problem, const IdentificationDescription& options, const ResidualFit& fit, ResidualSource* source,
-                  const FitObserver& observer, const std::atomic<bool>* cancel, IdentificationResult* result);
+/// Computes intervals of the profile likelihood of all numbers that the data determine: each number
+/// is fixed in turn, and all others are fitted anew.
+/// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param
+/// observer called after each evaluation, with FitTrial::profile set; may be empty.
+void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
+                  const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
+                  const std::atomic<bool>* cancel, IdentificationResult* result);
 
-/// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit explains less than half. @param doubts about
-/// the recordings as the model stands. @param failure set if the fit explains less than a tenth of an output, or if a mistake in the
-/// recording explains more
-Warnings unexplained_outputs(const IdentificationDescription& options, const IdentificationResult& result,
+/// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit
+/// explains less than half. @param doubts about the recordings as the model stands. @param failure
+/// set if the fit explains less than a tenth of an output, or if a mistake in the recording
+/// explains more
+Warnings unexplained_outputs(const IdentificationDescription& options,
+                             const IdentificationResult& result,
                              const std::vector<EffortDoubt>& doubts, Status* failure);
 
-/// Warnings about the result: `holdout_failed` first, `max_evaluations_reached`, `fit_hindered`, `identified_on_bound`,
-/// `correlated_residuals`, `delay_in_noise`.
+/// Warnings about the result: `holdout_failed` first, `max_evaluations_reached`, `fit_hindered`,
+/// `identified_on_bound`, `correlated_residuals`, `delay_in_noise`.
 Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign

@@ -10,8 +10,9 @@
 
 namespace codesign {
 
-/// Computes the motion of the drives that fits the measured motion of all joints best, if more joints were measured than the mechanism has
-/// degrees of freedom; doc/theory.md (28a). Least squares over positions, then over velocities, then over accelerations, each weighted by
+/// Computes the motion of the drives that fits the measured motion of all joints best, if more
+/// joints were measured than the mechanism has degrees of freedom; doc/theory.md (28a). Least
+/// squares over positions, then over velocities, then over accelerations, each weighted by
 /// MeasuredJoint::deviation.
 class MotionProjection {
  public:
@@ -21,16 +22,19 @@ class MotionProjection {
   /// Whether there is no surplus joint and nothing to project.
   bool empty() const { return surplus_.empty(); }
 
-  /// @param measured position, velocity and acceleration of all measured joints at one sample. @param drives the same of the drives alone;
-  /// on return projected. @param motion holds the design. @param state near the measured motion; on return the solution.
-  Status project(const Eigen::VectorXd (&measured)[3], Eigen::VectorXd (*drives)[3], DrivenMotion* motion, State<double>* state) const;
+  /// @param measured position, velocity and acceleration of all measured joints at one sample.
+  /// @param drives the same of the drives alone; on return projected. @param motion holds the
+  /// design. @param state near the measured motion; on return the solution.
+  Status project(const Eigen::VectorXd (&measured)[3], Eigen::VectorXd (*drives)[3],
+                 DrivenMotion* motion, State<double>* state) const;
 
  private:
   struct Coordinate {
     int measured, pair, element;
   };
   Eigen::MatrixXd slopes(DrivenMotion* motion, const State<double>& state) const;
-  Eigen::VectorXd correction(const Eigen::MatrixXd& K, const Eigen::VectorXd& drive_misses, const Eigen::VectorXd& surplus_misses) const;
+  Eigen::VectorXd correction(const Eigen::MatrixXd& K, const Eigen::VectorXd& drive_misses,
+                             const Eigen::VectorXd& surplus_misses) const;
   Eigen::VectorXd part_of(const Eigen::VectorXd& measured) const;
   Eigen::VectorXd values(int order, DrivenMotion* motion, const State<double>& state) const;
 
@@ -39,22 +43,24 @@ class MotionProjection {
   Eigen::VectorXd drive_weights_, surplus_weights_;  ///< 1 / deviation^2
 };
 
-/// Frames of a mechanism whose measured joints follow the measured motion, at one design: poses, friction, and the efforts of the drives;
-/// doc/theory.md (28). Not thread-safe.
+/// Frames of a mechanism whose measured joints follow the measured motion, at one design: poses,
+/// friction, and the efforts of the drives; doc/theory.md (28). Not thread-safe.
 class DrivenReplay {
  public:
-  /// @param system must outlive this. @param positions of the measured joints at some instants, as in make_driven_system().
+  /// @param system must outlive this. @param positions of the measured joints at some instants, as
+  /// in make_driven_system().
   /// @throws InputError as make_driven_system().
-  DrivenReplay(const CompiledSystem& system, std::vector<MeasuredJoint> joints, const Eigen::MatrixXd& positions,
-               const std::vector<double>& parameters);
+  DrivenReplay(const CompiledSystem& system, std::vector<MeasuredJoint> joints,
+               const Eigen::MatrixXd& positions, const std::vector<double>& parameters);
 
   const FrameNames& names() const { return observer_.names(); }
 
-  /// Assembles the mechanism near measured positions [rad or m], one per measured joint. Call it before the first instant of each
-  /// recording.
+  /// Assembles the mechanism near measured positions [rad or m], one per measured joint. Call it
+  /// before the first instant of each recording.
   Status begin(const Eigen::VectorXd& positions);
 
-  /// @param measured positions, velocities and accelerations of the measured joints, near the motion of the previous call.
+  /// @param measured positions, velocities and accelerations of the measured joints, near the
+  /// motion of the previous call.
   /// @param frame its time is not set. It has the efforts on the drives; other efforts are zero.
   Status show(const Eigen::VectorXd (&measured)[3], Frame* frame);
 
@@ -67,7 +73,7 @@ class DrivenReplay {
   MotionProjection projection_;
   Observer observer_;
   std::vector<std::size_t> drives_;  ///< index in FrameNames::joints of each drive
-  VectorX<double> theta_;            ///< positions at the study's start, for joints that move no mass
+  VectorX<double> theta_;  ///< positions at the study's start, for joints that move no mass
   State<double> state_;
 };
 

@@ -15,38 +15,50 @@
 namespace codesign {
 namespace {
 
-constexpr double kSlowStart = 0.1;      // of the segment's previous promise, and of the sum of all: a start with a larger promise is slow
-constexpr std::size_t kFew = 4;         // slow starts are helped if at most one segment in so many has one
-constexpr double kWorthHelp = 1e-6;     // of the value: a smaller sum of promises does not hinder a fit
-constexpr double kSettledShare = 1e-8;  // of the value of a segment: a start with a smaller promise counts as the best one
+constexpr double kSlowStart = 0.1;  // of the segment's previous promise, and of the sum of all: a
+                                    // start with a larger promise is slow
+constexpr std::size_t kFew = 4;  // slow starts are helped if at most one segment in so many has one
+constexpr double kWorthHelp =
+    1e-6;  // of the value: a smaller sum of promises does not hinder a fit
+constexpr double kSettledShare =
+    1e-8;  // of the value of a segment: a start with a smaller promise counts as the best one
 
 /// Recorded positions at a few instants, joints x instants.
-Eigen::MatrixXd positions_of_some(const JointRecording& recording, const std::vector<MeasuredJoint>& joints) {
+Eigen::MatrixXd positions_of_some(const JointRecording& recording,
+                                  const std::vector<MeasuredJoint>& joints) {
   constexpr Eigen::Index kInstants = 4;
   Eigen::MatrixXd some(to_signed(joints.size()), kInstants);
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (Eigen::Index k = 0; k < kInstants; ++k)
-      some(to_signed(j), k) = recording.find(joints[j].name)->position[(recording.times.size() - 1) * to_index(k) / kInstants];
+      some(to_signed(j), k) =
+          recording.find(joints[j].name)
+              ->position[(recording.times.size() - 1) * to_index(k) / kInstants];
   return some;
 }
 
-/// @throws InputError naming the joint: a simulated motion begins at measured positions and is compared with them.
+/// @throws InputError naming the joint: a simulated motion begins at measured positions and is
+/// compared with them.
 void require_positions(const std::vector<JointRecording>& recordings) {
   for (const JointRecording& recording : recordings)
     for (const JointSamples& samples : recording.joints)
       if (samples.position.empty())
-        throw InputError({recording.where, recording.element, "residuals in motion need recorded positions", samples.joint,
-                          "positions of each joint, or residual: effort, which integrates velocities from a start"});
+        throw InputError({recording.where, recording.element,
+                          "residuals in motion need recorded positions", samples.joint,
+                          "positions of each joint, or residual: effort, which integrates "
+                          "velocities from a start"});
 }
 
 /// Recordings do not show the deflection of bristles at the begin of a segment.
-void warn_of_friction_states(const CompiledSystem& system, const IdentificationDescription& options, Warnings* warnings) {
+void warn_of_friction_states(const CompiledSystem& system, const IdentificationDescription& options,
+                             Warnings* warnings) {
   if (system.bristles().empty()) return;
   append({warn("segment_friction_states",
                {options.where, "identify.segment",
-                "friction with states begins each segment unloaded: a joint that sticks there gives way by the deflection of its bristles, "
+                "friction with states begins each segment unloaded: a joint that sticks there "
+                "gives way by the deflection of its bristles, "
                 "and its first slip counts as a change of the start",
-                readable(options.segment), "segments that begin while the joint moves, or longer ones"})},
+                readable(options.segment),
+                "segments that begin while the joint moves, or longer ones"})},
          warnings);
 }
 
@@ -73,8 +85,10 @@ struct MotionResiduals::MotionWorker {
   std::vector<std::unique_ptr<SegmentRun>> runs;
 };
 
-MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariables& variables, const IdentificationDescription& options,
-                                 const std::vector<MeasuredJoint>& joints, std::vector<JointRecording> recordings, int threads,
+MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariables& variables,
+                                 const IdentificationDescription& options,
+                                 const std::vector<MeasuredJoint>& joints,
+                                 std::vector<JointRecording> recordings, int threads,
                                  Warnings* warnings)
     : system_(system), variables_(variables), recordings_(std::move(recordings)) {
   require_positions(recordings_);
@@ -85,14 +99,17 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
   Eigen::Index rows = 0;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     const JointRecording& recording = recordings_[r];
-    systems_.push_back(make_segment_system(system, variables, joints, independent_, outputs, recording));
-    segments_.push_back(cut_into_segments(recording, systems_.back(), variables, independent_, options, warnings));
+    systems_.push_back(
+        make_segment_system(system, variables, joints, independent_, outputs, recording));
+    segments_.push_back(
+        cut_into_segments(recording, systems_.back(), variables, independent_, options, warnings));
     std::vector<double> times = recording.times;
     for (double& time : times) time -= systems_.back().epoch;
     efforts_.emplace_back();
     for (const MotionOutput& output : outputs) {
       std::optional<RecordedEffort>& effort = efforts_.back().emplace_back();
-      if (output.quantity == MeasuredQuantity::kEffort) effort.emplace(times, recording.find(output.joint)->effort);
+      if (output.quantity == MeasuredQuantity::kEffort)
+        effort.emplace(times, recording.find(output.joint)->effort);
     }
     const Eigen::Index begin = rows;
     for (std::size_t k = 0; k < segments_.back().size(); ++k) {
@@ -107,7 +124,8 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
     recorded_.middleRows(place.row, part.rows()) = part;
   }
   spreads_ = variation_of(recorded_);
-  for (int k = 0; k < std::max(threads, 1); ++k) workers_.push_back(std::make_unique<MotionWorker>());
+  for (int k = 0; k < std::max(threads, 1); ++k)
+    workers_.push_back(std::make_unique<MotionWorker>());
 }
 
 MotionResiduals::~MotionResiduals() = default;
@@ -115,7 +133,8 @@ MotionResiduals::~MotionResiduals() = default;
 std::vector<double> MotionResiduals::times() const {
   std::vector<double> times;
   for (const Place& place : places_)
-    for (const double time : segments_[place.recording][place.segment].times) times.push_back(time + systems_[place.recording].epoch);
+    for (const double time : segments_[place.recording][place.segment].times)
+      times.push_back(time + systems_[place.recording].epoch);
   return times;
 }
 
@@ -128,8 +147,10 @@ Eigen::Index MotionResiduals::own_unknowns() const {
 Status MotionResiduals::failure_of(std::size_t place, Status status) const {
   if (status.code == StatusCode::kCancelled) return status;
   const Place& at = places_[place];
-  const double begin = segments_[at.recording][at.segment].begin.time + systems_[at.recording].epoch;
-  status.cause = "segment at " + readable(begin, 6) + " s of " + recordings_[at.recording].element + ": " + status.cause;
+  const double begin =
+      segments_[at.recording][at.segment].begin.time + systems_[at.recording].epoch;
+  status.cause = "segment at " + readable(begin, 6) + " s of " + recordings_[at.recording].element +
+                 ": " + status.cause;
   return status;
 }
 
@@ -139,7 +160,8 @@ Status MotionResiduals::begin(const Eigen::VectorXd& x) {
   settled_ = {};
   is_counted_anew_ = true;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
-    Status status = set_branches(recordings_[r], systems_[r], system_, variables_, x, independent_, cancel_, &segments_[r]);
+    Status status = set_branches(recordings_[r], systems_[r], system_, variables_, x, independent_,
+                                 cancel_, &segments_[r]);
     if (!status.ok()) {
       status.cause = recordings_[r].element + ": " + status.cause;
       return status;
@@ -158,10 +180,12 @@ MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) cons
   Guesses guesses(places_.size());
   for (std::size_t place = 0; place < places_.size(); ++place) {
     std::vector<Eigen::VectorXd>& starts = guesses[place];
-    const bool is_settled = settled_.x.size() > 0, is_here = is_settled && is_counted_anew_ && settled_.x == x;
+    const bool is_settled = settled_.x.size() > 0,
+               is_here = is_settled && is_counted_anew_ && settled_.x == x;
     if (is_here) starts.push_back(settled_.starts[place]);
     if (reference_.x.size() > 0) {
-      starts.push_back(reference_.starts[place] - reference_.corrections[place] - reference_.slopes[place] * (x - reference_.x));
+      starts.push_back(reference_.starts[place] - reference_.corrections[place] -
+                       reference_.slopes[place] * (x - reference_.x));
       starts.push_back(reference_.starts[place]);
     }
     if (is_settled && !is_here) starts.push_back(settled_.starts[place]);
@@ -170,7 +194,8 @@ MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) cons
   return guesses;
 }
 
-Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work, std::vector<SegmentSolution>* solutions) {
+Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work,
+                              std::vector<SegmentSolution>* solutions) {
   std::atomic<std::size_t> next{0};
   side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t worker) {
     std::vector<std::unique_ptr<SegmentRun>>& runs = workers_[worker]->runs;
@@ -179,10 +204,17 @@ Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, 
       if (guesses[k].empty()) continue;
       const Place& place = places_[k];
       std::unique_ptr<SegmentRun>& run = runs[place.recording];
-      if (!run) run = std::make_unique<SegmentRun>(systems_[place.recording], segments_[place.recording].front().begin);
+      if (!run)
+        run = std::make_unique<SegmentRun>(systems_[place.recording],
+                                           segments_[place.recording].front().begin);
       run->obey(cancel_);
-      const SegmentProblem problem{
-          systems_[place.recording], variables_, efforts_[place.recording], segments_[place.recording][place.segment], x, spreads_, loss_};
+      const SegmentProblem problem{systems_[place.recording],
+                                   variables_,
+                                   efforts_[place.recording],
+                                   segments_[place.recording][place.segment],
+                                   x,
+                                   spreads_,
+                                   loss_};
       (*solutions)[k] = fit_segment(problem, guesses[k], work, run.get());
     }
   });
@@ -192,15 +224,17 @@ Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, 
     if (guesses[k].empty()) continue;
     runs_ += (*solutions)[k].runs;
     whole_runs_ += (*solutions)[k].whole_runs;
-    if (failure.ok() && !(*solutions)[k].status.ok()) failure = failure_of(k, (*solutions)[k].status);
+    if (failure.ok() && !(*solutions)[k].status.ok())
+      failure = failure_of(k, (*solutions)[k].status);
   }
   return failure;
 }
 
-/// Looks for better starts of some segments. @param from starts to begin with. @param improved on return the starts that are better; empty
-/// for the other segments. The derivatives in `solutions` still belong to the previous starts.
-Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work, std::vector<SegmentSolution>* solutions,
-                                Guesses* improved) {
+/// Looks for better starts of some segments. @param from starts to begin with. @param improved on
+/// return the starts that are better; empty for the other segments. The derivatives in `solutions`
+/// still belong to the previous starts.
+Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work,
+                                std::vector<SegmentSolution>* solutions, Guesses* improved) {
   std::vector<SegmentSolution> found(places_.size());
   if (Status status = solve(x, from, work, &found); !status.ok()) return status;
   improved->assign(places_.size(), {});
@@ -215,22 +249,29 @@ Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentW
   return {};
 }
 
-/// A point may be worse than the best point only because the step of its starts was too long. Replaces these starts by the best starts. If
-/// the point is then better than the best point so far, computes its derivatives at these starts, too.
+/// A point may be worse than the best point only because the step of its starts was too long.
+/// Replaces these starts by the best starts. If the point is then better than the best point so
+/// far, computes its derivatives at these starts, too.
 Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
   Guesses unsettled(places_.size()), improved;
   for (std::size_t k = 0; k < places_.size(); ++k)
     if ((*solutions)[k].promise > kSettledShare * (*solutions)[k].value)
-      // From these starts the value can only fall; for small steps of x it is near the value of the best point.
-      unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x), reference_.starts[k], (*solutions)[k].start};
-  if (Status status = improve(x, std::move(unsettled), SegmentWork::kBestStart, solutions, &improved); !status.ok()) return status;
+      // From these starts the value can only fall; for small steps of x it is near the value of the
+      // best point.
+      unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x),
+                      reference_.starts[k], (*solutions)[k].start};
+  if (Status status =
+          improve(x, std::move(unsettled), SegmentWork::kBestStart, solutions, &improved);
+      !status.ok())
+    return status;
   if (!(value_of(*solutions) < reference_.value)) return {};
   return solve(x, improved, SegmentWork::kElimination, solutions);
 }
 
-/// If the residuals of a segment are large and curved, its start converges only linearly, and a few such segments would delay the whole
-/// fit. Their starts take a few more steps.
-Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
+/// If the residuals of a segment are large and curved, its start converges only linearly, and a few
+/// such segments would delay the whole fit. Their starts take a few more steps.
+Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x,
+                                         std::vector<SegmentSolution>* solutions) {
   double owed = 0.0;
   for (const SegmentSolution& solution : *solutions) owed += solution.promise;
   Guesses slow(places_.size()), improved;
@@ -241,12 +282,16 @@ Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x, std::vector<S
     slow[k] = {solution.start - solution.correction, solution.start};
     ++count;
   }
-  if (count == 0 || kFew * count > places_.size() || !(owed > kWorthHelp * value_of(*solutions))) return {};
-  if (Status status = improve(x, std::move(slow), SegmentWork::kBetterStart, solutions, &improved); !status.ok()) return status;
+  if (count == 0 || kFew * count > places_.size() || !(owed > kWorthHelp * value_of(*solutions)))
+    return {};
+  if (Status status = improve(x, std::move(slow), SegmentWork::kBetterStart, solutions, &improved);
+      !status.ok())
+    return status;
   return solve(x, improved, SegmentWork::kElimination, solutions);
 }
 
-void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std::vector<SegmentSolution>& solutions) {
+void MotionResiduals::remember(const Eigen::VectorXd& x, double value,
+                               const std::vector<SegmentSolution>& solutions) {
   if (!is_counted_anew_ && !(value < reference_.value)) return;
   is_counted_anew_ = false;
   reference_ = {x, value, {}, {}, {}, {}};
@@ -258,14 +303,17 @@ void MotionResiduals::remember(const Eigen::VectorXd& x, double value, const std
   }
 }
 
-Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
+Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                                 Eigen::MatrixXd* jacobian) {
   std::vector<SegmentSolution> solutions(places_.size());
   const SegmentWork work = jacobian ? SegmentWork::kElimination : SegmentWork::kBestStart;
   if (Status status = solve(x, guesses(x), work, &solutions); !status.ok()) return status;
   if (jacobian) {
     if (!is_counted_anew_) {
       const bool is_better = value_of(solutions) < reference_.value;
-      if (Status status = is_better ? help_slow_starts(x, &solutions) : settle(x, &solutions); !status.ok()) return status;
+      if (Status status = is_better ? help_slow_starts(x, &solutions) : settle(x, &solutions);
+          !status.ok())
+        return status;
     }
     remember(x, value_of(solutions), solutions);
     owed_ = 0.0;

@@ -20,14 +20,20 @@ namespace codesign {
 namespace {
 
 constexpr int kMostPasses = 10;
-constexpr double kLeastWorth = 0.1;        // of one residual: the least gain of a step of a fit with a prior,
-constexpr double kWorthPerNumber = 0.01;   // or this for each number that it finds
-constexpr double kSpreadTolerance = 1e-3;  // relative change of all spreads at which they count as settled,
-constexpr double kSpreadShare = 0.1;       // or this share of the standard deviation of a spread, in a fit with a prior
-constexpr double kLeastSpread = 1e-9;      // of the root mean square at the start: the lower limit of a spread, for exact data
+constexpr double kLeastWorth =
+    0.1;  // of one residual: the least gain of a step of a fit with a prior,
+constexpr double kWorthPerNumber = 0.01;  // or this for each number that it finds
+constexpr double kSpreadTolerance =
+    1e-3;  // relative change of all spreads at which they count as settled,
+constexpr double kSpreadShare =
+    0.1;  // or this share of the standard deviation of a spread, in a fit with a prior
+constexpr double kLeastSpread =
+    1e-9;  // of the root mean square at the start: the lower limit of a spread, for exact data
 
 Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
-  return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows())).cwiseSqrt().transpose();
+  return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows()))
+      .cwiseSqrt()
+      .transpose();
 }
 
 double median_magnitude(const Eigen::VectorXd& column) {
@@ -39,9 +45,11 @@ double median_magnitude(const Eigen::VectorXd& column) {
 }
 
 /// The spreads of residuals, bounded below by a fraction of the spreads at the start.
-Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOptions& loss, const Eigen::VectorXd& at_start) {
+Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOptions& loss,
+                              const Eigen::VectorXd& at_start) {
   Eigen::VectorXd spreads = spreads_of(residuals, loss);
-  for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
+  for (Eigen::Index k = 0; k < spreads.size(); ++k)
+    spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
   return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
 }
 
@@ -51,7 +59,8 @@ double spread_tolerance(const FitProblem& problem, Eigen::Index rows) {
   return std::max(kSpreadTolerance, kSpreadShare / std::sqrt(2.0 * static_cast<double>(rows)));
 }
 
-/// Deviations from what is known before, each over its standard deviation; zero where nothing is known.
+/// Deviations from what is known before, each over its standard deviation; zero where nothing is
+/// known.
 Eigen::VectorXd surprises(const FitProblem& problem, const Eigen::VectorXd& x) {
   if (problem.prior.size() == 0) return {};
   return (x - problem.known).cwiseQuotient(problem.prior);
@@ -69,8 +78,8 @@ Eigen::MatrixXd root_with_prior(const FitProblem& problem, const Eigen::MatrixXd
 /// The cost with fixed spreads. Keeps residuals and Jacobian of the best point, and the counts.
 class WeightedCost final : public LeastSquaresModel {
  public:
-  WeightedCost(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source, const FitObserver& observer,
-               ResidualFit* fit)
+  WeightedCost(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source,
+               const FitObserver& observer, ResidualFit* fit)
       : problem_(problem), spreads_(spreads), source_(*source), observer_(observer), fit_(*fit) {}
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
@@ -83,7 +92,9 @@ class WeightedCost final : public LeastSquaresModel {
     const Status status = source_.evaluate(x, &residuals_, &jacobian_);
     if (status.code == StatusCode::kCancelled) return stop(status);
     ++fit_.evaluations;
-    FitTrial trial{fit_.evaluations, status, std::numeric_limits<double>::infinity(), {}, x, source_.outputs(), fit_.iterations};
+    FitTrial trial{
+        fit_.evaluations,  status,         std::numeric_limits<double>::infinity(), {}, x,
+        source_.outputs(), fit_.iterations};
     if (!status.ok()) {
       ++fit_.failed_evaluations;
       fit_.last_failure = status;
@@ -98,8 +109,11 @@ class WeightedCost final : public LeastSquaresModel {
     return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
   }
 
-  /// Whether the fit begins anew with other spreads at its best point, whose residuals are known. Unknowns of the source's own are not.
-  bool begins_at_best() const { return !is_begun_ && fit_.jacobian.size() > 0 && source_.own_unknowns() == 0; }
+  /// Whether the fit begins anew with other spreads at its best point, whose residuals are known.
+  /// Unknowns of the source's own are not.
+  bool begins_at_best() const {
+    return !is_begun_ && fit_.jacobian.size() > 0 && source_.own_unknowns() == 0;
+  }
 
  private:
   void take(const Eigen::VectorXd& x, LeastSquaresPoint* point) {
@@ -138,24 +152,30 @@ class WeightedCost final : public LeastSquaresModel {
   bool is_begun_ = false;
 };
 
-void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer, ResidualFit* fit) {
-  const Eigen::Index rows = std::accumulate(source->lengths().begin(), source->lengths().end(), Eigen::Index{0});
+void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer,
+            ResidualFit* fit) {
+  const Eigen::Index rows =
+      std::accumulate(source->lengths().begin(), source->lengths().end(), Eigen::Index{0});
   source->count_by(fit->spreads, problem.loss);
   fit->own_unknowns = source->own_unknowns();
   WeightedCost cost(problem, fit->spreads, source, observer, fit);
   LevenbergMarquardtOptions options;
-  options.max_evaluations = std::max(1, problem.max_evaluations - fit->evaluations + (cost.begins_at_best() ? 1 : 0));
+  options.max_evaluations =
+      std::max(1, problem.max_evaluations - fit->evaluations + (cost.begins_at_best() ? 1 : 0));
   options.relative_tolerance = problem.relative_tolerance;
-  // Along directions that only a prior determines steps gain little. The cost of the true numbers is above the least one by about their
-  // count, so that a hundredth of that is nothing.
+  // Along directions that only a prior determines steps gain little. The cost of the true numbers
+  // is above the least one by about their count, so that a hundredth of that is nothing.
   if (problem.prior.size() > 0) {
-    const double worth = std::max(kLeastWorth, kWorthPerNumber * static_cast<double>(fit->x.size()));
-    options.relative_tolerance = std::max(options.relative_tolerance, worth / static_cast<double>(std::max<Eigen::Index>(1, rows)));
+    const double worth =
+        std::max(kLeastWorth, kWorthPerNumber * static_cast<double>(fit->x.size()));
+    options.relative_tolerance = std::max(
+        options.relative_tolerance, worth / static_cast<double>(std::max<Eigen::Index>(1, rows)));
   }
   options.largest_first_step = std::numeric_limits<double>::infinity();
   Eigen::VectorXd x = fit->x;
   LeastSquaresPoint best;
-  fit->termination = name_of(minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best));
+  fit->termination =
+      name_of(minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best));
 }
 
 /// A point that may start a fit.
@@ -171,21 +191,25 @@ std::vector<int> bounded_columns(const FitProblem& problem) {
   return columns;
 }
 
-std::vector<Eigen::VectorXd> points_of(const FitProblem& problem, const MultistartOptions& options) {
+std::vector<Eigen::VectorXd> points_of(const FitProblem& problem,
+                                       const MultistartOptions& options) {
   const std::vector<int> columns = bounded_columns(problem);
-  const Eigen::MatrixXd unit = unit_points(options.sampler, options.screen, static_cast<int>(columns.size()), options.seed);
+  const Eigen::MatrixXd unit =
+      unit_points(options.sampler, options.screen, static_cast<int>(columns.size()), options.seed);
   std::vector<Eigen::VectorXd> points(to_index(options.screen), problem.start);
   for (std::size_t i = 1; i < points.size(); ++i)
     for (std::size_t j = 0; j < columns.size(); ++j) {
       const int k = columns[j];
-      points[i][k] = problem.lower[k] + unit(to_signed(i), to_signed(j)) * (problem.upper[k] - problem.lower[k]);
+      points[i][k] = problem.lower[k] +
+                     unit(to_signed(i), to_signed(j)) * (problem.upper[k] - problem.lower[k]);
     }
   return points;
 }
 
 /// Chooses the starts, best first. @param interruption receives the status of a cancel.
-std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOptions& options, ResidualSource* source,
-                                  FitSearches* searches, Status* interruption) {
+std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOptions& options,
+                                  ResidualSource* source, FitSearches* searches,
+                                  Status* interruption) {
   std::vector<ScreenedPoint> usable;
   Eigen::MatrixXd residuals;
   for (const Eigen::VectorXd& x : points_of(problem, options)) {
@@ -200,7 +224,9 @@ std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOpt
     else
       ++searches->unusable;
   }
-  std::stable_sort(usable.begin(), usable.end(), [](const ScreenedPoint& a, const ScreenedPoint& b) { return a.spread < b.spread; });
+  std::stable_sort(
+      usable.begin(), usable.end(),
+      [](const ScreenedPoint& a, const ScreenedPoint& b) { return a.spread < b.spread; });
   usable.resize(std::min(usable.size(), to_index(options.starts)));
   return usable;
 }
@@ -210,14 +236,19 @@ std::vector<double> scaled(const FitProblem& problem, const Eigen::VectorXd& x) 
   std::vector<double> result;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const double range = problem.upper[k] - problem.lower[k];
-    result.push_back(x[k] / (std::isfinite(range) && range > 0.0 ? range : std::max(1.0, std::abs(problem.start[k]))));
+    result.push_back(x[k] / (std::isfinite(range) && range > 0.0
+                                 ? range
+                                 : std::max(1.0, std::abs(problem.start[k]))));
   }
   return result;
 }
 
 StartResult describe(const ScreenedPoint& point, const ResidualFit& fit, const LossOptions& loss) {
   const bool has_point = fit.residuals.size() > 0;
-  StartResult start{point.x, has_point ? fit.x : point.x, point.spread, point.spread, fit.status, fit.termination, fit.evaluations};
+  StartResult start{point.x,        has_point ? fit.x : point.x,
+                    point.spread,   point.spread,
+                    fit.status,     fit.termination,
+                    fit.evaluations};
   if (has_point) start.objective = mean_spread(fit.residuals, loss);
   return start;
 }
@@ -225,15 +256,17 @@ StartResult describe(const ScreenedPoint& point, const ResidualFit& fit, const L
 }  // namespace
 
 Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
-  constexpr double kNormalMedian = 1.4826;  // standard deviation over median magnitude of a normal variable
+  constexpr double kNormalMedian =
+      1.4826;  // standard deviation over median magnitude of a normal variable
   if (loss.kind == LossKind::kNone) return rms_of(residuals);
   Eigen::VectorXd spreads(residuals.cols());
-  for (Eigen::Index k = 0; k < spreads.size(); ++k) spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
+  for (Eigen::Index k = 0; k < spreads.size(); ++k)
+    spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
   return spreads;
 }
 
-WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian, const Eigen::VectorXd& spreads,
-                        const LossOptions& loss) {
+WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian,
+                        const Eigen::VectorXd& spreads, const LossOptions& loss) {
   WeightedResiduals weighted;
   weighted.residuals.resize(residuals.rows(), residuals.cols());
   if (jacobian) weighted.jacobian.resize(jacobian->rows(), jacobian->cols());
@@ -250,8 +283,8 @@ WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd*
   return weighted;
 }
 
-ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source,
-                             const FitObserver& observer) {
+ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& spreads,
+                             ResidualSource* source, const FitObserver& observer) {
   ResidualFit fit;
   fit.x = problem.start.cwiseMax(problem.lower).cwiseMin(problem.upper);
   fit.spreads = spreads;
@@ -259,7 +292,8 @@ ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& s
   return fit;
 }
 
-ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, const FitObserver& observer) {
+ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
+                          const FitObserver& observer) {
   ResidualFit fit;
   fit.x = problem.start.cwiseMax(problem.lower).cwiseMin(problem.upper);
   fit.status = source->evaluate(fit.x, &fit.start_residuals, nullptr);
@@ -273,10 +307,12 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source, con
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
     const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
-    const bool is_settled =
-        ((spreads - fit.spreads).array().abs() <= spread_tolerance(problem, fit.residuals.rows()) * spreads.array()).all();
+    const bool is_settled = ((spreads - fit.spreads).array().abs() <=
+                             spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
+                                .all();
     const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
-    fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value + surprises(problem, fit.x).squaredNorm();
+    fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value +
+               surprises(problem, fit.x).squaredNorm();
     fit.spreads = spreads;
     if (is_settled || has_one_scale) break;
   }
@@ -287,8 +323,9 @@ double mean_spread(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
   return std::exp(spreads_of(residuals, loss).array().log().mean());
 }
 
-ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& options, ResidualSource* source,
-                            const FitObserver& observer, FitSearches* searches) {
+ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& options,
+                            ResidualSource* source, const FitObserver& observer,
+                            FitSearches* searches) {
   if (options.starts == 0) return fit_residuals(problem, source, observer);
   Eigen::MatrixXd at_start;
   const Status start_status = source->evaluate(problem.start, &at_start, nullptr);
@@ -307,8 +344,10 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
     failed += fit.failed_evaluations;
     searches->starts.push_back(describe(point, fit, problem.loss));
     ends.push_back(scaled(problem, searches->starts.back().rho));
-    const bool is_better = fit.residuals.size() > 0 && (best.residuals.size() == 0 || mean_spread(fit.residuals, problem.loss) <
-                                                                                          mean_spread(best.residuals, problem.loss));
+    const bool is_better =
+        fit.residuals.size() > 0 &&
+        (best.residuals.size() == 0 ||
+         mean_spread(fit.residuals, problem.loss) < mean_spread(best.residuals, problem.loss));
     if (fit.status.code == StatusCode::kCancelled) interruption = fit.status;
     if (is_better || best.residuals.size() == 0) best = std::move(fit);
     if (!interruption.ok()) break;

@@ -8,7 +8,8 @@ namespace codesign {
 StackedResiduals::StackedResiduals(std::vector<Part> parts) : parts_(std::move(parts)) {
   Eigen::Index rows = 0;
   for (const Part& part : parts_) {
-    lengths_.insert(lengths_.end(), part.residuals->lengths().begin(), part.residuals->lengths().end());
+    lengths_.insert(lengths_.end(), part.residuals->lengths().begin(),
+                    part.residuals->lengths().end());
     rows += part.residuals->rows();
   }
   recorded_.resize(rows, parts_.front().residuals->recorded().cols());
@@ -34,14 +35,17 @@ Status StackedResiduals::begin(const Eigen::VectorXd& x) {
   return {};
 }
 
-Status StackedResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) {
+Status StackedResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                                  Eigen::MatrixXd* jacobian) {
   const Eigen::Index outputs = recorded_.cols();
   residuals->resize(rows(), outputs);
   if (jacobian) jacobian->resize(rows() * outputs, x.size());
   Eigen::MatrixXd values, slopes;
   Eigen::Index row = 0;
   for (const Part& part : parts_) {
-    if (Status status = part.residuals->evaluate(x, &values, jacobian ? &slopes : nullptr); !status.ok()) return status;
+    if (Status status = part.residuals->evaluate(x, &values, jacobian ? &slopes : nullptr);
+        !status.ok())
+      return status;
     const Eigen::Index count = values.rows();
     residuals->middleRows(row, count) = values;
     for (Eigen::Index k = 0; jacobian && k < outputs; ++k)
@@ -71,7 +75,8 @@ double StackedResiduals::own_promise() const {
   return sum;
 }
 
-// All parts have the same sensors, and so the same signals in the same order; shares are means over the rows.
+// All parts have the same sensors, and so the same signals in the same order; shares are means over
+// the rows.
 std::vector<DelaySignal> StackedResiduals::delay_signals(const Eigen::VectorXd& x) {
   std::vector<DelaySignal> signals;
   Eigen::Index row = 0;
@@ -83,7 +88,8 @@ std::vector<DelaySignal> StackedResiduals::delay_signals(const Eigen::VectorXd& 
       const double weight = static_cast<double>(count) / static_cast<double>(rows());
       signals[k].share = (row == 0 ? 0.0 : signals[k].share) + weight * more[k].share;
       if (row == 0) signals[k].slopes.setZero(more[k].slopes.size() > 0 ? rows() : 0);
-      if (signals[k].slopes.size() > 0 && more[k].slopes.size() > 0) signals[k].slopes.segment(row, count) = more[k].slopes;
+      if (signals[k].slopes.size() > 0 && more[k].slopes.size() > 0)
+        signals[k].slopes.segment(row, count) = more[k].slopes;
     }
     row += count;
   }

@@ -8,7 +8,10 @@
 namespace codesign {
 
 SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
-    : system_(*of.system), starts_(of.starts), integrator_(system_), groups_(system_, integrator_.step().tableau()) {
+    : system_(*of.system),
+      starts_(of.starts),
+      integrator_(system_),
+      groups_(system_, integrator_.step().tableau()) {
   state_.resize(system_.layout());
   groups_.for_each([](auto* group) { group->step.keep_previous(true); });
   const double tolerance = system_.whole_study().solver.sensitivity_tolerance;
@@ -20,23 +23,28 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
     });
     return error;
   };
-  // The first start of an integrator chooses the pivots for all later starts; if this design cannot start, a later start chooses them.
+  // The first start of an integrator chooses the pivots for all later starts; if this design cannot
+  // start, a later start chooses them.
   integrator_.assembly().begin_at(first.time, first.theta);
   static_cast<void>(integrator_.start(system_.parameters()));
 }
 
 void SegmentRun::choose(SegmentLanes lanes) {
   const int all = static_cast<int>(system_.whole_study().tuned.size());
-  // If the error test includes sensitivities, all derivatives are computed in every run, so that steps do not depend on `lanes`.
-  const bool is_whole = lanes == SegmentLanes::kAll || system_.whole_study().solver.sensitivity_tolerance > 0.0;
+  // If the error test includes sensitivities, all derivatives are computed in every run, so that
+  // steps do not depend on `lanes`.
+  const bool is_whole =
+      lanes == SegmentLanes::kAll || system_.whole_study().solver.sensitivity_tolerance > 0.0;
   first_lane_ = is_whole ? 0 : lanes == SegmentLanes::kStart ? all - starts_ : all;
 }
 
 Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBegin& begin) {
   integrator_.assembly().begin_at(begin.time, begin.theta);
   if (Status status = integrator_.start(parameters); !status.ok()) return status;
-  for_each_group(
-      [&](auto* group) { group->step.start(group->range.seed(system_, parameters), integrator_.assembly(), integrator_.initial_state()); });
+  for_each_group([&](auto* group) {
+    group->step.start(group->range.seed(system_, parameters), integrator_.assembly(),
+                      integrator_.initial_state());
+  });
   reads_rates_ = false;
   for (std::size_t k = 0; k < system_.watched().size(); ++k) {
     integrator_.equations().watched_gradient(k, integrator_.state(), &sparse_);
@@ -45,8 +53,8 @@ Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBeg
   return {};
 }
 
-Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
-                       SegmentLanes lanes) {
+Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin& begin,
+                       const std::vector<double>& times, SegmentLanes lanes) {
   choose(lanes);
   const auto outputs = to_signed(system_.watched().size()), count = to_signed(times.size());
   values_.resize(count, outputs);
@@ -63,7 +71,8 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
     if (Status status = sample(time, row); !status.ok()) return status;
   }
   if (!are_finite(lanes))
-    return {StatusCode::kNonFiniteGradient, times.back(), "the derivatives of the simulated motion are not finite, though the motion is"};
+    return {StatusCode::kNonFiniteGradient, times.back(),
+            "the derivatives of the simulated motion are not finite, though the motion is"};
   return {};
 }
 
@@ -76,11 +85,14 @@ Status SegmentRun::sample(double time, Eigen::Index row) {
   double psi = 0.0;
   integrator_.interpolate(time, &state_, &psi);
   if (reads_rates_)
-    if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_); !status.ok()) return status;
+    if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_);
+        !status.ok())
+      return status;
   for (Eigen::Index output = 0; output < values_.cols(); ++output)
     values_(row, output) = integrator_.equations().watched(to_index(output), state_);
   for_each_group([&](auto* group) {
-    group->step.all_watched(integrator_.step(), state_, reads_rates_, integrator_.assembly(), &group->outputs);
+    group->step.all_watched(integrator_.step(), state_, reads_rates_, integrator_.assembly(),
+                            &group->outputs);
     for (Eigen::Index output = 0; output < values_.cols(); ++output)
       slopes_.row(output * values_.rows() + row).segment(group->range.first, group->range.count) =
           group->outputs.col(output).head(group->range.count).transpose();

@@ -21,21 +21,23 @@ struct SegmentBegin {
 /// The tuned parameters of a SegmentSystem by which a run has derivatives.
 enum class SegmentLanes { kNone, kStart, kAll };
 
-/// The simulated outputs of one segment and their exact derivatives by all tuned parameters of a SegmentSystem, start included;
-/// doc/theory.md (41). A workspace: not thread-safe. Results do not depend on earlier runs, to the last bit.
+/// The simulated outputs of one segment and their exact derivatives by all tuned parameters of a
+/// SegmentSystem, start included; doc/theory.md (41). A workspace: not thread-safe. Results do not
+/// depend on earlier runs, to the last bit.
 class SegmentRun {
  public:
   /// @param of must outlive this. @param first the first segment; pivots are chosen near its start.
   SegmentRun(const SegmentSystem& of, const SegmentBegin& first);
 
-  /// Integrates from begin.time to the last of `times`. @param parameters all parameters of the system. @param times [s] on the system's
-  /// clock, ascending, none before begin.time. @param lanes of the derivatives; the values do not depend on them, to the last bit
-  Status run(const std::vector<double>& parameters, const SegmentBegin& begin, const std::vector<double>& times,
-             SegmentLanes lanes = SegmentLanes::kAll);
+  /// Integrates from begin.time to the last of `times`. @param parameters all parameters of the
+  /// system. @param times [s] on the system's clock, ascending, none before begin.time. @param
+  /// lanes of the derivatives; the values do not depend on them, to the last bit
+  Status run(const std::vector<double>& parameters, const SegmentBegin& begin,
+             const std::vector<double>& times, SegmentLanes lanes = SegmentLanes::kAll);
   /// times x outputs, of the last run
   const Eigen::MatrixXd& values() const { return values_; }
-  /// (times outputs) x tuned parameters, the rows of output 0 first; the last columns are the derivatives by the start. Columns outside the
-  /// lanes of the last run have no valid values.
+  /// (times outputs) x tuned parameters, the rows of output 0 first; the last columns are the
+  /// derivatives by the start. Columns outside the lanes of the last run have no valid values.
   const Eigen::MatrixXd& slopes() const { return slopes_; }
   void obey(const std::atomic<bool>* cancel) { integrator_.obey(cancel); }
   /// Steps of all runs so far, rejected ones included.
@@ -44,7 +46,8 @@ class SegmentRun {
  private:
   template <int N>
   struct Group {
-    Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
+    Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau)
+        : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
     TangentStep<N> step;
     Directions<N> outputs;  ///< derivatives at a sample, one column per output

@@ -19,9 +19,11 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
-constexpr double kSettled = 1e-8;    // of the value: a start with a smaller promise is the best one
-constexpr double kPatience = 10.0;   // factor of kSettled with each run: the noise of step sizes makes promises that are not kept
-constexpr double kResolved = 1e-14;  // of the sum of squares of the recorded values: a simulation does not resolve less
+constexpr double kSettled = 1e-8;   // of the value: a start with a smaller promise is the best one
+constexpr double kPatience = 10.0;  // factor of kSettled with each run: the noise of step sizes
+                                    // makes promises that are not kept
+constexpr double kResolved =
+    1e-14;  // of the sum of squares of the recorded values: a simulation does not resolve less
 
 /// Columns scaled to length one, so that the rank does not depend on units.
 class StartColumns {
@@ -49,18 +51,22 @@ class StartColumns {
   PivotedLeastSquares scaled_;
 };
 
-/// The cost of a segment as a function of its start. Keeps the best point and, if derivatives by x are computed, its derivative by x.
+/// The cost of a segment as a function of its start. Keeps the best point and, if derivatives by x
+/// are computed, its derivative by x.
 class StartCost final : public LeastSquaresModel {
  public:
-  StartCost(const SegmentProblem& problem, SegmentLanes lanes, SegmentRun* run, SegmentSolution* best)
+  StartCost(const SegmentProblem& problem, SegmentLanes lanes, SegmentRun* run,
+            SegmentSolution* best)
       : problem_(problem), lanes_(lanes), run_(*run), best_(*best) {
     const Eigen::MatrixXd& recorded = problem.segment.recorded;
-    for (Eigen::Index k = 0; k < recorded.cols(); ++k) resolved_ += kResolved * (recorded.col(k) / problem.spreads[k]).squaredNorm();
+    for (Eigen::Index k = 0; k < recorded.cols(); ++k)
+      resolved_ += kResolved * (recorded.col(k) / problem.spreads[k]).squaredNorm();
   }
 
   Outcome evaluate(const Eigen::VectorXd& start, LeastSquaresPoint* point) override {
     const Segment& segment = problem_.segment;
-    const Status status = run_.run(problem_.of.parameters(problem_.variables, problem_.x, start), segment.begin, segment.times, lanes_);
+    const Status status = run_.run(problem_.of.parameters(problem_.variables, problem_.x, start),
+                                   segment.begin, segment.times, lanes_);
     ++best_.runs;
     if (lanes_ == SegmentLanes::kAll) ++best_.whole_runs;
     if (!status.ok()) {
@@ -75,7 +81,8 @@ class StartCost final : public LeastSquaresModel {
     point->root = triangular_root(by_start);
     const StartColumns columns(by_start);
     const double promise = columns.promise(weighted.residuals.reshaped());
-    if (!is_begun_ || weighted.value < best_.value) keep(start, weighted, columns, promise > resolved_ ? promise : 0.0);
+    if (!is_begun_ || weighted.value < best_.value)
+      keep(start, weighted, columns, promise > resolved_ ? promise : 0.0);
     const double settled = kSettled * std::pow(kPatience, best_.runs - 1) * weighted.value;
     return promise <= std::max(settled, resolved_) ? Outcome::kStop : Outcome::kUsable;
   }
@@ -87,10 +94,11 @@ class StartCost final : public LeastSquaresModel {
     return Outcome::kStop;
   }
 
-  /// Residuals of the last run and their derivatives: by x in the first columns, unless only the derivatives by the start are computed,
-  /// then by the start.
+  /// Residuals of the last run and their derivatives: by x in the first columns, unless only the
+  /// derivatives by the start are computed, then by the start.
   void compare() {
-    const Eigen::Index rows = run_.values().rows(), lanes = run_.slopes().cols(), sensors = lanes - problem_.of.starts;
+    const Eigen::Index rows = run_.values().rows(), lanes = run_.slopes().cols(),
+                       sensors = lanes - problem_.of.starts;
     residuals_ = run_.values() - problem_.segment.recorded;
     by_all_.setZero(run_.slopes().rows(), problem_.x.size() + problem_.of.starts);
     for (Eigen::Index k = 0; lanes_ == SegmentLanes::kAll && k < sensors; ++k)
@@ -108,7 +116,8 @@ class StartCost final : public LeastSquaresModel {
     const auto column = to_signed(output);
     for (Eigen::Index k = 0; k < residuals_.rows(); ++k) {
       const double time = problem_.segment.times[to_index(k)];
-      const EffortResidual residual = effort_residual(sensor, *problem_.efforts[output], time, run_.values()(k, column));
+      const EffortResidual residual =
+          effort_residual(sensor, *problem_.efforts[output], time, run_.values()(k, column));
       residuals_(k, column) = residual.value;
       by_all_.row(first + k) *= residual.by_effort;
       if (at.scale >= 0) by_all_(first + k, at.scale) += residual.by_scale;
@@ -117,7 +126,8 @@ class StartCost final : public LeastSquaresModel {
     }
   }
 
-  void keep(const Eigen::VectorXd& start, const WeightedResiduals& weighted, const StartColumns& columns, double promise) {
+  void keep(const Eigen::VectorXd& start, const WeightedResiduals& weighted,
+            const StartColumns& columns, double promise) {
     is_begun_ = true;
     best_.status = {};
     best_.start = start;
@@ -127,7 +137,8 @@ class StartCost final : public LeastSquaresModel {
     best_.correction = columns.solve(weighted.residuals.reshaped());
     if (lanes_ != SegmentLanes::kAll) return;
     best_.slope = columns.solve(weighted.jacobian.leftCols(problem_.x.size()));
-    best_.jacobian = by_all_.leftCols(problem_.x.size()) - product(by_all_.rightCols(problem_.of.starts), best_.slope);
+    best_.jacobian = by_all_.leftCols(problem_.x.size()) -
+                     product(by_all_.rightCols(problem_.of.starts), best_.slope);
   }
 
   const SegmentProblem& problem_;
@@ -144,15 +155,19 @@ using Samples = std::vector<std::size_t>;
 constexpr double kSmallMove = 0.1;  // [rad or m] positions are followed in steps of this size
 constexpr double kMostMoves = 1e4;
 
-/// The samples that count, by segment. The last segment is up to a half longer or shorter than the others.
-std::vector<Samples> samples_by_segment(const JointRecording& recording, const IdentificationDescription& options) {
+/// The samples that count, by segment. The last segment is up to a half longer or shorter than the
+/// others.
+std::vector<Samples> samples_by_segment(const JointRecording& recording,
+                                        const IdentificationDescription& options) {
   const double begin = recording.times.front(), span = recording.times.back() - begin;
   const double last = std::max(1.0, std::round(span / options.segment)) - 1.0;
-  // Only segments with samples are made: a short `segment` may divide the recording into any number of them.
+  // Only segments with samples are made: a short `segment` may divide the recording into any number
+  // of them.
   std::vector<Samples> segments;
   double current = -1.0;
   for (std::size_t k = 0; k < recording.times.size(); k += to_index(options.filter.decimate)) {
-    const double segment = std::min(std::floor((recording.times[k] - begin) / options.segment * (1.0 + 1e-12)), last);
+    const double segment =
+        std::min(std::floor((recording.times[k] - begin) / options.segment * (1.0 + 1e-12)), last);
     if (segment != current) segments.emplace_back();
     current = segment;
     segments.back().push_back(k);
@@ -160,19 +175,24 @@ std::vector<Samples> samples_by_segment(const JointRecording& recording, const I
   return segments;
 }
 
-void require_enough(const JointRecording& recording, const std::vector<Samples>& segments, const SegmentSystem& of,
-                    const IdentificationDescription& options) {
+void require_enough(const JointRecording& recording, const std::vector<Samples>& segments,
+                    const SegmentSystem& of, const IdentificationDescription& options) {
   const auto least = to_index(of.starts) / of.outputs.size() + 2;
   for (const Samples& samples : segments)
     if (samples.size() < least)
-      throw InputError({options.where, "identify.segment",
-                        "the segment at " + readable(recording.times[samples.front()], 6) + " s has " + std::to_string(samples.size()) +
-                            " samples that count, too few for its start and the parameters: " + recording.file,
-                        readable(options.segment), "longer segments, with at least " + std::to_string(least) + " samples each"});
+      throw InputError(
+          {options.where, "identify.segment",
+           "the segment at " + readable(recording.times[samples.front()], 6) + " s has " +
+               std::to_string(samples.size()) +
+               " samples that count, too few for its start and the parameters: " + recording.file,
+           readable(options.segment),
+           "longer segments, with at least " + std::to_string(least) + " samples each"});
 }
 
 /// The start that was measured at a time of the recording.
-Eigen::VectorXd measured_start(const MeasuredMotion& motion, const std::vector<std::string>& independent, double time, int starts) {
+Eigen::VectorXd measured_start(const MeasuredMotion& motion,
+                               const std::vector<std::string>& independent, double time,
+                               int starts) {
   const auto nearest = to_signed(std::llround((time - motion.times.start) / motion.times.step));
   const Eigen::Index at = std::clamp<Eigen::Index>(nearest, 0, motion.times.count - 1);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(starts);
@@ -185,14 +205,17 @@ Eigen::VectorXd measured_start(const MeasuredMotion& motion, const std::vector<s
   return start;
 }
 
-Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem& of, const FitVariables& variables,
-                            const Samples& samples) {
+Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem& of,
+                            const FitVariables& variables, const Samples& samples) {
   Eigen::MatrixXd recorded(to_signed(samples.size()), to_signed(of.outputs.size()));
   for (std::size_t output = 0; output < of.outputs.size(); ++output) {
     const MotionOutput& at = of.outputs[output];
     const std::vector<double>& column = recording.find(at.joint)->of(at.quantity);
-    const double scale = at.quantity == MeasuredQuantity::kEffort ? variables.sensor(at.joint, variables.start()).start_scale : 1.0;
-    for (std::size_t k = 0; k < samples.size(); ++k) recorded(to_signed(k), to_signed(output)) = scale * column[samples[k]];
+    const double scale = at.quantity == MeasuredQuantity::kEffort
+                             ? variables.sensor(at.joint, variables.start()).start_scale
+                             : 1.0;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      recorded(to_signed(k), to_signed(output)) = scale * column[samples[k]];
   }
   return recorded;
 }
@@ -215,10 +238,13 @@ class Follower {
     const double way = from.size() > 0 ? (positions - from).cwiseAbs().maxCoeff() : 0.0;
     const int moves = static_cast<int>(std::clamp(std::ceil(way / kSmallMove), 1.0, kMostMoves));
     for (int move = 1; move <= moves; ++move) {
-      position_ = from.size() > 0 ? Eigen::VectorXd(from + (positions - from) * move / moves) : positions;
+      position_ =
+          from.size() > 0 ? Eigen::VectorXd(from + (positions - from) * move / moves) : positions;
       std::copy(position_.begin(), position_.end(), parameters_.begin() + to_signed(first_));
       assembly_.begin_at(0.0, theta_);
-      if (Status status = assembly_.solve_positions(parameters_, &equations_, &state_); !status.ok()) return status;
+      if (Status status = assembly_.solve_positions(parameters_, &equations_, &state_);
+          !status.ok())
+        return status;
       theta_ = assembly_.theta();
     }
     return {};
@@ -236,32 +262,41 @@ class Follower {
   State<double> state_;
 };
 
-Eigen::VectorXd positions_at(const JointRecording& recording, const std::vector<std::string>& independent, std::size_t sample) {
+Eigen::VectorXd positions_at(const JointRecording& recording,
+                             const std::vector<std::string>& independent, std::size_t sample) {
   Eigen::VectorXd positions(to_signed(independent.size()));
-  for (std::size_t k = 0; k < independent.size(); ++k) positions[to_signed(k)] = recording.find(independent[k])->position[sample];
+  for (std::size_t k = 0; k < independent.size(); ++k)
+    positions[to_signed(k)] = recording.find(independent[k])->position[sample];
   return positions;
 }
 
 /// Positions of the independent joints in the tree coordinates.
-Eigen::VectorXd positions_of(const StartWorkspace& start, const RobotDescription& robot, const std::vector<std::string>& independent) {
+Eigen::VectorXd positions_of(const StartWorkspace& start, const RobotDescription& robot,
+                             const std::vector<std::string>& independent) {
   Eigen::VectorXd positions(to_signed(independent.size()));
   for (std::size_t k = 0; k < independent.size(); ++k)
     for (std::size_t joint = 0; joint < robot.joints.size(); ++joint)
-      if (robot.joints[joint].name == independent[k]) positions[to_signed(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
+      if (robot.joints[joint].name == independent[k])
+        positions[to_signed(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
   return positions;
 }
 
 }  // namespace
 
-SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eigen::VectorXd>& guesses, SegmentWork work, SegmentRun* run) {
+SegmentSolution fit_segment(const SegmentProblem& problem,
+                            const std::vector<Eigen::VectorXd>& guesses, SegmentWork work,
+                            SegmentRun* run) {
   LevenbergMarquardtOptions options;
   options.max_evaluations = work == SegmentWork::kBetterStart ? kFewRuns : kMostRuns;
   options.relative_tolerance = kSettled;
   options.largest_first_step = std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd open = Eigen::VectorXd::Constant(problem.of.starts, std::numeric_limits<double>::infinity());
+  const Eigen::VectorXd open =
+      Eigen::VectorXd::Constant(problem.of.starts, std::numeric_limits<double>::infinity());
   SegmentSolution best;
   for (const Eigen::VectorXd& guess : guesses) {
-    StartCost cost(problem, work == SegmentWork::kElimination ? SegmentLanes::kAll : SegmentLanes::kStart, run, &best);
+    StartCost cost(problem,
+                   work == SegmentWork::kElimination ? SegmentLanes::kAll : SegmentLanes::kStart,
+                   run, &best);
     Eigen::VectorXd start = guess;
     LeastSquaresPoint point;
     if (work == SegmentWork::kElimination)
@@ -273,8 +308,10 @@ SegmentSolution fit_segment(const SegmentProblem& problem, const std::vector<Eig
   return best;
 }
 
-std::vector<Segment> cut_into_segments(const JointRecording& recording, const SegmentSystem& of, const FitVariables& variables,
-                                       const std::vector<std::string>& independent, const IdentificationDescription& options,
+std::vector<Segment> cut_into_segments(const JointRecording& recording, const SegmentSystem& of,
+                                       const FitVariables& variables,
+                                       const std::vector<std::string>& independent,
+                                       const IdentificationDescription& options,
                                        Warnings* warnings) {
   const std::vector<Samples> parts = samples_by_segment(recording, options);
   require_enough(recording, parts, of, options);
@@ -284,29 +321,35 @@ std::vector<Segment> cut_into_segments(const JointRecording& recording, const Se
   Warnings found;
   const MeasuredMotion motion = measured_motion(recording, filter, &found);
   for (const Warning& warning : found)
-    if (warning.code != "recording_not_filtered" && warning.code != "recording_resampled") append({warning}, warnings);
+    if (warning.code != "recording_not_filtered" && warning.code != "recording_resampled")
+      append({warning}, warnings);
   std::vector<Segment> segments;
   for (const Samples& samples : parts) {
     Segment& segment = segments.emplace_back();
     for (std::size_t k : samples) segment.times.push_back(recording.times[k] - of.epoch);
     segment.begin.time = segment.times.front();
     segment.recorded = recorded_at(recording, of, variables, samples);
-    segment.start = measured_start(motion, independent, recording.times[samples.front()], of.starts);
+    segment.start =
+        measured_start(motion, independent, recording.times[samples.front()], of.starts);
   }
   return segments;
 }
 
-Status set_branches(const JointRecording& recording, const SegmentSystem& of, const CompiledSystem& usual, const FitVariables& variables,
-                    const Eigen::VectorXd& x, const std::vector<std::string>& independent, const std::atomic<bool>* cancel,
-                    std::vector<Segment>* segments) {
+Status set_branches(const JointRecording& recording, const SegmentSystem& of,
+                    const CompiledSystem& usual, const FitVariables& variables,
+                    const Eigen::VectorXd& x, const std::vector<std::string>& independent,
+                    const std::atomic<bool>* cancel, std::vector<Segment>* segments) {
   StartWorkspace start(usual, variables.parameters(x));
   if (Status status = start.solve_positions(); !status.ok()) return status;
   const bool has_loops = start.assembly.loops().rows() > 0;
-  Follower follower(of, of.parameters(variables, x, segments->front().start), start.assembly.theta());
+  Follower follower(of, of.parameters(variables, x, segments->front().start),
+                    start.assembly.theta());
   follower.is_at(positions_of(start, usual.robot(), independent));
   std::size_t sample = 0;
   for (Segment& segment : *segments) {
-    for (; has_loops && sample < recording.times.size() && recording.times[sample] - of.epoch <= segment.begin.time; ++sample) {
+    for (; has_loops && sample < recording.times.size() &&
+           recording.times[sample] - of.epoch <= segment.begin.time;
+         ++sample) {
       if (is_set(cancel)) return {StatusCode::kCancelled, 0.0, "cancelled"};
       Status status = follower.move_to(positions_at(recording, independent, sample));
       status.time = recording.times[sample];

@@ -11,7 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kAnySpeed = 1e9;  // [m/s or rad/s] without controllers no speed is known beyond which a commanded motion runs away
+constexpr double kAnySpeed = 1e9;  // [m/s or rad/s] without controllers no speed is known beyond
+                                   // which a commanded motion runs away
 
 constexpr double kMostSteps = 2e9;
 
@@ -28,13 +29,16 @@ bool is_drivable(const CompiledSystem& system, const Constants<double>& constant
   return false;
 }
 
-// Inverse dynamics need the joint which they drive: without it a controller shows its feedback part alone.
+// Inverse dynamics need the joint which they drive: without it a controller shows its feedback part
+// alone.
 void disconnect(const std::vector<std::string>& names, Study* study) {
   std::vector<std::string> known;
-  for (const ControllerDescription& controller : study->controllers) known.push_back(controller.name);
+  for (const ControllerDescription& controller : study->controllers)
+    known.push_back(controller.name);
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end()) throw unknown_name({"disconnect", 0}, name, "controller", name, known);
+    if (found == known.end())
+      throw unknown_name({"disconnect", 0}, name, "controller", name, known);
     ControllerDescription& controller = study->controllers[to_index(found - known.begin())];
     if (controller.kind->load != ControlLoad::kNone) controller.kind = ControllerKind::kPid;
     controller.output.clear();
@@ -43,7 +47,8 @@ void disconnect(const std::vector<std::string>& names, Study* study) {
 
 /// Whether a controller is applied.
 bool drives(const MotionStudy& study) {
-  return std::any_of(study.controllers.begin(), study.controllers.end(), [](const auto& controller) { return !controller.output.empty(); });
+  return std::any_of(study.controllers.begin(), study.controllers.end(),
+                     [](const auto& controller) { return !controller.output.empty(); });
 }
 
 void check_joints(const std::vector<std::string>& joints, const std::vector<std::string>& known) {
@@ -51,7 +56,9 @@ void check_joints(const std::vector<std::string>& joints, const std::vector<std:
   for (const std::string& joint : joints) {
     if (std::find(known.begin(), known.end(), joint) == known.end())
       throw unknown_name({"command_joints", 0}, joint, "joint that can be driven", joint, known);
-    if (!seen.insert(joint).second) throw InputError({{"command_joints", 0}, joint, "the joint is named twice", joint, "each joint once"});
+    if (!seen.insert(joint).second)
+      throw InputError(
+          {{"command_joints", 0}, joint, "the joint is named twice", joint, "each joint once"});
   }
 }
 
@@ -66,7 +73,8 @@ std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
 }
 
 std::vector<std::string> drivable_joints(const CompiledSystem& system) {
-  const Constants<double> constants = evaluate_constants(system.robot(), system.topology(), system.parameters());
+  const Constants<double> constants =
+      evaluate_constants(system.robot(), system.topology(), system.parameters());
   std::vector<std::string> joints;
   for (std::size_t k = 0; k < system.robot().joints.size(); ++k)
     if (is_drivable(system, constants, k)) joints.push_back(system.robot().joints[k].name);
@@ -80,19 +88,25 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
     joints = *options.joints;
   }
   disconnect(options.disconnected, &study);
-  if (!drives(study) && !joints.empty() && !(study.solver.maximum_speed > 0.0)) study.solver.maximum_speed = kAnySpeed;
+  if (!drives(study) && !joints.empty() && !(study.solver.maximum_speed > 0.0))
+    study.solver.maximum_speed = kAnySpeed;
   if (options.duration) {
     // As many steps for each second as the study allows.
     const double factor = std::max(1.0, *options.duration / study.duration);
-    study.solver.maximum_steps = static_cast<int>(std::min(kMostSteps, factor * study.solver.maximum_steps));
+    study.solver.maximum_steps =
+        static_cast<int>(std::min(kMostSteps, factor * study.solver.maximum_steps));
     study.duration = *options.duration;
   }
-  // Commands make steps that the study did not count: one that ends at the command, and a short one that begins there.
-  study.solver.maximum_steps = static_cast<int>(std::min(kMostSteps, study.solver.maximum_steps + 2.0 * options.rate * study.duration));
+  // Commands make steps that the study did not count: one that ends at the command, and a short one
+  // that begins there.
+  study.solver.maximum_steps = static_cast<int>(
+      std::min(kMostSteps, study.solver.maximum_steps + 2.0 * options.rate * study.duration));
   for (std::size_t c = 0; c < study.controllers.size(); ++c) {
     const std::string& name = study.controllers[c].name;
     const auto& without = options.disconnected;
-    if (!study.controllers[c].kind->has_error() || std::find(without.begin(), without.end(), name) != without.end()) continue;
+    if (!study.controllers[c].kind->has_error() ||
+        std::find(without.begin(), without.end(), name) != without.end())
+      continue;
     controllers.push_back(name);
     indices.push_back(c);
     setpoints.push_back(make_live(&study.controllers[c].setpoint));
@@ -108,13 +122,16 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
   study.controllers.insert(study.controllers.begin(), first.begin(), first.end());
 }
 
-std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs, const std::string& joint) {
+std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs,
+                                              const std::string& joint) {
   for (const char* const quantity : {"position", "velocity"}) {
     for (std::size_t k = 0; k < inputs.controllers.size(); ++k) {
-      const ControllerDescription& controller = inputs.study.controllers[inputs.joints.size() + inputs.indices[k]];
+      const ControllerDescription& controller =
+          inputs.study.controllers[inputs.joints.size() + inputs.indices[k]];
       if (!controller.output.empty() && controller.output != joint) continue;
       const std::vector<SignalTerm>& terms = controller.input.terms;
-      if (terms.size() == 1 && terms[0].factor == 1.0 && terms[0].object == joint && terms[0].quantity == quantity)
+      if (terms.size() == 1 && terms[0].factor == 1.0 && terms[0].object == joint &&
+          terms[0].quantity == quantity)
         return TrajectoryFollower{k, quantity[0] == 'v'};
     }
   }

@@ -12,27 +12,32 @@ namespace codesign {
 
 class Assembly;
 
-/// Computes the state after an instant at which inputs jump or the design changes, doc/theory.md (55). Positions, velocities and extra
-/// states stay; if the design changes the geometry, the tree coordinates stay as far as the loops allow it. Accelerations and reactions are
-/// computed anew.
+/// Computes the state after an instant at which inputs jump or the design changes, doc/theory.md
+/// (55). Positions, velocities and extra states stay; if the design changes the geometry, the tree
+/// coordinates stay as far as the loops allow it. Accelerations and reactions are computed anew.
 class Continuation {
  public:
   explicit Continuation(const CompiledSystem& system) : system_(system) {}
 
-  /// @param parameters all named parameters of the design after the instant. @param interpolated whether `state` is dense output, which
-  /// satisfies the constraints only within the tolerance: it is then projected, (17).
-  /// @param equations hold the previous design; after success the new design, else still the previous one.
-  /// @param state of the run at the instant; receives the state after it. Do not use it after a failure.
-  /// @returns kInvalidDesign for impossible constants, a status of Assembly::solve_from() or Assembly::solve_rates(), kAssemblyFailed also
-  /// if a joint's coordinate cannot be computed.
-  Status cross(const std::vector<double>& parameters, bool interpolated, Assembly* assembly, Equations<double>* equations,
-               State<double>* state);
+  /// @param parameters all named parameters of the design after the instant. @param interpolated
+  /// whether `state` is dense output, which satisfies the constraints only within the tolerance: it
+  /// is then projected, (17).
+  /// @param equations hold the previous design; after success the new design, else still the
+  /// previous one.
+  /// @param state of the run at the instant; receives the state after it. Do not use it after a
+  /// failure.
+  /// @returns kInvalidDesign for impossible constants, a status of Assembly::solve_from() or
+  /// Assembly::solve_rates(), kAssemblyFailed also if a joint's coordinate cannot be computed.
+  Status cross(const std::vector<double>& parameters, bool interpolated, Assembly* assembly,
+               Equations<double>* equations, State<double>* state);
 
  private:
-  Status change_design(const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations, State<double>* state);
+  Status change_design(const std::vector<double>& parameters, Assembly* assembly,
+                       Equations<double>* equations, State<double>* state);
 
   const CompiledSystem& system_;
-  std::unique_ptr<Projection> projection_;  ///< made when first needed, since most runs have no such instant
+  std::unique_ptr<Projection>
+      projection_;  ///< made when first needed, since most runs have no such instant
 };
 
 }  // namespace codesign

@@ -11,17 +11,22 @@ namespace codesign {
 namespace {
 
 /// `size` entries of an array from the `first` on, as a vector.
-Eigen::Map<const VectorX<double>> part(In<double> from, int first, int size) { return {from.subspan(first, size).data(), size}; }
-Eigen::Map<VectorX<double>> part(Out<double> from, int first, int size) { return {from.subspan(first, size).data(), size}; }
+Eigen::Map<const VectorX<double>> part(In<double> from, int first, int size) {
+  return {from.subspan(first, size).data(), size};
+}
+Eigen::Map<VectorX<double>> part(Out<double> from, int first, int size) {
+  return {from.subspan(first, size).data(), size};
+}
 
 // Return values of callbacks: success; retry with a smaller step; stop with a failure.
 constexpr int kDone = 0, kRetry = 1, kGiveUp = -1;
 
-// kappa times the study's duration: drift decays within a twentieth of the study, which is fast enough to keep it small and far too slow to
-// make the equations stiff.
+// kappa times the study's duration: drift decays within a twentieth of the study, which is fast
+// enough to keep it small and far too slow to make the equations stiff.
 constexpr double kStabilizations = 20.0;
 
-/// Runs `action` and turns an exception into a message and kGiveUp, since none may pass through the C code of IDAS.
+/// Runs `action` and turns an exception into a message and kGiveUp, since none may pass through the
+/// C code of IDAS.
 template <class Action>
 int guarded(std::string* failure, const Action& action) {
   try {
@@ -99,15 +104,18 @@ int IdasEquations::integrand(double t, In<double> y, In<double> y_dot, Out<doubl
   unpack(t, y, y_dot, &state_);
   equations_.residual(state_, &G_, &g[0]);
   equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
-  // W' of (17a). lambda^T Phi_q v - v^T G corrects for violated constraints, so that the work that they do appears as an energy error.
-  g[1] = motion_->power(state_.q, state_.v, state_.z) + state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) -
-         state_.v.dot(G_.head(layout_.n));
+  // W' of (17a). lambda^T Phi_q v - v^T G corrects for violated constraints, so that the work that
+  // they do appears as an energy error.
+  g[1] = motion_->power(state_.q, state_.v, state_.z) +
+         state_.z.segment(layout_.n, layout_.m).dot(Phi_rate_) - state_.v.dot(G_.head(layout_.n));
   return std::isfinite(g[0]) ? kDone : kRetry;
 }
 
 const Linearization<double>* IdasEquations::visit(double t, In<double> y, In<double> y_dot) {
-  const Out<double> known = visited_, known_y = known.subspan(1, size()), known_y_dot = known.subspan(1 + size(), size());
-  if (known[0] == t && std::equal(y.begin(), y.end(), known_y.begin()) && std::equal(y_dot.begin(), y_dot.end(), known_y_dot.begin()))
+  const Out<double> known = visited_, known_y = known.subspan(1, size()),
+                    known_y_dot = known.subspan(1 + size(), size());
+  if (known[0] == t && std::equal(y.begin(), y.end(), known_y.begin()) &&
+      std::equal(y_dot.begin(), y_dot.end(), known_y_dot.begin()))
     return nullptr;
   known[0] = t;
   std::copy(y.begin(), y.end(), known_y.begin());
@@ -116,8 +124,9 @@ const Linearization<double>* IdasEquations::visit(double t, In<double> y, In<dou
   return &sensitivities_->linearize(state_, kappa_, &equations_);
 }
 
-// The equations of the sensitivities are linear, with the matrix of this very point. With the matrix of an earlier point their corrector
-// may fail in each step through a steep part of a friction law, where the solution itself needs no new matrix.
+// The equations of the sensitivities are linear, with the matrix of this very point. With the
+// matrix of an earlier point their corrector may fail in each step through a steep part of a
+// friction law, where the solution itself needs no new matrix.
 bool IdasEquations::visit_to_solve(double t, In<double> y, In<double> y_dot) {
   const Linearization<double>* const derivatives = visit(t, y, y_dot);
   return !derivatives || newton_.refactor(*derivatives);
@@ -130,22 +139,26 @@ void IdasEquations::derivative(int k, In<double> y_rho, In<double> y_dot_rho) {
 
 int IdasEquations::residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
   auto* equations = static_cast<IdasEquations*>(self);
-  return guarded(&equations->failure_, [&] { return equations->residual(t, span_of(y), span_of(y_dot), span_of(F)); });
+  return guarded(&equations->failure_,
+                 [&] { return equations->residual(t, span_of(y), span_of(y_dot), span_of(F)); });
 }
 
-int IdasEquations::jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector, SUNMatrix, void* self, N_Vector, N_Vector,
-                            N_Vector) {
+int IdasEquations::jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector,
+                            SUNMatrix, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
-  return guarded(&equations->failure_, [&] { return equations->jacobian(t, c_j, span_of(y), span_of(y_dot)); });
+  return guarded(&equations->failure_,
+                 [&] { return equations->jacobian(t, c_j, span_of(y), span_of(y_dot)); });
 }
 
 int IdasEquations::integrand(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self) {
   auto* equations = static_cast<IdasEquations*>(self);
-  return guarded(&equations->failure_, [&] { return equations->integrand(t, span_of(y), span_of(y_dot), span_of(g)); });
+  return guarded(&equations->failure_,
+                 [&] { return equations->integrand(t, span_of(y), span_of(y_dot), span_of(g)); });
 }
 
-int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector, N_Vector* y_rho,
-                                        N_Vector* y_dot_rho, N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot,
+                                        N_Vector, N_Vector* y_rho, N_Vector* y_dot_rho,
+                                        N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
     const Layout& layout = equations->layout_;
@@ -162,8 +175,10 @@ int IdasEquations::sensitivity_residual(int count, sunrealtype t, N_Vector y, N_
   });
 }
 
-int IdasEquations::sensitivity_integrand(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho,
-                                         N_Vector, N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector) {
+int IdasEquations::sensitivity_integrand(int count, sunrealtype t, N_Vector y, N_Vector y_dot,
+                                         N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector,
+                                         N_Vector* g_rho, void* self, N_Vector, N_Vector,
+                                         N_Vector) {
   auto* equations = static_cast<IdasEquations*>(self);
   return guarded(&equations->failure_, [&] {
     equations->visit(t, span_of(y), span_of(y_dot));

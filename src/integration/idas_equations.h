@@ -11,12 +11,13 @@
 
 namespace codesign {
 
-/// The equations of motion in the form of IDAS: y = (q, v, s, lambda), F(t, y, y') = (q' - v, G(q, v, s; v', lambda, s')) = 0;
-/// doc/theory.md (25).
+/// The equations of motion in the form of IDAS: y = (q, v, s, lambda), F(t, y, y') = (q' - v, G(q,
+/// v, s; v', lambda, s')) = 0; doc/theory.md (25).
 ///
-/// The constraint rows are stabilized, Phi'' + 2 kappa Phi' + kappa^2 Phi, which changes neither the solution nor its sensitivities.
-/// The static functions are the callbacks of IDAS, with an IdasEquations as user data. They catch exceptions (see failure()) and return 0
-/// for success, a positive number to request a smaller step, a negative one to stop.
+/// The constraint rows are stabilized, Phi'' + 2 kappa Phi' + kappa^2 Phi, which changes neither
+/// the solution nor its sensitivities. The static functions are the callbacks of IDAS, with an
+/// IdasEquations as user data. They catch exceptions (see failure()) and return 0 for success, a
+/// positive number to request a smaller step, a negative one to stop.
 class IdasEquations {
  public:
   IdasEquations(const CompiledSystem& system, IdasNewton* newton);
@@ -39,19 +40,22 @@ class IdasEquations {
   const std::string& failure() const { return failure_; }
 
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self);
-  static int jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector F, SUNMatrix J, void* self, N_Vector, N_Vector,
-                      N_Vector);
+  static int jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector F,
+                      SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector);
   static int integrand(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector g, void* self);
-  static int sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, N_Vector* y_rho, N_Vector* y_dot_rho,
-                                  N_Vector* F_rho, void* self, N_Vector, N_Vector, N_Vector);
-  static int sensitivity_integrand(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector g,
+  static int sensitivity_residual(int count, sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F,
+                                  N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector* F_rho, void* self,
+                                  N_Vector, N_Vector, N_Vector);
+  static int sensitivity_integrand(int count, sunrealtype t, N_Vector y, N_Vector y_dot,
+                                   N_Vector* y_rho, N_Vector* y_dot_rho, N_Vector g,
                                    N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector);
 
  private:
   int residual(double t, In<double> y, In<double> y_dot, Out<double> F);
   int jacobian(double t, double c_j, In<double> y, In<double> y_dot);
   int integrand(double t, In<double> y, In<double> y_dot, Out<double> g);
-  /// Computes the derivatives at a point unless they are stored: the sensitivity corrector calls repeatedly at the same point.
+  /// Computes the derivatives at a point unless they are stored: the sensitivity corrector calls
+  /// repeatedly at the same point.
   /// @returns null if they are stored.
   const Linearization<double>* visit(double t, In<double> y, In<double> y_dot);
   /// The same, and factors the matrix of Newton's method there. False if it is singular.

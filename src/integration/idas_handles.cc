@@ -48,7 +48,8 @@ const char* sentence_of(StatusCode code) {
 }  // namespace
 
 IdasCounts count_idas(void* ida, bool with_sensitivities) {
-  long steps = 0, test_failures = 0, solve_failures = 0, sensitivity_failures = 0, sensitivity_solve_failures = 0;
+  long steps = 0, test_failures = 0, solve_failures = 0, sensitivity_failures = 0,
+       sensitivity_solve_failures = 0;
   IDAGetNumSteps(ida, &steps);
   IDAGetNumErrTestFails(ida, &test_failures);
   IDAGetNumStepSolveFails(ida, &solve_failures);
@@ -56,19 +57,23 @@ IdasCounts count_idas(void* ida, bool with_sensitivities) {
     IDAGetSensNumErrTestFails(ida, &sensitivity_failures);
     IDAGetNumStepSensSolveFails(ida, &sensitivity_solve_failures);
   }
-  return {steps, test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures};
+  return {steps,
+          test_failures + solve_failures + sensitivity_failures + sensitivity_solve_failures};
 }
 
 Status idas_status(int flag, double time, bool singular, const std::string& message) {
   if (flag >= 0) return {};
   const StatusCode code = code_of(flag, singular);
-  return {code, time, sentence_of(code) + (message.empty() ? std::string() : " (IDAS: " + message + ")")};
+  return {code, time,
+          sentence_of(code) + (message.empty() ? std::string() : " (IDAS: " + message + ")")};
 }
 
 Warning sensitivities_restarted(double time, double drift) {
   return {"sensitivities_restarted",
-          "at t = " + to_decimal(time) + " s the steps of idas had drifted off the constraints by " + to_decimal(drift) +
-              " tolerances, as happens near a singular position: idas was restarted there, and the gradient may be wrong in its first "
+          "at t = " + to_decimal(time) +
+              " s the steps of idas had drifted off the constraints by " + to_decimal(drift) +
+              " tolerances, as happens near a singular position: idas was restarted there, and the "
+              "gradient may be wrong in its first "
               "digits; compare it with solver.integrator: rosenbrock",
           {}};
 }

@@ -20,9 +20,11 @@
 
 namespace codesign {
 
-/// The differences between SUNDIALS 6 and 7. All other names that are used here exist in both (sunrealtype, not realtype).
+/// The differences between SUNDIALS 6 and 7. All other names that are used here exist in both
+/// (sunrealtype, not realtype).
 
-/// Return value of a matrix or linear solver operation without error: SUNMAT_SUCCESS and SUNLS_SUCCESS in 6, SUN_SUCCESS in 7.
+/// Return value of a matrix or linear solver operation without error: SUNMAT_SUCCESS and
+/// SUNLS_SUCCESS in 6, SUN_SUCCESS in 7.
 inline constexpr int kSundialsSuccess = 0;
 
 /// Creates a context for one process, without MPI. @return zero, or an error code of SUNDIALS.
@@ -34,20 +36,23 @@ inline int create_context(SUNContext* context) {
 #endif
 }
 
-/// Redirects error messages of `ida`, created in `context`, from stderr to `message`, which holds the latest. In SUNDIALS 7 this applies to
-/// every object of the context. @return zero, or a negative error code. @param message must outlive both.
+/// Redirects error messages of `ida`, created in `context`, from stderr to `message`, which holds
+/// the latest. In SUNDIALS 7 this applies to every object of the context. @return zero, or a
+/// negative error code. @param message must outlive both.
 inline int keep_last_message(void* ida, SUNContext context, std::string* message) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   static_cast<void>(ida);
-  // Every handler on the stack is called, and the one at the bottom writes to stderr, so the stack is cleared first.
+  // Every handler on the stack is called, and the one at the bottom writes to stderr, so the stack
+  // is cleared first.
   if (const int flag = SUNContext_ClearErrHandlers(context); flag != kSundialsSuccess) return flag;
-  const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* kept, SUNContext) {
-    *static_cast<std::string*>(kept) = text;
-  };
+  const auto keep = [](int, const char*, const char*, const char* text, SUNErrCode, void* kept,
+                       SUNContext) { *static_cast<std::string*>(kept) = text; };
   return SUNContext_PushErrHandler(context, keep, message);
 #else
   static_cast<void>(context);
-  const auto keep = [](int, const char*, const char*, char* text, void* kept) { *static_cast<std::string*>(kept) = text; };
+  const auto keep = [](int, const char*, const char*, char* text, void* kept) {
+    *static_cast<std::string*>(kept) = text;
+  };
   return IDASetErrHandlerFn(ida, keep, message);
 #endif
 }
@@ -68,16 +73,21 @@ using ContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, Release
 using IdaHandle = std::unique_ptr<void, Release<free_ida>>;
 using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_VDestroy>>;
 using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
-using LinearSolverHandle = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
+using LinearSolverHandle =
+    std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
 
-/// The numbers of a vector of SUNDIALS. SUNDIALS does not mark vectors that its callbacks only read.
-inline Span<double> span_of(N_Vector vector) { return {N_VGetArrayPointer(vector), N_VGetLength(vector)}; }
+/// The numbers of a vector of SUNDIALS. SUNDIALS does not mark vectors that its callbacks only
+/// read.
+inline Span<double> span_of(N_Vector vector) {
+  return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
+}
 
 /// An owned array of vectors for the sensitivity functions of SUNDIALS.
 class VectorArray {
  public:
   /// `count` vectors of the size of `like`. @throws std::bad_alloc
-  VectorArray(int count, N_Vector like) : count_(count), vectors_(N_VCloneVectorArray(count, like)) {
+  VectorArray(int count, N_Vector like)
+      : count_(count), vectors_(N_VCloneVectorArray(count, like)) {
     if (!vectors_) throw std::bad_alloc();
   }
   ~VectorArray() { N_VDestroyVectorArray(vectors_, count_); }
@@ -105,7 +115,8 @@ inline VectorHandle make_vector(int size, SUNContext context) {
   return VectorHandle(vector);
 }
 
-/// Throws std::logic_error for a negative flag. For calls that fail only through a programming error or lack of memory.
+/// Throws std::logic_error for a negative flag. For calls that fail only through a programming
+/// error or lack of memory.
 inline void require(int flag, const char* call) {
   if (flag < 0) throw std::logic_error(std::string(call) + " failed with " + std::to_string(flag));
 }
@@ -124,8 +135,8 @@ IdasCounts count_idas(void* ida, bool with_sensitivities);
 /// @param message of IDAS, or of an exception in a callback; may be empty.
 Status idas_status(int flag, double time, bool singular, const std::string& message);
 
-/// The warning that sensitivities were restarted at `time` [s], where the steps had drifted off the constraints. @param drift in
-/// tolerances.
+/// The warning that sensitivities were restarted at `time` [s], where the steps had drifted off the
+/// constraints. @param drift in tolerances.
 Warning sensitivities_restarted(double time, double drift);
 
 }  // namespace codesign

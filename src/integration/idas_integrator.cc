@@ -21,9 +21,12 @@
 namespace codesign {
 namespace {
 
-/// The drift d of (17a) beyond which the run is projected and restarted. It grows as the tolerance shrinks, because next to a singular
-/// position the drift in units of the tolerance is large even right after a projection.
-double restart_drift(double relative_tolerance) { return std::max(100.0, 0.03 / std::sqrt(relative_tolerance)); }
+/// The drift d of (17a) beyond which the run is projected and restarted. It grows as the tolerance
+/// shrinks, because next to a singular position the drift in units of the tolerance is large even
+/// right after a projection.
+double restart_drift(double relative_tolerance) {
+  return std::max(100.0, 0.03 / std::sqrt(relative_tolerance));
+}
 
 constexpr double kDefaultDelta = -1.0;  // IDAS takes a negative value for its default
 
@@ -56,7 +59,8 @@ class IdasIntegrator::Implementation {
     if (!ida_) throw std::bad_alloc();
     state_.resize(system.layout());
     equations_.set_motion(&run_watch_.motion());
-    set_up_idas({ida_.get(), context_.get(), &message_}, system, &equations_, &newton_, {y_.get(), y_dot_.get(), psi_.get()});
+    set_up_idas({ida_.get(), context_.get(), &message_}, system, &equations_, &newton_,
+                {y_.get(), y_dot_.get(), psi_.get()});
   }
 
   void carry(IdasSensitivities* sensitivities) {
@@ -71,7 +75,9 @@ class IdasIntegrator::Implementation {
   void interpolate(double time, State<double>* state, double* psi);
   void interpolate_rates(double time, State<double>* rates);
   void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
-  void sensitivity(int k, State<double>* direction) const { equations_.unpack(state_.t, y_rho_->span(k), y_dot_rho_->span(k), direction); }
+  void sensitivity(int k, State<double>* direction) const {
+    equations_.unpack(state_.t, y_rho_->span(k), y_dot_rho_->span(k), direction);
+  }
 
   const State<double>& state() const { return state_; }
   double psi() const { return span_of(psi_.get())[0]; }
@@ -142,7 +148,9 @@ class IdasIntegrator::Implementation {
 Status IdasIntegrator::Implementation::assemble(const std::vector<double>& parameters) {
   return settled_start_.start(
       system_, parameters,
-      [this](const std::vector<double>& design) { return assemble_start(system_, design, &assembly_, &equations(), &initial_); },
+      [this](const std::vector<double>& design) {
+        return assemble_start(system_, design, &assembly_, &equations(), &initial_);
+      },
       [this] {
         assembly_.settle_pivots();
         newton_.settle_as(assembly_.rates_matrix());
@@ -193,10 +201,13 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
     psi_rho_->span(k)[0] = 0.0;
   }
   if (!first) return;
-  // The simultaneous corrector fails in the first steps, and without the error test the sensitivities are inaccurate at the higher orders.
-  require(IDASensInit(ida_.get(), count, IDA_STAGGERED, IdasEquations::sensitivity_residual, y_rho_->get(), y_dot_rho_->get()),
+  // The simultaneous corrector fails in the first steps, and without the error test the
+  // sensitivities are inaccurate at the higher orders.
+  require(IDASensInit(ida_.get(), count, IDA_STAGGERED, IdasEquations::sensitivity_residual,
+                      y_rho_->get(), y_dot_rho_->get()),
           "IDASensInit");
-  require(IDAQuadSensInit(ida_.get(), IdasEquations::sensitivity_integrand, psi_rho_->get()), "IDAQuadSensInit");
+  require(IDAQuadSensInit(ida_.get(), IdasEquations::sensitivity_integrand, psi_rho_->get()),
+          "IDAQuadSensInit");
   require(IDASensEEtolerances(ida_.get()), "IDASensEEtolerances");
 }
 
@@ -215,28 +226,34 @@ void IdasIntegrator::Implementation::restart_solver() {
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
 }
 
-/// Restarts at state_, which has changed. @param change () -> changes directions_ alike; false if a matrix is singular.
+/// Restarts at state_, which has changed. @param change () -> changes directions_ alike; false if a
+/// matrix is singular.
 template <class Change>
 Status IdasIntegrator::Implementation::begin_anew(const Change& change) {
   equations_.pack(state_, span_of(y_.get()), span_of(y_dot_.get()));
   if (with_sensitivities()) {
     for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[to_index(k)]);
-    if (!change()) return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
-    for (int k = 0; k < carried_->count(); ++k) equations_.pack(directions_[to_index(k)], y_rho_->span(k), y_dot_rho_->span(k));
+    if (!change())
+      return {StatusCode::kSingularMatrix, state_.t,
+              "the augmented matrix of the equations of motion is singular"};
+    for (int k = 0; k < carried_->count(); ++k)
+      equations_.pack(directions_[to_index(k)], y_rho_->span(k), y_dot_rho_->span(k));
   }
   before_restart_ = statistics_;
   restart_solver();
   return {};
 }
 
-// A multistep method interpolates the points before, so that it has to begin anew where the efforts jump.
+// A multistep method interpolates the points before, so that it has to begin anew where the efforts
+// jump.
 Status IdasIntegrator::Implementation::jump() {
   const std::vector<ControlEvent>& events = clock_.due(state_.t);
   if (events.empty()) return {};
   before_jump_ = state_;
   equations().jump(events, &state_);
   if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
-  return begin_anew([&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
+  return begin_anew(
+      [&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
 }
 
 Status IdasIntegrator::Implementation::go_on(double time, const std::vector<double>& parameters) {
@@ -245,7 +262,9 @@ Status IdasIntegrator::Implementation::go_on(double time, const std::vector<doub
   double reached = 0.0;
   interpolate(std::min(time, state_.t), &behind, &reached);
   if (!between) behind = state_;
-  if (Status status = continuation_.cross(parameters, between, &assembly_, &equations(), &behind); !status.ok()) return status;
+  if (Status status = continuation_.cross(parameters, between, &assembly_, &equations(), &behind);
+      !status.ok())
+    return status;
   state_ = behind;
   span_of(psi_.get())[0] = reached;
   equations_.start();
@@ -256,11 +275,13 @@ Status IdasIntegrator::Implementation::go_on(double time, const std::vector<doub
   return begin_anew([] { return true; });
 }
 
-// Projects state and sensitivities and restarts, since a multistep method interpolates the points before. Near a singular position this
-// keeps the mechanism on its branch: the smaller the smallest singular value of Phi_q, the farther a given drift displaces the mechanism.
+// Projects state and sensitivities and restarts, since a multistep method interpolates the points
+// before. Near a singular position this keeps the mechanism on its branch: the smaller the smallest
+// singular value of Phi_q, the farther a given drift displaces the mechanism.
 Status IdasIntegrator::Implementation::project() {
   if (!projection_.apply(&equations(), &state_))
-    return {StatusCode::kSingularMatrix, state_.t, "the augmented matrix of the equations of motion is singular"};
+    return {StatusCode::kSingularMatrix, state_.t,
+            "the augmented matrix of the equations of motion is singular"};
   if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
   if (with_sensitivities()) warn_of_restart();
   const auto project = [this] { return carried_->project(state_, &equations(), &directions_); };
@@ -270,20 +291,25 @@ Status IdasIntegrator::Implementation::project() {
   return {};
 }
 
-/// A projection corrects the state, but the sensitivities keep the error of the steps that had drifted off the constraints.
+/// A projection corrects the state, but the sensitivities keep the error of the steps that had
+/// drifted off the constraints.
 void IdasIntegrator::Implementation::warn_of_restart() {
-  if (restart_warnings_.empty()) restart_warnings_.push_back(sensitivities_restarted(state_.t, drift_size_));
+  if (restart_warnings_.empty())
+    restart_warnings_.push_back(sensitivities_restarted(state_.t, drift_size_));
 }
 
 Status IdasIntegrator::Implementation::advance(double limit) {
   const double before = state_.t;
   const Status status = take_step(limit);
-  return judge_standstill(status, system_, initial_, state_, state_.t - before, statistics_, &equations());
+  return judge_standstill(status, system_, initial_, state_, state_.t - before, statistics_,
+                          &equations());
 }
 
 Status IdasIntegrator::Implementation::take_step(double limit) {
   if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
-    return {StatusCode::kTooManySteps, state_.t, "more than " + std::to_string(options_.maximum_steps) + " steps (solver.maximum_steps)"};
+    return {
+        StatusCode::kTooManySteps, state_.t,
+        "more than " + std::to_string(options_.maximum_steps) + " steps (solver.maximum_steps)"};
   // At the beginning of the next step, since dense output within the last one needs its history.
   if (drift_size_ > restart_drift_)
     if (Status status = project(); !status.ok()) return status;
@@ -295,7 +321,9 @@ Status IdasIntegrator::Implementation::take_step(double limit) {
   require(IDASetStopTime(ida, stop), "IDASetStopTime");
   const int flag = IDASolve(ida, stop, &time, y_.get(), y_dot_.get(), IDA_ONE_STEP);
   count_steps();
-  if (flag < 0) return idas_status(flag, state_.t, newton_.singular(), equations_.failure().empty() ? message_ : equations_.failure());
+  if (flag < 0)
+    return idas_status(flag, state_.t, newton_.singular(),
+                       equations_.failure().empty() ? message_ : equations_.failure());
   take_over(time);
   if (Status status = check_run(); !status.ok()) return status;
   if (Status status = pace_.check(state_.t, statistics_.steps); !status.ok()) return status;
@@ -318,7 +346,8 @@ void IdasIntegrator::Implementation::take_over(double time) {
   if (drift_.size() > 0) largest_drift_ = std::max(largest_drift_, drift_.cwiseAbs().maxCoeff());
 }
 
-// The corrections use the last Newton matrix, which differs from G_z of the projection (17) by terms of the order of the step.
+// The corrections use the last Newton matrix, which differs from G_z of the projection (17) by
+// terms of the order of the step.
 Status IdasIntegrator::Implementation::check_run() {
   const double before = work_;
   work_ = span_of(psi_.get())[1];
@@ -340,7 +369,8 @@ void IdasIntegrator::Implementation::interpolate_rates(double time, State<double
   equations_.unpack(time, span_of(dense_dot_.get()), span_of(dense_dot_.get()), rates);
 }
 
-void IdasIntegrator::Implementation::interpolate_sensitivities(double time, std::vector<State<double>>* directions) {
+void IdasIntegrator::Implementation::interpolate_sensitivities(
+    double time, std::vector<State<double>>* directions) {
   const int count = carried_->count();
   directions->resize(to_index(count), state_);
   const bool has_stepped = statistics_.steps > 0;
@@ -368,10 +398,13 @@ void IdasIntegrator::Implementation::interpolate(double time, State<double>* sta
   integrals[1] = work_;
 }
 
-IdasIntegrator::IdasIntegrator(const CompiledSystem& system) : implementation_(std::make_unique<Implementation>(system, this)) {}
+IdasIntegrator::IdasIntegrator(const CompiledSystem& system)
+    : implementation_(std::make_unique<Implementation>(system, this)) {}
 IdasIntegrator::~IdasIntegrator() = default;
 
-void IdasIntegrator::carry(IdasSensitivities* sensitivities) { implementation_->carry(sensitivities); }
+void IdasIntegrator::carry(IdasSensitivities* sensitivities) {
+  implementation_->carry(sensitivities);
+}
 Status IdasIntegrator::start(const std::vector<double>& parameters) {
   begin_methods("idas");
   return implementation_->start(parameters);
@@ -380,18 +413,29 @@ Status IdasIntegrator::advance(double limit) {
   if (cancelled()) return {StatusCode::kCancelled, state().t, "cancelled"};
   return implementation_->advance(limit);
 }
-Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) { return implementation_->go_on(time, parameters); }
+Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) {
+  return implementation_->go_on(time, parameters);
+}
 const State<double>& IdasIntegrator::state() const { return implementation_->state(); }
 double IdasIntegrator::psi() const { return implementation_->psi(); }
-void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) { implementation_->interpolate(time, state, psi); }
-void IdasIntegrator::interpolate_rates(double time, State<double>* rates) { implementation_->interpolate_rates(time, rates); }
+void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) {
+  implementation_->interpolate(time, state, psi);
+}
+void IdasIntegrator::interpolate_rates(double time, State<double>* rates) {
+  implementation_->interpolate_rates(time, rates);
+}
 Equations<double>& IdasIntegrator::equations() { return implementation_->equations(); }
 Assembly& IdasIntegrator::assembly() { return implementation_->assembly(); }
-void IdasIntegrator::watch_singularities(bool watch) { implementation_->watch_singularities(watch); }
+void IdasIntegrator::watch_singularities(bool watch) {
+  implementation_->watch_singularities(watch);
+}
 const Statistics& IdasIntegrator::statistics() const { return implementation_->statistics(); }
 Warnings IdasIntegrator::warnings() const { return implementation_->warnings(); }
-void IdasIntegrator::sensitivity(int k, State<double>* direction) const { implementation_->sensitivity(k, direction); }
-void IdasIntegrator::interpolate_sensitivities(double time, std::vector<State<double>>* directions) {
+void IdasIntegrator::sensitivity(int k, State<double>* direction) const {
+  implementation_->sensitivity(k, direction);
+}
+void IdasIntegrator::interpolate_sensitivities(double time,
+                                               std::vector<State<double>>* directions) {
   implementation_->interpolate_sensitivities(time, directions);
 }
 double IdasIntegrator::psi_sensitivity(int k) const { return implementation_->psi_sensitivity(k); }

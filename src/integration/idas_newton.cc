@@ -20,11 +20,15 @@ int free_shell(SUNLinearSolver solver) {
 }  // namespace
 
 IdasNewton::IdasNewton(const CompiledSystem& system, SUNContext context)
-    : system_(system), reduced_(system), matrix_(SUNMatNewEmpty(context)), solver_(SUNLinSolNewEmpty(context)) {
+    : system_(system),
+      reduced_(system),
+      matrix_(SUNMatNewEmpty(context)),
+      solver_(SUNLinSolNewEmpty(context)) {
   if (!matrix_ || !solver_) throw std::bad_alloc();
   derivatives_.resize(system.patterns());
   u_.setZero(system.layout().columns());
-  // IDAS requires a matrix for a direct solver; this one is empty, since the entries are in derivatives_.
+  // IDAS requires a matrix for a direct solver; this one is empty, since the entries are in
+  // derivatives_.
   matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
   matrix_->ops->zero = [](SUNMatrix) { return kSundialsSuccess; };
   matrix_->ops->destroy = SUNMatFreeEmpty;
@@ -36,13 +40,14 @@ IdasNewton::IdasNewton(const CompiledSystem& system, SUNContext context)
   solver_->ops->free = free_shell;
 }
 
-// Divides the derivatives of the constraint rows. Since (Phi'')_v = 2 (Phi')_q, those of the stabilized row come out as those of Phi'' with
-// h/(1 + kappa h) in place of h, (26a).
+// Divides the derivatives of the constraint rows. Since (Phi'')_v = 2 (Phi')_q, those of the
+// stabilized row come out as those of Phi'' with h/(1 + kappa h) in place of h, (26a).
 void IdasNewton::stabilize() {
   const Layout& layout = system_.layout();
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const double scale = 1.0 / (1.0 + kappa_ / c_j_);
-  const auto multiply = [](const Sparsity& pattern, int row, int first_column, double factor, std::vector<double>* values) {
+  const auto multiply = [](const Sparsity& pattern, int row, int first_column, double factor,
+                           std::vector<double>* values) {
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
       if (pattern.column(e) >= first_column) (*values)[to_index(e)] *= factor;
   };
@@ -53,7 +58,8 @@ void IdasNewton::stabilize() {
   }
 }
 
-// The terms of (26a) with Phi''_v b_q and Phi_q b_q; subtract_position_product() has subtracted those with Phi''_q b_q.
+// The terms of (26a) with Phi''_v b_q and Phi_q b_q; subtract_position_product() has subtracted
+// those with Phi''_q b_q.
 void IdasNewton::subtract_stabilization(In<double> b_q) {
   const Layout& layout = system_.layout();
   const ByVariable<Sparsity>& patterns = system_.patterns();
@@ -100,8 +106,8 @@ void IdasNewton::solve(In<double> b, Out<double> x) {
   if (kappa_ > 0.0) subtract_stabilization(b_q);
   reduced_.lu().solve(u_);
   const std::ptrdiff_t n = layout.n;
-  Eigen::Map<VectorX<double>> x_q(x.data(), n), x_v(x.data() + n, n), x_s(x.data() + 2 * n, layout.states),
-      x_lambda(x.data() + 2 * n + layout.states, layout.m);
+  Eigen::Map<VectorX<double>> x_q(x.data(), n), x_v(x.data() + n, n),
+      x_s(x.data() + 2 * n, layout.states), x_lambda(x.data() + 2 * n + layout.states, layout.m);
   x_v = h * u_.head(layout.n);
   x_q = h * (x_v + Eigen::Map<const VectorX<double>>(b.data(), layout.n));
   x_s = h * u_.tail(layout.states);

@@ -11,7 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kAnyMultiplier = 1e10;  // absolute tolerance that excludes multipliers from convergence tests
+constexpr double kAnyMultiplier =
+    1e10;  // absolute tolerance that excludes multipliers from convergence tests
 
 /// The part of the multipliers, the last in y.
 Span<double> multipliers_of(const CompiledSystem& system, const VectorHandle& y) {
@@ -20,21 +21,22 @@ Span<double> multipliers_of(const CompiledSystem& system, const VectorHandle& y)
   return all.subspan(all.size() - m, m);
 }
 
-// With redundant constraints, multipliers that are not unique vary by rounding divided by the compliance: Newton's convergence test must
-// not include them.
+// With redundant constraints, multipliers that are not unique vary by rounding divided by the
+// compliance: Newton's convergence test must not include them.
 void set_tolerances(const IdasMemory& memory, const CompiledSystem& system, int size) {
   const SolverOptions& options = system.study().solver;
   const VectorHandle absolute = make_vector(size, memory.context);
   N_VConst(options.absolute_tolerance, absolute.get());
   const Span<double> multipliers = multipliers_of(system, absolute);
   if (system.compliance() > 0.0) std::fill(multipliers.begin(), multipliers.end(), kAnyMultiplier);
-  require(IDASVtolerances(memory.ida, options.relative_tolerance, absolute.get()), "IDASVtolerances");
+  require(IDASVtolerances(memory.ida, options.relative_tolerance, absolute.get()),
+          "IDASVtolerances");
 }
 
 }  // namespace
 
-void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEquations* equations, IdasNewton* newton,
-                 const IdasVectors& vectors) {
+void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEquations* equations,
+                 IdasNewton* newton, const IdasVectors& vectors) {
   const SolverOptions& options = system.study().solver;
   void* const ida = memory.ida;
   const VectorHandle differential = make_vector(equations->size(), memory.context);
@@ -49,7 +51,8 @@ void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEqu
   require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
   require(IDASetInitStep(ida, options.initial_step), "IDASetInitStep");
   // A shorter step would be lost in rounding when added to the time.
-  require(IDASetMinStep(ida, std::numeric_limits<double>::epsilon() * system.study().duration), "IDASetMinStep");
+  require(IDASetMinStep(ida, std::numeric_limits<double>::epsilon() * system.study().duration),
+          "IDASetMinStep");
   require(IDASetMaxStep(ida, options.maximum_step), "IDASetMaxStep");
   require(IDASetLinearSolver(ida, newton->solver(), newton->matrix()), "IDASetLinearSolver");
   require(IDASetJacFn(ida, IdasEquations::jacobian), "IDASetJacFn");

@@ -21,8 +21,9 @@ struct IdasVectors {
   N_Vector y, y_dot, integrals;
 };
 
-/// Gives IDAS equations, tolerances, steps and linear solver of a study. All arguments must outlive its memory.
-void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEquations* equations, IdasNewton* newton,
-                 const IdasVectors& vectors);
+/// Gives IDAS equations, tolerances, steps and linear solver of a study. All arguments must outlive
+/// its memory.
+void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEquations* equations,
+                 IdasNewton* newton, const IdasVectors& vectors);
 
 }  // namespace codesign

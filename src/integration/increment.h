@@ -12,7 +12,8 @@
 
 namespace codesign {
 
-/// Offsets of the parts of an increment u_i, (15), in one vector [x | v | z | psi] with x = (q, s), so that a sum over stages is one loop.
+/// Offsets of the parts of an increment u_i, (15), in one vector [x | v | z | psi] with x = (q, s),
+/// so that a sum over stages is one loop.
 struct IncrementLayout {
   int n, states, x_size, z_size;
 
@@ -37,7 +38,8 @@ void combine_parts(const T* from, const double* factors, const T* const* parts, 
     using Four = Lanes<4>::Four;
     for (; k + 4 <= length; k += 4) {
       Four sum = *reinterpret_cast<const Four*>(from + k);
-      for (std::size_t j = 0; j < count; ++j) sum += factors[j] * *reinterpret_cast<const Four*>(parts[j] + k);
+      for (std::size_t j = 0; j < count; ++j)
+        sum += factors[j] * *reinterpret_cast<const Four*>(parts[j] + k);
       *reinterpret_cast<Four*>(to + k) = sum;
     }
   }
@@ -49,34 +51,41 @@ void combine_parts(const T* from, const double* factors, const T* const* parts, 
 }
 
 template <std::size_t most, class T>
-void combine_up_to(std::size_t count, const T* from, const double* factors, const T* const* parts, int length, T* to) {
+void combine_up_to(std::size_t count, const T* from, const double* factors, const T* const* parts,
+                   int length, T* to) {
   if (count == most) return combine_parts<most>(from, factors, parts, length, to);
   if constexpr (most > 0) combine_up_to<most - 1>(count, from, factors, parts, length, to);
 }
 
 }  // namespace internal
 
-/// to = from + sum of factors[j] parts[j] in one pass, for as many factors as there are, at most RosenbrockTableau::kMaximumStages. `to`
-/// may be `from`. The count becomes a template parameter, so that the loop over the parts is unrolled.
+/// to = from + sum of factors[j] parts[j] in one pass, for as many factors as there are, at most
+/// RosenbrockTableau::kMaximumStages. `to` may be `from`. The count becomes a template parameter,
+/// so that the loop over the parts is unrolled.
 /// @param parts where each part begins, as the inner loop takes it; each is as long as `to`.
 template <class T>
-void combine(In<T> from, In<double> factors, const T* const (&parts)[RosenbrockTableau::kMaximumStages], Out<T> to) {
+void combine(In<T> from, In<double> factors,
+             const T* const (&parts)[RosenbrockTableau::kMaximumStages], Out<T> to) {
   assert(from.size() == to.size() && factors.size() <= RosenbrockTableau::kMaximumStages);
-  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(to_index(factors.size()), from.data(), factors.data(), parts,
-                                                             static_cast<int>(to.size()), to.data());
+  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(
+      to_index(factors.size()), from.data(), factors.data(), parts, static_cast<int>(to.size()),
+      to.data());
 }
 
 /// to = from + sum of factors[j] u_j, for the entries of each u_j from `first` on.
 template <class T>
-void combine(In<T> from, In<double> factors, const std::vector<VectorX<T>>& u, int first, Out<T> to) {
+void combine(In<T> from, In<double> factors, const std::vector<VectorX<T>>& u, int first,
+             Out<T> to) {
   const T* parts[RosenbrockTableau::kMaximumStages];
-  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = In<T>(u[to_index(j)]).subspan(first, to.size()).data();
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j)
+    parts[j] = In<T>(u[to_index(j)]).subspan(first, to.size()).data();
   combine(from, factors, parts, to);
 }
 
 /// to = from + sum of factors[j] u_j, for the parts q, s, v and z of the state.
 template <class T>
-void combine(const IncrementLayout& at, const State<T>& from, In<double> factors, const std::vector<VectorX<T>>& u, State<T>* to) {
+void combine(const IncrementLayout& at, const State<T>& from, In<double> factors,
+             const std::vector<VectorX<T>>& u, State<T>* to) {
   combine(from.q, factors, u, at.x(), to->q);
   combine(from.s, factors, u, at.s(), to->s);
   combine(from.v, factors, u, at.v(), to->v);

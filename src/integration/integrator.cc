@@ -14,22 +14,26 @@ void Integrator::obey(const std::atomic<bool>* cancel) {
 }
 
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {
-  if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasIntegrator>(system);
+  if (system.study().solver.integrator == IntegratorKind::kIdas)
+    return std::make_unique<IdasIntegrator>(system);
   return std::make_unique<RosenbrockIntegrator>(system);
 }
 
 Status check_design(const CompiledSystem& system, const Equations<double>& equations) {
-  if (std::string fault = find_impossible(system.robot(), system.topology(), equations.constants()); !fault.empty())
+  if (std::string fault = find_impossible(system.robot(), system.topology(), equations.constants());
+      !fault.empty())
     return {StatusCode::kInvalidDesign, 0.0, fault};
   const std::vector<ControllerDescription>& controllers = system.study().controllers;
   for (std::size_t c = 0; c < controllers.size(); ++c)
-    if (std::string fault = find_impossible(controllers[c], equations.formulas().view().design.controllers[c]); !fault.empty())
+    if (std::string fault =
+            find_impossible(controllers[c], equations.formulas().view().design.controllers[c]);
+        !fault.empty())
       return {StatusCode::kInvalidDesign, 0.0, fault};
   return {};
 }
 
-Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
-                      State<double>* initial) {
+Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters,
+                      Assembly* assembly, Equations<double>* equations, State<double>* initial) {
   equations->set_design(parameters);
   if (Status status = check_design(system, *equations); !status.ok()) return status;
   return assembly->solve(parameters, equations, initial);

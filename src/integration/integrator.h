@@ -16,29 +16,33 @@ class Assembly;
 template <class T>
 class Equations;
 
-/// Integrates one design of a mechanism step by step. start() may be called again for another design and reuses the memory. Not
-/// thread-safe.
+/// Integrates one design of a mechanism step by step. start() may be called again for another
+/// design and reuses the memory. Not thread-safe.
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Assembles the initial state of a design at t = 0. @param parameters all named parameters (Study::parameters order).
+  /// Assembles the initial state of a design at t = 0. @param parameters all named parameters
+  /// (Study::parameters order).
   /// @returns the status of assemble_start().
   virtual Status start(const std::vector<double>& parameters) = 0;
-  /// Takes one accepted step that ends at `limit` [s] or before. Rejected attempts are repeated with smaller steps.
+  /// Takes one accepted step that ends at `limit` [s] or before. Rejected attempts are repeated
+  /// with smaller steps.
   virtual Status advance(double limit) = 0;
 
-  /// Goes on from `time` [s] within the last step, where inputs have jumped (LiveFunction) or the design changes, doc/theory.md (55): the
-  /// part of the step after that instant is discarded, and psi() is the integral up to it. Without sensitivities.
-  /// @param parameters all named parameters after that instant. @returns ok, or a failure of Continuation::cross(), after which the run is
-  /// unchanged.
+  /// Goes on from `time` [s] within the last step, where inputs have jumped (LiveFunction) or the
+  /// design changes, doc/theory.md (55): the part of the step after that instant is discarded, and
+  /// psi() is the integral up to it. Without sensitivities.
+  /// @param parameters all named parameters after that instant. @returns ok, or a failure of
+  /// Continuation::cross(), after which the run is unchanged.
   virtual Status go_on(double time, const std::vector<double>& parameters) = 0;
 
   /// The state at the end of the last step; after start(), the initial state.
   virtual const State<double>& state() const = 0;
   /// Integral of the objective's integrand g from 0 to state().t, doc/theory.md (21).
   virtual double psi() const = 0;
-  /// Dense output at `time` [s] within the last step: state and psi. Accelerations and multipliers in `state->z` are of lower accuracy.
+  /// Dense output at `time` [s] within the last step: state and psi. Accelerations and multipliers
+  /// in `state->z` are of lower accuracy.
   virtual void interpolate(double time, State<double>* state, double* psi) = 0;
 
   /// The time derivative of the dense output: the parts q, v and s of `rates` [per s].
@@ -46,7 +50,8 @@ class Integrator {
 
   virtual Equations<double>& equations() = 0;
   virtual Assembly& assembly() = 0;
-  /// Whether runs look for singular positions that they pass, doc/theory.md (17b), to report in warnings(); from the next start() on.
+  /// Whether runs look for singular positions that they pass, doc/theory.md (17b), to report in
+  /// warnings(); from the next start() on.
   virtual void watch_singularities(bool watch) = 0;
   virtual const Statistics& statistics() const = 0;
   /// As Simulation::methods().
@@ -54,8 +59,8 @@ class Integrator {
   /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;
 
-  /// Once `cancel` is set (by any thread), start() and advance() end soon with kCancelled, even while a step is being retried. nullptr: no
-  /// cancellation.
+  /// Once `cancel` is set (by any thread), start() and advance() end soon with kCancelled, even
+  /// while a step is being retried. nullptr: no cancellation.
   void obey(const std::atomic<bool>* cancel);
 
  protected:
@@ -71,24 +76,30 @@ class Integrator {
 /// The integrator that the study selects by solver.integrator. @param system must outlive it.
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system);
 
-/// Checks that the design in `equations` is possible: kInvalidDesign with the first impossible constant, or ok.
+/// Checks that the design in `equations` is possible: kInvalidDesign with the first impossible
+/// constant, or ok.
 Status check_design(const CompiledSystem& system, const Equations<double>& equations);
 
 /// Sets the design in `equations` and solves for a consistent initial state at t = 0.
-/// @returns kInvalidDesign for constants that no mechanism can have (such as a negative mass), else the status of Assembly::solve().
-Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters, Assembly* assembly, Equations<double>* equations,
-                      State<double>* initial);
+/// @returns kInvalidDesign for constants that no mechanism can have (such as a negative mass), else
+/// the status of Assembly::solve().
+Status assemble_start(const CompiledSystem& system, const std::vector<double>& parameters,
+                      Assembly* assembly, Equations<double>* equations, State<double>* initial);
 
-/// Starts the runs of an integrator, each with the pivots that are chosen at the study's own start. The last bits of a run then depend on
-/// its design alone, and pivots need not be chosen for each run. See doc/decisions/0049-journal.md.
+/// Starts the runs of an integrator, each with the pivots that are chosen at the study's own start.
+/// The last bits of a run then depend on its design alone, and pivots need not be chosen for each
+/// run. See doc/decisions/0049-journal.md.
 class SettledStart {
  public:
-  /// Before the first run, unless it is the study's own, the study's own start is begun and settled.
-  /// @param parameters of this run. @param begin (parameters) -> Status: assembles the start, which factors the matrices.
+  /// Before the first run, unless it is the study's own, the study's own start is begun and
+  /// settled.
+  /// @param parameters of this run. @param begin (parameters) -> Status: assembles the start, which
+  /// factors the matrices.
   /// @param settle () -> keeps their present pivots, SparseLu::settle().
   /// @returns the status of begin(parameters).
   template <class Begin, class Settle>
-  Status start(const CompiledSystem& system, const std::vector<double>& parameters, const Begin& begin, const Settle& settle) {
+  Status start(const CompiledSystem& system, const std::vector<double>& parameters,
+               const Begin& begin, const Settle& settle) {
     const bool is_first = !has_settled_, is_own = is_first && parameters == system.parameters();
     has_settled_ = true;
     if (is_first && !is_own && begin(system.parameters()).ok()) settle();

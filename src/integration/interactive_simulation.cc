@@ -8,7 +8,8 @@
 
 namespace codesign {
 
-InteractiveSimulation::InteractiveSimulation(const CompiledSystem& of, const CommandOptions& options,
+InteractiveSimulation::InteractiveSimulation(const CompiledSystem& of,
+                                             const CommandOptions& options,
                                              const std::vector<SignalDescription>& signals)
     : inputs_(of, options),
       signals_(signals),
@@ -17,7 +18,8 @@ InteractiveSimulation::InteractiveSimulation(const CompiledSystem& of, const Com
       simulation_(std::make_unique<Simulation>(system_, parameters_, signals_)),
       names_(simulation_->names()),
       courses_(inputs_.setpoints.size()) {
-  names_.controllers.erase(names_.controllers.begin(), names_.controllers.begin() + to_signed(inputs_.joints.size()));
+  names_.controllers.erase(names_.controllers.begin(),
+                           names_.controllers.begin() + to_signed(inputs_.joints.size()));
 }
 
 Status InteractiveSimulation::start(const std::vector<double>& parameters) {
@@ -51,7 +53,9 @@ bool InteractiveSimulation::take_pieces(double time) {
   bool taken = false;
   for (std::size_t k = 0; k < courses_.size(); ++k) {
     Course& course = courses_[k];
-    const auto later = std::find_if(course.begin(), course.end(), [time](const LiveFunction& piece) { return piece.start > time; });
+    const auto later =
+        std::find_if(course.begin(), course.end(),
+                     [time](const LiveFunction& piece) { return piece.start > time; });
     if (later == course.begin()) continue;
     *inputs_.setpoints[k] = *std::prev(later);
     course.erase(course.begin(), later);
@@ -74,7 +78,8 @@ Status InteractiveSimulation::advance(double time) {
 
 void InteractiveSimulation::sample(double time, Frame* frame) {
   simulation_->sample(time, frame);
-  frame->controllers.erase(frame->controllers.begin(), frame->controllers.begin() + to_signed(inputs_.joints.size()));
+  frame->controllers.erase(frame->controllers.begin(),
+                           frame->controllers.begin() + to_signed(inputs_.joints.size()));
 }
 
 void InteractiveSimulation::set_effort(std::size_t joint, double effort) {
@@ -84,8 +89,9 @@ void InteractiveSimulation::set_effort(std::size_t joint, double effort) {
 
 void InteractiveSimulation::set_course(std::size_t controller, const Course& course) {
   Course& pieces = courses_[controller];
-  const auto replaced =
-      std::find_if(pieces.begin(), pieces.end(), [&](const LiveFunction& piece) { return piece.start >= course.front().start; });
+  const auto replaced = std::find_if(pieces.begin(), pieces.end(), [&](const LiveFunction& piece) {
+    return piece.start >= course.front().start;
+  });
   pieces.erase(replaced, pieces.end());
   pieces.insert(pieces.end(), course.begin(), course.end());
   has_news_ = true;
@@ -109,7 +115,8 @@ ReferenceMotion<double> InteractiveSimulation::setpoint(std::size_t controller, 
   const std::size_t index = inputs_.joints.size() + inputs_.indices[controller];
   ReferenceDescription description = system_->study().controllers[index].setpoint;
   for (const LiveFunction& piece : courses_[controller])
-    if (piece.start <= time) description.live.function = std::make_shared<const LiveFunction>(piece);
+    if (piece.start <= time)
+      description.live.function = std::make_shared<const LiveFunction>(piece);
   return Reference<double>(description, parameters_).at(time);
 }
 

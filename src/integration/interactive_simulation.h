@@ -11,13 +11,15 @@
 
 namespace codesign {
 
-/// A run whose inputs and parameters can change during the run, as on a robot: set_effort(), set_course(), then apply() at an instant.
-/// Without commands it takes the same steps as a Simulation; after the first command, steps end at the times given to advance(). It has a
-/// system of its own. Not thread-safe.
+/// A run whose inputs and parameters can change during the run, as on a robot: set_effort(),
+/// set_course(), then apply() at an instant. Without commands it takes the same steps as a
+/// Simulation; after the first command, steps end at the times given to advance(). It has a system
+/// of its own. Not thread-safe.
 class InteractiveSimulation {
  public:
   /// @throws InputError as CommandInputs and Simulation.
-  InteractiveSimulation(const CompiledSystem& of, const CommandOptions& options, const std::vector<SignalDescription>& signals);
+  InteractiveSimulation(const CompiledSystem& of, const CommandOptions& options,
+                        const std::vector<SignalDescription>& signals);
 
   const CommandInputs& inputs() const { return inputs_; }
   double duration() const { return inputs_.study.duration; }
@@ -25,17 +27,18 @@ class InteractiveSimulation {
   const FrameNames& names() const { return names_; }
   const std::vector<double>& parameters() const { return parameters_; }
 
-  /// Begins at t = 0 without commands. @param parameters all named parameters. @returns as Simulation::start(); after a failure the run
-  /// must be started again.
+  /// Begins at t = 0 without commands. @param parameters all named parameters. @returns as
+  /// Simulation::start(); after a failure the run must be started again.
   Status start(const std::vector<double>& parameters);
   /// As Simulation::advance(); steps end at the instants at which pieces of courses begin.
   Status advance(double time);
   void sample(double time, Frame* frame);
 
-  /// Sets an effort, which takes effect with apply(). @param joint, controller indices in inputs(). @param effort [N or N m], held until
-  /// the next effort.
+  /// Sets an effort, which takes effect with apply(). @param joint, controller indices in inputs().
+  /// @param effort [N or N m], held until the next effort.
   void set_effort(std::size_t joint, double effort);
-  /// @param course of a set-point, in the unit of the controller's input; from its first piece on, it replaces the previous course.
+  /// @param course of a set-point, in the unit of the controller's input; from its first piece on,
+  /// it replaces the previous course.
   void set_course(std::size_t controller, const Course& course);
   /// Applies the new commands, if there are any, at `time`, at which the last advance() ended.
   Status apply(double time);
@@ -43,10 +46,13 @@ class InteractiveSimulation {
   Status change(double time, const std::vector<double>& parameters);
 
   double effort(std::size_t joint) const { return inputs_.efforts[joint]->c[0]; }
-  /// The set-point of a controller and its rates at `time` [s], now or later, if no other course is set.
+  /// The set-point of a controller and its rates at `time` [s], now or later, if no other course is
+  /// set.
   ReferenceMotion<double> setpoint(std::size_t controller, double time) const;
   /// Whether a command has replaced the set-point of the study.
-  bool is_commanded(std::size_t controller) const { return inputs_.setpoints[controller]->commanded; }
+  bool is_commanded(std::size_t controller) const {
+    return inputs_.setpoints[controller]->commanded;
+  }
 
   /// As Simulation::obey(), also for later runs.
   void obey(const std::atomic<bool>* cancel);

@@ -8,8 +8,8 @@
 namespace codesign {
 namespace {
 
-// Of the code DOPRI5: the limit of stability on the negative real axis, how many steps at it make a stiff stretch, and how many others in a
-// row end the count.
+// Of the code DOPRI5: the limit of stability on the negative real axis, how many steps at it make a
+// stiff stretch, and how many others in a row end the count.
 constexpr double kLimit = 3.25;
 constexpr int kStiffSteps = 15, kOtherSteps = 6;
 // A margin against ping-pong, and against the error of the estimate.
@@ -26,7 +26,8 @@ const RosenbrockTableau& first_method(const CompiledSystem& system) {
 }  // namespace
 
 MethodChoice::MethodChoice(const CompiledSystem& system)
-    : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto && system.compliance() == 0.0),
+    : is_automatic_(system.study().solver.method == RosenbrockMethod::kAuto &&
+                    system.compliance() == 0.0),
       first_(&first_method(system)),
       direction_(IncrementLayout(system.layout()).size()) {}
 
@@ -34,7 +35,8 @@ const RosenbrockTableau& MethodChoice::start() {
   stiff_ = others_ = 0;
   waits_ = pause_ = kFirstPause;
   // Without any pattern, so that it has a part along every eigenvector.
-  for (Eigen::Index k = 0; k < direction_.size(); ++k) direction_[k] = std::sin(1.0 + 7.0 * static_cast<double>(k));
+  for (Eigen::Index k = 0; k < direction_.size(); ++k)
+    direction_[k] = std::sin(1.0 + 7.0 * static_cast<double>(k));
   return *first_;
 }
 

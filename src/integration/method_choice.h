@@ -6,9 +6,10 @@
 
 namespace codesign {
 
-/// The change-over between dopri5() and rodas5p() of `solver: {method: auto}`, theory (15c): a run begins explicitly, or implicitly if the
-/// mechanism has dry friction, goes on implicitly when stability limits the explicit steps, and returns when steps of the same size would
-/// be stable explicitly. Loops that share reactions, (23), are integrated by rodas4() throughout.
+/// The change-over between dopri5() and rodas5p() of `solver: {method: auto}`, theory (15c): a run
+/// begins explicitly, or implicitly if the mechanism has dry friction, goes on implicitly when
+/// stability limits the explicit steps, and returns when steps of the same size would be stable
+/// explicitly. Loops that share reactions, (23), are integrated by rodas4() throughout.
 class MethodChoice {
  public:
   explicit MethodChoice(const CompiledSystem& system);

@@ -41,7 +41,10 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   begin_methods(step_.tableau().name);
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
-  if (Status status = assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_); !status.ok()) return status;
+  if (Status status =
+          assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_);
+      !status.ok())
+    return status;
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations(), initial_);
@@ -59,13 +62,15 @@ Warnings RosenbrockIntegrator::warnings() const {
   return all;
 }
 
-// The first step size: a hundredth of the time in which the state, scaled by the tolerances, changes by its own size (Hairer, Norsett and
-// Wanner, Solving ODE I, II.4).
+// The first step size: a hundredth of the time in which the state, scaled by the tolerances,
+// changes by its own size (Hairer, Norsett and Wanner, Solving ODE I, II.4).
 double RosenbrockIntegrator::first_step() const {
   double size = 0.0, rate = 0.0;
   for (Eigen::Index k = 0; k < initial_.q.size(); ++k) {
-    const double q_scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(initial_.q[k]);
-    const double v_scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(initial_.v[k]);
+    const double q_scale =
+        options_.absolute_tolerance + options_.relative_tolerance * std::abs(initial_.q[k]);
+    const double v_scale =
+        options_.absolute_tolerance + options_.relative_tolerance * std::abs(initial_.v[k]);
     size += std::pow(initial_.q[k] / q_scale, 2) + std::pow(initial_.v[k] / v_scale, 2);
     rate += std::pow(initial_.v[k] / q_scale, 2) + std::pow(initial_.z[k] / v_scale, 2);
   }
@@ -83,8 +88,9 @@ void RosenbrockIntegrator::interpolate_rates(double time, State<double>* rates) 
   step_.interpolate_rates((time - step_.previous().t) / step_.step_size(), rates);
 }
 
-// At the beginning of the next step, since the dense output of the last one ends with the state before the jump. Accelerations and
-// multipliers jump with the efforts, and a Rosenbrock method needs them consistent.
+// At the beginning of the next step, since the dense output of the last one ends with the state
+// before the jump. Accelerations and multipliers jump with the efforts, and a Rosenbrock method
+// needs them consistent.
 Status RosenbrockIntegrator::jump() {
   jump_events_.clear();
   if (clock_.is_empty()) return {};
@@ -93,19 +99,24 @@ Status RosenbrockIntegrator::jump() {
   before_jump_ = step_.state();
   State<double>& behind = behind_jump_ = before_jump_;
   step_.equations().jump(jump_events_, &behind);
-  if (Status status = assembly_.solve_rates(&step_.equations(), &behind); !status.ok()) return status;
+  if (Status status = assembly_.solve_rates(&step_.equations(), &behind); !status.ok())
+    return status;
   step_.restart(behind);
   work_.start(behind, run_watch_.motion());
   return {};
 }
 
 Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& parameters) {
-  const bool between = time < step_.state().t, changes = parameters != step_.equations().parameters();
+  const bool between = time < step_.state().t,
+             changes = parameters != step_.equations().parameters();
   State<double>& behind = behind_jump_;
   double reached = 0.0;
   interpolate(std::min(time, step_.state().t), &behind, &reached);
   if (!between) behind = step_.state();
-  if (Status status = continuation_.cross(parameters, between, &assembly_, &step_.equations(), &behind); !status.ok()) return status;
+  if (Status status =
+          continuation_.cross(parameters, between, &assembly_, &step_.equations(), &behind);
+      !status.ok())
+    return status;
   step_.start(behind, reached);
   if (changes) step_.choose_pivots(proposal_);
   run_watch_.go_on(step_.equations(), behind);
@@ -122,27 +133,34 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   }
   chooses_ = false;
   const double t = step_.state().t;
-  const double smallest = 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * system_.study().duration);
+  const double smallest = 16.0 * std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(t), 1e-3 * system_.study().duration);
   bool singular = false;
   const auto judged = [&](const Status& status) {
-    return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(), statistics_, &step_.equations());
+    return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(),
+                            statistics_, &step_.equations());
   };
   for (;;) {
     if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
-      return judged(
-          {StatusCode::kTooManySteps, t, "more than " + std::to_string(options_.maximum_steps) + " steps (solver.maximum_steps)"});
+      return judged({StatusCode::kTooManySteps, t,
+                     "more than " + std::to_string(options_.maximum_steps) +
+                         " steps (solver.maximum_steps)"});
     if (cancelled()) return {StatusCode::kCancelled, t, "cancelled"};
     double h = proposal_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
-    // Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is left before the limit.
+    // Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is
+    // left before the limit.
     const double rest = clock_.next(breaks_.next(t, limit)) - t;
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
     if (!last && h > 0.5 * rest) h = 0.5 * rest;
     if (!(h >= smallest))
-      return judged(singular ? Status{StatusCode::kSingularMatrix, t, "the equations of motion become singular: a dead point or lock-up"}
-                             : Status{StatusCode::kStepSizeTooSmall, t,
-                                      "the step size fell below " + std::to_string(smallest * 1e12) + " ps: the motion is not resolvable"});
+      return judged(singular
+                        ? Status{StatusCode::kSingularMatrix, t,
+                                 "the equations of motion become singular: a dead point or lock-up"}
+                        : Status{StatusCode::kStepSizeTooSmall, t,
+                                 "the step size fell below " + std::to_string(smallest * 1e12) +
+                                     " ps: the motion is not resolvable"});
     if (!step_.attempt(h)) {
       singular = true;
       ++statistics_.rejected_steps;
@@ -158,7 +176,9 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     }
     // After a step that the limit cut short, the earlier proposal is the better one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
-    if (!step_.accept()) return {StatusCode::kSingularMatrix, t + h, "the augmented matrix of the equations of motion is singular"};
+    if (!step_.accept())
+      return {StatusCode::kSingularMatrix, t + h,
+              "the augmented matrix of the equations of motion is singular"};
     return judged(look());
   }
 }
@@ -168,10 +188,13 @@ Status RosenbrockIntegrator::look() {
   if (step_.tableau().is_explicit()) ++statistics_.explicit_steps;
   chooses_ = true;
   step_.track_turns();
-  const double drift = run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
+  const double drift =
+      run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
   singularity_.look(step_.state(), drift, &step_.equations());
-  Status status = run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_);
-  if (status.ok()) status = watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
+  Status status =
+      run_watch_.check(step_.state(), drift, work_.over(step_, run_watch_.motion()), &statistics_);
+  if (status.ok())
+    status = watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
   return status;
 }
 

@@ -17,7 +17,8 @@
 
 namespace codesign {
 
-/// Adaptive Rosenbrock-Wanner method, doc/theory.md (15)-(17), by the tableau that solver.method selects. Once warm, steps do not allocate.
+/// Adaptive Rosenbrock-Wanner method, doc/theory.md (15)-(17), by the tableau that solver.method
+/// selects. Once warm, steps do not allocate.
 class RosenbrockIntegrator final : public Integrator {
  public:
   explicit RosenbrockIntegrator(const CompiledSystem& system);
@@ -35,14 +36,16 @@ class RosenbrockIntegrator final : public Integrator {
   const Statistics& statistics() const override { return statistics_; }
   Warnings warnings() const override;
 
-  /// Called for a step whose error is below 1, before RosenbrockStep::accept(); computes the tangent of its stages there. Returns a scaled
-  /// error, and the step is rejected if that exceeds 1.
+  /// Called for a step whose error is below 1, before RosenbrockStep::accept(); computes the
+  /// tangent of its stages there. Returns a scaled error, and the step is rejected if that
+  /// exceeds 1.
   using BeforeAccept = std::function<double(RosenbrockStep<double>*)>;
 
   Status advance(double limit, const BeforeAccept& before_accept);
 
-  /// Carries the states of sampled controllers over the events at the end of the last step, theory (51). advance() calls it by itself; a
-  /// caller that needs jump_events() and before_jump() calls it before advance().
+  /// Carries the states of sampled controllers over the events at the end of the last step, theory
+  /// (51). advance() calls it by itself; a caller that needs jump_events() and before_jump() calls
+  /// it before advance().
   Status jump();
   /// The events of the last jump(), none if there was nothing to do, and the state before them.
   const std::vector<ControlEvent>& jump_events() const { return jump_events_; }

@@ -32,13 +32,15 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
       stage_matrix_(system),
       projection_matrix_(system),
       product_(system),
-      increments_(to_index(std::max(tableau.stages, most_stages(system.study().solver.method))), VectorX<T>::Zero(at_.size())),
+      increments_(to_index(std::max(tableau.stages, most_stages(system.study().solver.method))),
+                  VectorX<T>::Zero(at_.size())),
       stages_(increments_.size()),
       factors_(increments_.size()) {
   derivatives_.resize(system.patterns());
   for (State<T>* state : {&state_, &previous_, &end_, &first_}) state->resize(layout_);
   for (State<T>& stage : stages_) stage.resize(layout_);
-  for (VectorX<T>* z : {&z_, &position_correction_, &velocity_correction_}) z->setZero(layout_.columns());
+  for (VectorX<T>* z : {&z_, &position_correction_, &velocity_correction_})
+    z->setZero(layout_.columns());
   estimate_.setZero(at_.size());
 }
 
@@ -102,8 +104,8 @@ void RosenbrockStep<T>::settle_pivots_as(const RosenbrockStep& other) {
   projection_matrix_.settle_as(other.projection_matrix_);
 }
 
-// Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s, where r is the stage's rate plus the sum
-// of c_ij u_j / h.
+// Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s,
+// where r is the stage's rate plus the sum of c_ij u_j / h.
 template <class T>
 void RosenbrockStep<T>::stage_start(std::size_t i) {
   const T hg(h_ * tableau_->gamma);
@@ -112,7 +114,8 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_->c[i][j] / h_;
   const auto add = [&](In<T> rate, int first) {
-    combine(rate, In<double>(factors).first(to_signed(i)), increments_, first, Out<T>(u).subspan(first, rate.size()));
+    combine(rate, In<double>(factors).first(to_signed(i)), increments_, first,
+            Out<T>(u).subspan(first, rate.size()));
   };
   add(In<T>(stage.z).first(at_.n), at_.v());
   add(stage.v, at_.x());
@@ -124,7 +127,8 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   u.segment(at_.s(), at_.states) *= hg;
 }
 
-// Solves (16) for u_z of stage i, then adds h gamma u_a to w_v and the corresponding terms to w_q and w_s.
+// Solves (16) for u_z of stage i, then adds h gamma u_a to w_v and the corresponding terms to w_q
+// and w_s.
 template <class T>
 bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   VectorX<T>& u = increments_[i];
@@ -135,7 +139,8 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   equations_.residual(stages_[i], &residual_, &g);
   stage_start(i);
   const ByVariable<Sparsity>& patterns = system_.patterns();
-  const In<T> all = u, x = all.first(at_.x_size), v = all.subspan(at_.v(), at_.n), z = all.subspan(at_.z(), at_.z_size);
+  const In<T> all = u, x = all.first(at_.x_size), v = all.subspan(at_.v(), at_.n),
+              z = all.subspan(at_.z(), at_.z_size);
   z_ = -residual_ - time_shift * derivatives_.time.head(at_.z_size);
   product_.subtract(derivatives_, all.first(at_.z()), z_);
   stage_matrix_.solve(&z_);
@@ -144,14 +149,16 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   u.segment(at_.x(), at_.n) += hg * hg * z_.head(at_.n);
   u.segment(at_.s(), at_.states) += hg * z_.tail(at_.states);
   const int last = at_.z_size;
-  u[at_.psi()] =
-      hg * (g + u[at_.psi()] + time_shift * derivatives_.time[last] + row_product(patterns.position, derivatives_.position, last, x) +
-            row_product(patterns.velocity, derivatives_.velocity, last, v) + row_product(patterns.rate, derivatives_.rate, last, z));
+  u[at_.psi()] = hg * (g + u[at_.psi()] + time_shift * derivatives_.time[last] +
+                       row_product(patterns.position, derivatives_.position, last, x) +
+                       row_product(patterns.velocity, derivatives_.velocity, last, v) +
+                       row_product(patterns.rate, derivatives_.rate, last, z));
   return std::isfinite(value_of(u[at_.psi()])) && std::isfinite(value_of(z_.sum()));
 }
 
-// Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z unless friction depends on reactions.
-// Complex numbers converge one part after the other and need G_z anew.
+// Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z
+// unless friction depends on reactions. Complex numbers converge one part after the other and need
+// G_z anew.
 template <class T>
 bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g, StageFactor* factor) {
   constexpr bool kIsReal = std::is_same_v<T, double>;
@@ -163,7 +170,8 @@ bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g, StageFactor* factor) {
   factor->pattern = nullptr;
   constexpr int kMost = 30, kLeast = kIsReal ? 1 : 3;
   constexpr double kConverged = 1e-14;
-  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are not unique.
+  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are
+  // not unique.
   const double rounding = system_.compliance() == 0.0 ? 1e-9 : 1e-7;
   double previous = std::numeric_limits<double>::infinity();
   bool refresh = true;
@@ -176,7 +184,8 @@ bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g, StageFactor* factor) {
     at->z += z_;
     const double size = largest(z_) / (1.0 + largest(at->z));
     if (!std::isfinite(size)) return false;
-    if (k >= kLeast && (size <= kConverged || (size <= rounding && size > 0.25 * previous))) return std::isfinite(value_of(*g));
+    if (k >= kLeast && (size <= kConverged || (size <= rounding && size > 0.25 * previous)))
+      return std::isfinite(value_of(*g));
     refresh = !kIsReal || size > 0.25 * previous;
     previous = size;
   }
@@ -232,7 +241,8 @@ double RosenbrockStep<double>::spectral_radius(VectorX<double>* direction) {
   return std::sqrt(growth);
 }
 
-// The last stage is at the end of the step, and without constraints the first stage of the next one.
+// The last stage is at the end of the step, and without constraints the first stage of the next
+// one.
 template <class T>
 bool RosenbrockStep<T>::attempt_explicitly() {
   if (!has_first_) first_ = state_;
@@ -257,7 +267,8 @@ bool RosenbrockStep<T>::attempt_explicitly() {
   }
   end_ = stages_[count() - 1];
   estimate_.setZero();
-  combine(estimate_, In<double>(tableau_->estimate).first(tableau_->stages), increments_, 0, estimate_);
+  combine(estimate_, In<double>(tableau_->estimate).first(tableau_->stages), increments_, 0,
+          estimate_);
   return std::isfinite(value_of(estimate_.sum()));
 }
 
@@ -290,14 +301,17 @@ double RosenbrockStep<T>::error(double relative_tolerance, double absolute_toler
   double largest = 0.0;
   const auto add = [&](int first, const VectorX<T>& from, const VectorX<T>& to) {
     for (Eigen::Index k = 0; k < from.size(); ++k) {
-      const double scale = absolute_tolerance + relative_tolerance * std::max(std::abs(value_of(from[k])), std::abs(value_of(to[k])));
+      const double scale =
+          absolute_tolerance +
+          relative_tolerance * std::max(std::abs(value_of(from[k])), std::abs(value_of(to[k])));
       largest = std::max(largest, std::abs(value_of(estimate[first + k])) / scale);
     }
   };
   add(at_.x(), state_.q, end_.q);
   add(at_.v(), state_.v, end_.v);
   add(at_.s(), state_.s, end_.s);
-  // With its own estimate the pair's error was up to ten times that of rodas4 at the same tolerance, doc/decisions/0084-explicit-pair.md.
+  // With its own estimate the pair's error was up to ten times that of rodas4 at the same
+  // tolerance, doc/decisions/0084-explicit-pair.md.
   constexpr double kPairCaution = 5.0;
   return tableau_->is_explicit() ? kPairCaution * largest : largest;
 }
@@ -306,7 +320,8 @@ template <class T>
 bool RosenbrockStep<T>::accept() {
   previous_ = state_;
   previous_psi_ = psi_;
-  for (std::size_t j = 0; j < count(); ++j) psi_ += T(tableau_->weights[j]) * increments_[j][at_.psi()];
+  for (std::size_t j = 0; j < count(); ++j)
+    psi_ += T(tableau_->weights[j]) * increments_[j][at_.psi()];
   if (tableau_->is_explicit() && layout_.m == 0) {
     first_ = end_;
     first_g_ = last_g_;
@@ -333,13 +348,15 @@ bool RosenbrockStep<T>::finish() {
   return project();
 }
 
-// [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], once for positions and once for velocities at the new positions.
+// [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], once for positions and once for velocities at
+// the new positions.
 template <class T>
 bool RosenbrockStep<T>::project() {
   state_ = end_;
   // Without constraints the corrections are zero and the matrix is not needed.
   if (layout_.m == 0) {
-    for (VectorX<T>* correction : {&position_correction_, &velocity_correction_}) correction->setZero(layout_.columns());
+    for (VectorX<T>* correction : {&position_correction_, &velocity_correction_})
+      correction->setZero(layout_.columns());
     return std::isfinite(value_of(state_.q.sum() + state_.v.sum()));
   }
   if (!projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;
@@ -360,7 +377,9 @@ template <class T>
 void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const {
   *state = previous_;
   const T left(1.0 - theta), right(theta);
-  const auto blend = [&](const auto& from, const auto& to, auto* y) { *y = left * from + right * to; };
+  const auto blend = [&](const auto& from, const auto& to, auto* y) {
+    *y = left * from + right * to;
+  };
   blend(previous_.q, state_.q, &state->q);
   blend(previous_.v, state_.v, &state->v);
   blend(previous_.s, state_.s, &state->s);
@@ -370,7 +389,8 @@ void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const
   for (std::size_t j = 0; j < count(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
   combine(at_, *state, In<double>(weights).first(tableau_->stages), increments_, state);
   if (tableau_->is_explicit())
-    combine(previous_.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), increments_, at_.z(), state->z);
+    combine(previous_.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages),
+            increments_, at_.z(), state->z);
   state->t = previous_.t + theta * h_;
 }
 

@@ -13,15 +13,17 @@
 
 namespace codesign {
 
-/// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda, sigma), psi' = g; doc/theory.md
-/// (15)-(17).
+/// One step of a Rosenbrock-Wanner method on q' = v, v' = a, s' = sigma, 0 = G(q, v, s; a, lambda,
+/// sigma), psi' = g; doc/theory.md (15)-(17).
 ///
-/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a, lambda, sigma) serves all stages, (16).
-/// After an accepted step (q, v) are projected onto Phi = 0, Phi_q v = 0. Projection and next step use the derivatives at the unprojected
-/// point, so that a step needs one linearization.
+/// The unknowns q, v, s of each stage are eliminated, so that one sparse matrix of the size of (a,
+/// lambda, sigma) serves all stages, (16). After an accepted step (q, v) are projected onto Phi =
+/// 0, Phi_q v = 0. Projection and next step use the derivatives at the unprojected point, so that a
+/// step needs one linearization.
 ///
-/// An explicit pair, (15b), needs none: each of its stages solves G = 0 for z at the stage's q, v and s. The increments are u_x = h (v,
-/// sigma), u_v = h a, u_psi = h g and u_z = z_i - z, where z belongs to the beginning of the step.
+/// An explicit pair, (15b), needs none: each of its stages solves G = 0 for z at the stage's q, v
+/// and s. The increments are u_x = h (v, sigma), u_v = h a, u_psi = h g and u_z = z_i - z, where z
+/// belongs to the beginning of the step.
 /// @tparam T double for the solution, std::complex<double> to check its derivatives.
 template <class T>
 class RosenbrockStep {
@@ -34,42 +36,53 @@ class RosenbrockStep {
   /// Takes another method from the next attempt on. @param tableau must outlive this.
   void use(const RosenbrockTableau& tableau);
 
-  /// Starts a solution at a consistent state. equations() must hold the design. @param psi integral of g before it
+  /// Starts a solution at a consistent state. equations() must hold the design. @param psi integral
+  /// of g before it
   void start(const State<T>& state, const T& psi = T(0.0));
 
-  /// Continues a solution at another state of the same time, such as the state after a jump; psi() stays.
+  /// Continues a solution at another state of the same time, such as the state after a jump; psi()
+  /// stays.
   void restart(const State<T>& state);
 
-  /// Begins again with the pivots of settle_pivots(), or chooses pivots anew if that was never called, so that no bit of later steps
-  /// depends on earlier runs. To be called at the beginning of a run, after start(). @param h size of the first step [s].
+  /// Begins again with the pivots of settle_pivots(), or chooses pivots anew if that was never
+  /// called, so that no bit of later steps depends on earlier runs. To be called at the beginning
+  /// of a run, after start(). @param h size of the first step [s].
   void choose_pivots(double h);
   /// SparseLu::settle() for all factorizations.
   void settle_pivots();
   /// SparseLu::settle_as() for all factorizations. @param other of the same system.
   void settle_pivots_as(const RosenbrockStep& other);
-  /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is singular or a value is not finite.
+  /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is
+  /// singular or a value is not finite.
   bool attempt(double h);
-  /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute + relative max(|y|, |y_1|)) over (q, v, s). A
-  /// mean would hide one fast joint among many bodies at rest.
+  /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute +
+  /// relative max(|y|, |y_1|)) over (q, v, s). A mean would hide one fast joint among many bodies
+  /// at rest.
   double error(double relative_tolerance, double absolute_tolerance) const;
-  /// Accepts the last attempt: linearizes at its end and projects. False if the augmented matrix is singular there.
+  /// Accepts the last attempt: linearizes at its end and projects. False if the augmented matrix is
+  /// singular there.
   bool accept();
-  /// Continues a solution at the unprojected end of an earlier step: linearizes and projects as accept() did, so that attempt() repeats the
-  /// step that followed. For the backward pass of the adjoint. False as for accept().
+  /// Continues a solution at the unprojected end of an earlier step: linearizes and projects as
+  /// accept() did, so that attempt() repeats the step that followed. For the backward pass of the
+  /// adjoint. False as for accept().
   bool resume(const State<T>& unprojected);
 
   /// Counts the whole turns of joints from the positions at the end of the last accepted step on.
   void track_turns() { equations_.track_turns(&state_); }
 
-  const State<T>& state() const { return state_; }  ///< at the end of the last accepted step, projected
-  const T& psi() const { return psi_; }             ///< integral of g so far
-  double step_size() const { return h_; }           ///< of the last attempt [s]
-  /// An estimate of the largest |eigenvalue| of the equations at the end of the last step of a Rosenbrock method [1/s], by two steps of the
-  /// power method, which damped and undamped oscillations need. @param direction begins with any vector but zero, in the order of
+  const State<T>& state() const {
+    return state_;
+  }                                        ///< at the end of the last accepted step, projected
+  const T& psi() const { return psi_; }    ///< integral of g so far
+  double step_size() const { return h_; }  ///< of the last attempt [s]
+  /// An estimate of the largest |eigenvalue| of the equations at the end of the last step of a
+  /// Rosenbrock method [1/s], by two steps of the power method, which damped and undamped
+  /// oscillations need. @param direction begins with any vector but zero, in the order of
   /// IncrementLayout; holds the eigenvector's estimate. 0 if the matrix is singular.
   double spectral_radius(VectorX<double>* direction);
-  /// Of an explicit pair: h times an estimate of the largest |eigenvalue| of the equations from the last two stages, which both are at the
-  /// end of the last attempt (Hairer and Wanner, Solving ODE II, IV.2). The pair is stable up to 3.3.
+  /// Of an explicit pair: h times an estimate of the largest |eigenvalue| of the equations from the
+  /// last two stages, which both are at the end of the last attempt (Hairer and Wanner, Solving ODE
+  /// II, IV.2). The pair is stable up to 3.3.
   double stiffness() const;
 
   /// G_z of an explicit stage as the program that solved it has factored it.
@@ -77,20 +90,34 @@ class RosenbrockStep {
     const MassFactor* pattern = nullptr;  ///< null if the stage was solved with a matrix
     std::vector<T> values;
   };
-  /// Explicit pairs: G_z at stage i of the last attempt. If it has no pattern, factor_stage() factors it for derivatives().rate and
-  /// stage_matrix(), and returns false if it is singular.
+  /// Explicit pairs: G_z at stage i of the last attempt. If it has no pattern, factor_stage()
+  /// factors it for derivatives().rate and stage_matrix(), and returns false if it is singular.
   const StageFactor& stage_factor(std::size_t i) const { return factors_[i]; }
   bool factor_stage(std::size_t i);
 
   // The parts of a step that its tangent and adjoint use.
   const IncrementLayout& increment_layout() const { return at_; }
-  const std::vector<VectorX<T>>& increments() const { return increments_; }       ///< u_i of the last attempt
-  const std::vector<State<T>>& stages() const { return stages_; }                 ///< the states at which the last attempt evaluated G
-  const State<T>& previous() const { return previous_; }                          ///< the state at which the last accepted step began
-  const State<T>& unprojected() const { return end_; }                            ///< the end of the last attempt, before projection
-  const Linearization<T>& derivatives() const { return derivatives_; }            ///< at the point where the next step begins, unprojected
-  const VectorX<T>& position_correction() const { return position_correction_; }  ///< of the last projection: [delta q, multipliers]
-  const VectorX<T>& velocity_correction() const { return velocity_correction_; }  ///< [delta v, multipliers]
+  const std::vector<VectorX<T>>& increments() const {
+    return increments_;
+  }  ///< u_i of the last attempt
+  const std::vector<State<T>>& stages() const {
+    return stages_;
+  }  ///< the states at which the last attempt evaluated G
+  const State<T>& previous() const {
+    return previous_;
+  }  ///< the state at which the last accepted step began
+  const State<T>& unprojected() const {
+    return end_;
+  }  ///< the end of the last attempt, before projection
+  const Linearization<T>& derivatives() const {
+    return derivatives_;
+  }  ///< at the point where the next step begins, unprojected
+  const VectorX<T>& position_correction() const {
+    return position_correction_;
+  }  ///< of the last projection: [delta q, multipliers]
+  const VectorX<T>& velocity_correction() const {
+    return velocity_correction_;
+  }  ///< [delta v, multipliers]
   const StageMatrix<T>& stage_matrix() const { return stage_matrix_; }
   const StageProduct& product() const { return product_; }
   const StageMatrix<T>& projection_matrix() const { return projection_matrix_; }
@@ -105,8 +132,11 @@ class RosenbrockStep {
   void linearize_start();
   /// The derivatives with which a step of a Rosenbrock method begins, at end_.
   void linearize_end();
-  /// Whether steps solve with a matrix: implicit ones do, and explicit ones where no expression gives the accelerations.
-  bool needs_matrix() { return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.mass_factor(); }
+  /// Whether steps solve with a matrix: implicit ones do, and explicit ones where no expression
+  /// gives the accelerations.
+  bool needs_matrix() {
+    return !tableau_->is_explicit() || !std::is_same_v<T, double> || !equations_.mass_factor();
+  }
   bool attempt_explicitly();
   std::size_t count() const { return to_index(tableau_->stages); }
   /// Solves G = 0 for the z of a state, beginning with the z that it has. @param g integrand there.
@@ -132,11 +162,13 @@ class RosenbrockStep {
   std::vector<State<T>> stages_;
   std::vector<StageFactor> factors_;  ///< of explicit stages
   StageFactor first_factor_;          ///< of first_
-  State<T> first_;                    ///< of an explicit pair: the first stage of the next attempt, if has_first_
+  State<T> first_;  ///< of an explicit pair: the first stage of the next attempt, if has_first_
   T first_g_{0.0}, last_g_{0.0};
   bool has_first_ = false;
-  bool has_derivatives_ = false;  ///< whether derivatives_ are those at end_, where the next step begins
-  VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_, velocity_correction_, estimate_;
+  bool has_derivatives_ =
+      false;  ///< whether derivatives_ are those at end_, where the next step begins
+  VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_,
+      velocity_correction_, estimate_;
   double h_ = 0.0;
 };
 

@@ -13,20 +13,23 @@
 
 namespace codesign {
 
-/// Ends a run whose motion is unstable, for example with a feedback gain of the wrong sign, before it takes ever shorter steps.
+/// Ends a run whose motion is unstable, for example with a feedback gain of the wrong sign, before
+/// it takes ever shorter steps.
 ///
-/// With `solver.maximum_speed`, the run ends when a body exceeds it. Without this key, the run ends if all of these hold: there is a
-/// controller; a body is ten times faster than a typical speed, the largest of the start's, of a fall through the mechanism's size, and of
-/// the velocities that setpoints and references prescribe directly or as derivatives of positions, commanded ones too; no effort was
-/// commanded; and at the pace of the last 500 steps the study would need more than a tenth of `maximum_steps` (at least 5000). Speeds are
-/// |r'| [m/s] and |omega| [rad/s].
+/// With `solver.maximum_speed`, the run ends when a body exceeds it. Without this key, the run ends
+/// if all of these hold: there is a controller; a body is ten times faster than a typical speed,
+/// the largest of the start's, of a fall through the mechanism's size, and of the velocities that
+/// setpoints and references prescribe directly or as derivatives of positions, commanded ones too;
+/// no effort was commanded; and at the pace of the last 500 steps the study would need more than a
+/// tenth of `maximum_steps` (at least 5000). Speeds are |r'| [m/s] and |omega| [rad/s].
 class MotionWatch {
  public:
   explicit MotionWatch(const CompiledSystem& system) : system_(system), motion_(system) {}
 
   /// @param equations must hold the design. @param initial its initial state.
   void start(const Equations<double>& equations, const State<double>& initial);
-  /// To be called after each step. @param work number of steps so far, rejected ones included. @returns kUnstableMotion, or ok.
+  /// To be called after each step. @param work number of steps so far, rejected ones included.
+  /// @returns kUnstableMotion, or ok.
   Status check(const State<double>& state, std::int64_t work);
 
  private:
@@ -46,20 +49,24 @@ class MotionWatch {
   std::int64_t mark_work_ = 0;
 };
 
-/// Detects a run that stalls, with ever shorter steps, before a singular position; doc/theory.md (17c). To be called after each step.
+/// Detects a run that stalls, with ever shorter steps, before a singular position; doc/theory.md
+/// (17c). To be called after each step.
 ///
-/// Near such a position reactions grow as one over the smallest singular value of Phi_q, and so does friction that depends on them. Only
-/// mechanisms with dropped redundant rows are checked, since otherwise the compliance leads past the position. Of their runs, only those
-/// that failed or whose steps are very short are checked, so that other runs cost nothing.
-/// @param status of the step. @param initial state of the run. @param state at the end of the last step. @param step_size its size [s].
+/// Near such a position reactions grow as one over the smallest singular value of Phi_q, and so
+/// does friction that depends on them. Only mechanisms with dropped redundant rows are checked,
+/// since otherwise the compliance leads past the position. Of their runs, only those that failed or
+/// whose steps are very short are checked, so that other runs cost nothing.
+/// @param status of the step. @param initial state of the run. @param state at the end of the last
+/// step. @param step_size its size [s].
 /// @param equations must hold the design.
-/// @returns kSingularConfiguration, with rank and joints in its cause, if the run is at a singular position and either failed there or
-/// would need more than 20,000 further steps; else `status`.
-Status judge_standstill(const Status& status, const CompiledSystem& system, const State<double>& initial, const State<double>& state,
-                        double step_size, const Statistics& statistics, Equations<double>* equations);
+/// @returns kSingularConfiguration, with rank and joints in its cause, if the run is at a singular
+/// position and either failed there or would need more than 20,000 further steps; else `status`.
+Status judge_standstill(const Status& status, const CompiledSystem& system,
+                        const State<double>& initial, const State<double>& state, double step_size,
+                        const Statistics& statistics, Equations<double>* equations);
 
-/// A sentence that names the first joint, friction, controller, link or signal of a frame with a value that is not finite; empty if there
-/// is none.
+/// A sentence that names the first joint, friction, controller, link or signal of a frame with a
+/// value that is not finite; empty if there is none.
 std::string find_not_finite(const FrameNames& names, const Frame& frame);
 
 }  // namespace codesign

@@ -16,16 +16,18 @@ namespace {
 
 using Vector3d = Eigen::Vector3d;
 
-/// 2 G(p) r: the angular velocity for r = p', the angular acceleration for r = p''; both in body axes.
+/// 2 G(p) r: the angular velocity for r = p', the angular acceleration for r = p''; both in body
+/// axes.
 Vector3d spin(const double* p, const double* r) {
-  return {2.0 * (-p[1] * r[0] + p[0] * r[1] + p[3] * r[2] - p[2] * r[3]), 2.0 * (-p[2] * r[0] - p[3] * r[1] + p[0] * r[2] + p[1] * r[3]),
+  return {2.0 * (-p[1] * r[0] + p[0] * r[1] + p[3] * r[2] - p[2] * r[3]),
+          2.0 * (-p[2] * r[0] - p[3] * r[1] + p[0] * r[2] + p[1] * r[3]),
           2.0 * (-p[3] * r[0] + p[2] * r[1] - p[1] * r[2] + p[0] * r[3])};
 }
 
 Vector3d vector(const double* x) { return {x[0], x[1], x[2]}; }
 
-// Steps that may exceed the limit before the run fails: a run from rest begins with energies near zero and low-order steps, whose relative
-// error may be large.
+// Steps that may exceed the limit before the run fails: a run from rest begins with energies near
+// zero and low-order steps, whose relative error may be large.
 constexpr int kPatience = 20;
 
 // Relative rounding error of the sums of energy and work, with a margin.
@@ -36,21 +38,25 @@ std::string rounded(double value) { return readable(value, 3); }
 
 std::string advice(const SolverOptions& options) {
   const std::string other = options.integrator == IntegratorKind::kIdas ? "rosenbrock" : "idas";
-  return "Lower solver.relative_tolerance (" + to_decimal(options.relative_tolerance) + "), or compare with solver.integrator: " + other;
+  return "Lower solver.relative_tolerance (" + to_decimal(options.relative_tolerance) +
+         "), or compare with solver.integrator: " + other;
 }
 
 std::string drift_sentence(double drift, double time) {
-  return "the step that ends at t = " + rounded(time) + " s violates the constraints by " + rounded(drift) + " times the error tolerance";
+  return "the step that ends at t = " + rounded(time) + " s violates the constraints by " +
+         rounded(drift) + " times the error tolerance";
 }
 
 std::string energy_sentence(double error, double time) {
-  return "kinetic and potential energy and the work done by all other forces are out of balance by " + rounded(error) +
-         " times the largest energy in the run, at t = " + rounded(time) + " s";
+  return "kinetic and potential energy and the work done by all other forces are out of balance "
+         "by " +
+         rounded(error) + " times the largest energy in the run, at t = " + rounded(time) + " s";
 }
 
 }  // namespace
 
-BodyMotion::Measured::Measured(const CompiledSystem& system) : equations(system), energies(3), bodies(9 * system.layout().bodies) {
+BodyMotion::Measured::Measured(const CompiledSystem& system)
+    : equations(system), energies(3), bodies(9 * system.layout().bodies) {
   at.resize(system.layout());
 }
 
@@ -61,7 +67,8 @@ BodyMotion::BodyMotion(const CompiledSystem& system)
 
 void BodyMotion::set_design(const Equations<double>& equations) {
   const Constants<double>& constants = equations.constants();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b] = {constants.bodies[b].mass, constants.bodies[b].J};
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    bodies_[b] = {constants.bodies[b].mass, constants.bodies[b].J};
   if (!measured_) return;
   measured_->equations.set_design(equations.parameters());
   measured_->is_known = false;
@@ -76,7 +83,8 @@ void BodyMotion::measure(const VectorX<double>& q, const VectorX<double>& v, In<
 }
 
 void BodyMotion::move(const VectorX<double>& q, const VectorX<double>& v) const {
-  if (measured_ && !(measured_->is_known && q == measured_->at.q && v == measured_->at.v)) measure(q, v, {});
+  if (measured_ && !(measured_->is_known && q == measured_->at.q && v == measured_->at.v))
+    measure(q, v, {});
 }
 
 double BodyMotion::distance(int body, const VectorX<double>& q) const {
@@ -116,7 +124,8 @@ double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, In<
   double power = 0.0;
   const double *r = q.data(), *rate = v.data(), *a = z.data();
   for (const Body& body : bodies_) {
-    power += body.mass * vector(rate).dot(vector(a) - gravity_) + spin(r + 3, rate + 3).dot(body.J * spin(r + 3, a + 3));
+    power += body.mass * vector(rate).dot(vector(a) - gravity_) +
+             spin(r + 3, rate + 3).dot(body.J * spin(r + 3, a + 3));
     r += kBodySize;
     rate += kBodySize;
     a += kBodySize;
@@ -124,7 +133,9 @@ double BodyMotion::power(const VectorX<double>& q, const VectorX<double>& v, In<
   return power;
 }
 
-void StepWork::start(const State<double>& state, const BodyMotion& motion) { power_ = motion.power(state.q, state.v, state.z); }
+void StepWork::start(const State<double>& state, const BodyMotion& motion) {
+  power_ = motion.power(state.q, state.v, state.z);
+}
 
 double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& motion) {
   const State<double>& to = step.state();
@@ -153,10 +164,12 @@ RunWatch::RunWatch(const CompiledSystem& system)
       energy_limit_(energy_limit(options_.relative_tolerance)),
       motion_(system) {}
 
-// Lower limit of the denominator of e in (17a) [J], so that errors within the absolute tolerance or the rounding of large sums do not cause
-// a warning.
-double RunWatch::smallest_scale(const Constants<double>& constants, const State<double>& initial) const {
-  const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), atol = options_.absolute_tolerance;
+// Lower limit of the denominator of e in (17a) [J], so that errors within the absolute tolerance or
+// the rounding of large sums do not cause a warning.
+double RunWatch::smallest_scale(const Constants<double>& constants,
+                                const State<double>& initial) const {
+  const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(),
+               atol = options_.absolute_tolerance;
   double unresolved = 0.0;
   motion_.move(initial.q, initial.v);
   for (std::size_t b = 0; b < constants.bodies.size(); ++b) {
@@ -166,12 +179,14 @@ double RunWatch::smallest_scale(const Constants<double>& constants, const State<
   return unresolved / energy_limit_.warning;
 }
 
-// Of a motion of n error tolerances only one part in n is known, and its energies no better: a mechanism at rest within its tolerances has
-// none that could be checked.
+// Of a motion of n error tolerances only one part in n is known, and its energies no better: a
+// mechanism at rest within its tolerances has none that could be checked.
 void RunWatch::note_reach(const VectorX<double>& change, const VectorX<double>& of) {
   for (Eigen::Index k = 0; k < change.size() && reach_ < 1.0; ++k) {
-    const double tolerance = options_.absolute_tolerance + options_.relative_tolerance * std::abs(of[k]);
-    reach_ = std::min(1.0, std::max(reach_, energy_limit_.warning * std::abs(change[k]) / tolerance));
+    const double tolerance =
+        options_.absolute_tolerance + options_.relative_tolerance * std::abs(of[k]);
+    reach_ =
+        std::min(1.0, std::max(reach_, energy_limit_.warning * std::abs(change[k]) / tolerance));
   }
 }
 
@@ -203,7 +218,9 @@ double RunWatch::drift(const State<double>& state, const VectorX<double>& positi
   double drift = 0.0;
   const auto add = [&](const VectorX<double>& correction, const VectorX<double>& y) {
     for (Eigen::Index k = 0; k < y.size(); ++k) {
-      const double size = std::abs(correction[k]), scale = options_.absolute_tolerance + options_.relative_tolerance * std::abs(y[k]);
+      const double size = std::abs(correction[k]),
+                   scale =
+                       options_.absolute_tolerance + options_.relative_tolerance * std::abs(y[k]);
       if (size > drift * scale) drift = size / scale;  // divides only for a new maximum
     }
   };
@@ -212,7 +229,8 @@ double RunWatch::drift(const State<double>& state, const VectorX<double>& positi
   return drift;
 }
 
-Status RunWatch::check(const State<double>& state, double drift, double work, Statistics* statistics) {
+Status RunWatch::check(const State<double>& state, double drift, double work,
+                       Statistics* statistics) {
   if (drift > statistics->constraint_drift) {
     statistics->constraint_drift = drift;
     worst_drift_time_ = state.t;
@@ -221,7 +239,8 @@ Status RunWatch::check(const State<double>& state, double drift, double work, St
   potential_ = energy.potential;
   work_ += work;
   turnover_ += std::abs(work);
-  scale_ = std::max(scale_, energy.kinetic + std::abs(energy.potential - start_potential_) + turnover_);
+  scale_ =
+      std::max(scale_, energy.kinetic + std::abs(energy.potential - start_potential_) + turnover_);
   imbalance_ = energy.total() - start_energy_ - work_;
   const double error = std::abs(imbalance_);
   if (error > worst_error_) {
@@ -234,19 +253,28 @@ Status RunWatch::check(const State<double>& state, double drift, double work, St
   }
   statistics->energy_error = scale_ > 0.0 ? reach_ * worst_error_ / scale_ : 0.0;
   if (drift > drift_limit_.failure)
-    return {StatusCode::kConstraintDrift, state.t, drift_sentence(drift, state.t) + ". " + advice(options_)};
+    return {StatusCode::kConstraintDrift, state.t,
+            drift_sentence(drift, state.t) + ". " + advice(options_)};
   unbalanced_steps_ = reach_ * error > energy_limit_.failure * scale_ ? unbalanced_steps_ + 1 : 0;
-  if (unbalanced_steps_ > kPatience || (unbalanced_steps_ > 0 && state.t >= system_.study().duration))
-    return {StatusCode::kEnergyError, state.t, energy_sentence(reach_ * error / scale_, state.t) + ". " + advice(options_)};
+  if (unbalanced_steps_ > kPatience ||
+      (unbalanced_steps_ > 0 && state.t >= system_.study().duration))
+    return {StatusCode::kEnergyError, state.t,
+            energy_sentence(reach_ * error / scale_, state.t) + ". " + advice(options_)};
   return {};
 }
 
 Warnings RunWatch::warnings(const Statistics& statistics) const {
   Warnings warnings;
   if (statistics.constraint_drift > drift_limit_.warning)
-    warnings.push_back({"constraint_drift", drift_sentence(statistics.constraint_drift, worst_drift_time_) + ". " + advice(options_), {}});
+    warnings.push_back(
+        {"constraint_drift",
+         drift_sentence(statistics.constraint_drift, worst_drift_time_) + ". " + advice(options_),
+         {}});
   if (statistics.energy_error > energy_limit_.warning)
-    warnings.push_back({"energy_error", energy_sentence(statistics.energy_error, worst_error_time_) + ". " + advice(options_), {}});
+    warnings.push_back(
+        {"energy_error",
+         energy_sentence(statistics.energy_error, worst_error_time_) + ". " + advice(options_),
+         {}});
   return warnings;
 }
 

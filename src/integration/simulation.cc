@@ -25,9 +25,13 @@ std::vector<SignalDescription> parse_signals(const std::vector<std::string>& tex
 
 class Simulation::Implementation {
  public:
-  Implementation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
+  Implementation(std::shared_ptr<const CompiledSystem> system,
+                 const std::vector<double>& parameters,
                  const std::vector<SignalDescription>& signals)
-      : system_(std::move(system)), parameters_(parameters), observer_(*system_, signals), integrator_(make_integrator(*system_)) {
+      : system_(std::move(system)),
+        parameters_(parameters),
+        observer_(*system_, signals),
+        integrator_(make_integrator(*system_)) {
     sample_.resize(system_->layout());
   }
 
@@ -39,15 +43,16 @@ class Simulation::Implementation {
     return status;
   }
 
-  // The integrator gets an end that its last step must hit: the study's duration, so that the state at the end is not interpolated. Beyond
-  // the duration the end is set one duration ahead.
+  // The integrator gets an end that its last step must hit: the study's duration, so that the state
+  // at the end is not interpolated. Beyond the duration the end is set one duration ahead.
   Status advance(double time) {
     const CpuTimer timer;
     const double duration = system_->study().duration;
     Status status;
     while (status.ok() && integrator_->state().t < time) {
       const double now = integrator_->state().t;
-      status = integrator_->advance(now < duration && time <= duration ? duration : std::max(time, now) + duration);
+      status = integrator_->advance(
+          now < duration && time <= duration ? duration : std::max(time, now) + duration);
     }
     keep_statistics(timer);
     return status;
@@ -58,7 +63,8 @@ class Simulation::Implementation {
     // Rounding may leave a step's end a last bit before its limit.
     const double apart = 1e-12 * std::max(time, 1e-3 * system_->study().duration);
     Status status;
-    while (status.ok() && time - integrator_->state().t > apart) status = integrator_->advance(time);
+    while (status.ok() && time - integrator_->state().t > apart)
+      status = integrator_->advance(time);
     keep_statistics(timer);
     return status;
   }
@@ -71,12 +77,15 @@ class Simulation::Implementation {
     return status;
   }
 
-  // Interpolated accelerations and multipliers have a lower order than q, v and s, so they are solved for again from these.
+  // Interpolated accelerations and multipliers have a lower order than q, v and s, so they are
+  // solved for again from these.
   void sample(double time, Frame* frame) {
     double psi = 0.0;
     integrator_->interpolate(time, &sample_, &psi);
-    if (integrator_->state().t > 0.0) integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
-    observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(), frame);
+    if (integrator_->state().t > 0.0)
+      integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
+    observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(),
+                      frame);
   }
 
   double objective() {
@@ -110,12 +119,15 @@ class Simulation::Implementation {
   mutable Warnings warnings_;
 };
 
-Simulation::Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
+Simulation::Simulation(std::shared_ptr<const CompiledSystem> system,
+                       const std::vector<double>& parameters,
                        const std::vector<SignalDescription>& signals)
     : implementation_(std::make_unique<Implementation>(std::move(system), parameters, signals)) {}
-Simulation::Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters)
+Simulation::Simulation(std::shared_ptr<const CompiledSystem> system,
+                       const std::vector<double>& parameters)
     : Simulation(std::move(system), parameters, std::vector<SignalDescription>()) {}
-Simulation::Simulation(const Problem& problem, const std::vector<double>& parameters, const std::vector<std::string>& signals)
+Simulation::Simulation(const Problem& problem, const std::vector<double>& parameters,
+                       const std::vector<std::string>& signals)
     : Simulation(problem.system(), parameters, parse_signals(signals)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -124,7 +136,9 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Status Simulation::start() { return implementation_->start(); }
 Status Simulation::advance(double time) { return implementation_->advance(time); }
 Status Simulation::advance_to(double time) { return implementation_->advance_to(time); }
-Status Simulation::go_on(double time, const std::vector<double>& parameters) { return implementation_->go_on(time, parameters); }
+Status Simulation::go_on(double time, const std::vector<double>& parameters) {
+  return implementation_->go_on(time, parameters);
+}
 void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
 double Simulation::objective() { return implementation_->objective(); }
 double Simulation::time() const { return implementation_->time(); }
@@ -134,7 +148,8 @@ const Statistics& Simulation::statistics() const { return implementation_->stati
 const std::vector<MethodChange>& Simulation::methods() const { return implementation_->methods(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
-Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer, const std::atomic<bool>* cancel) {
+Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer,
+                const std::atomic<bool>* cancel) {
   Frame frame;
   simulation->obey(cancel);
   Status status = simulation->start();
@@ -144,7 +159,8 @@ Status simulate(Simulation* simulation, double duration, int count, const FrameO
     if (!status.ok()) break;
     simulation->sample(time, &frame);
     if (is_set(cancel)) return {StatusCode::kCancelled, time, "cancelled"};
-    if (std::string fault = find_not_finite(simulation->names(), frame); !fault.empty()) return {StatusCode::kNonFinite, time, fault};
+    if (std::string fault = find_not_finite(simulation->names(), frame); !fault.empty())
+      return {StatusCode::kNonFinite, time, fault};
     if (!observer(frame)) return {StatusCode::kCancelled, time, "cancelled"};
   }
   return status;

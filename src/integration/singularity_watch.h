@@ -12,18 +12,21 @@ namespace codesign {
 
 class CompiledSystem;
 
-/// Finds the first singular position that a run passes, where the rank of Phi_q drops and sensitivities lose digits; doc/theory.md (17b).
+/// Finds the first singular position that a run passes, where the rank of Phi_q drops and
+/// sensitivities lose digits; doc/theory.md (17b).
 ///
-/// Near a singular position the drift (17a) of the steps has a peak. The response of the augmented matrix is evaluated only at a peak,
-/// found from the ends of three steps, so that runs without a peak cost nothing.
+/// Near a singular position the drift (17a) of the steps has a peak. The response of the augmented
+/// matrix is evaluated only at a peak, found from the ends of three steps, so that runs without a
+/// peak cost nothing.
 class SingularityWatch {
  public:
   explicit SingularityWatch(const CompiledSystem& system);
 
-  /// @param enabled whether look() does anything. @param initial state of the run, for the usual rank. Pivots of earlier runs are kept:
-  /// they have no influence on the motion.
+  /// @param enabled whether look() does anything. @param initial state of the run, for the usual
+  /// rank. Pivots of earlier runs are kept: they have no influence on the motion.
   void start(bool enabled, const State<double>& initial);
-  /// To be called after each step, with its end. @param drift of the step, from RunWatch::drift(). @param equations must hold the design.
+  /// To be called after each step, with its end. @param drift of the step, from RunWatch::drift().
+  /// @param equations must hold the design.
   void look(const State<double>& state, double drift, Equations<double>* equations);
 
   /// `singular_position_passed` with time and rank, if one was found.
@@ -41,7 +44,8 @@ class SingularityWatch {
   int rank(Equations<double>* equations, const State<double>& state) const;
 
   const CompiledSystem& system_;
-  std::unique_ptr<IterationMatrix> matrix_;  ///< allocated at the first peak, since few runs have one
+  std::unique_ptr<IterationMatrix>
+      matrix_;  ///< allocated at the first peak, since few runs have one
   Linearization<double> derivatives_;
   VectorX<double> response_;
   std::array<Point, 3> points_;

@@ -43,17 +43,21 @@ struct StageMatrix<std::complex<double>>::Factors {
   bool analyzed = false;  ///< whether `lu` knows the pattern, which does not change
 };
 
-StageMatrix<std::complex<double>>::StageMatrix(const CompiledSystem& system) : system_(system), factors_(std::make_unique<Factors>()) {}
+StageMatrix<std::complex<double>>::StageMatrix(const CompiledSystem& system)
+    : system_(system), factors_(std::make_unique<Factors>()) {}
 StageMatrix<std::complex<double>>::~StageMatrix() = default;
 StageMatrix<std::complex<double>>::StageMatrix(StageMatrix&&) noexcept = default;
 
-bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s) {
+bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, double c_v,
+                                               double c_q, double c_s) {
   const Layout& layout = system_.layout();
   std::vector<Eigen::Triplet<Scalar>> entries;
-  const auto add = [&](const Sparsity& pattern, const std::vector<Scalar>& values, const auto& coefficient, const auto& column_of) {
+  const auto add = [&](const Sparsity& pattern, const std::vector<Scalar>& values,
+                       const auto& coefficient, const auto& column_of) {
     for (int row = 0; row < layout.columns(); ++row)
       for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-        entries.emplace_back(row, column_of(pattern.column(e)), coefficient(pattern.column(e)) * values[to_index(e)]);
+        entries.emplace_back(row, column_of(pattern.column(e)),
+                             coefficient(pattern.column(e)) * values[to_index(e)]);
   };
   const auto same = [](int column) { return column; };
   add(
@@ -61,7 +65,8 @@ bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, d
   add(
       system_.patterns().velocity, d.velocity, [c_v](int) { return c_v; }, same);
   add(
-      system_.patterns().position, d.position, [&](int column) { return column < layout.n ? c_q : c_s; },
+      system_.patterns().position, d.position,
+      [&](int column) { return column < layout.n ? c_q : c_s; },
       [&](int column) { return layout.rate_column(column); });
   Eigen::SparseMatrix<Scalar> matrix(layout.columns(), layout.columns());
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -72,10 +77,14 @@ bool StageMatrix<std::complex<double>>::factor(const Linearization<Scalar>& d, d
   return factors_->lu.info() == Eigen::Success;
 }
 
-void StageMatrix<std::complex<double>>::solve(VectorX<Scalar>* x) const { *x = factors_->lu.solve(*x).eval(); }
+void StageMatrix<std::complex<double>>::solve(VectorX<Scalar>* x) const {
+  *x = factors_->lu.solve(*x).eval();
+}
 
 StageProduct::StageProduct(const CompiledSystem& system, bool machine_code)
-    : patterns_(&system.patterns()), rows_(system.layout().columns()), code_(std::make_unique<LazyStraightLine>(machine_code)) {}
+    : patterns_(&system.patterns()),
+      rows_(system.layout().columns()),
+      code_(std::make_unique<LazyStraightLine>(machine_code)) {}
 
 StageProduct::~StageProduct() = default;
 StageProduct::StageProduct(StageProduct&&) noexcept = default;
@@ -83,23 +92,27 @@ StageProduct& StageProduct::operator=(StageProduct&&) noexcept = default;
 
 template <class T>
 void StageProduct::subtract_rows(const Linearization<T>& derivatives, In<T> xv, Out<T> y) const {
-  const In<T> x = xv.first(patterns_->position.columns), v = xv.subspan(x.size(), patterns_->velocity.columns);
+  const In<T> x = xv.first(patterns_->position.columns),
+              v = xv.subspan(x.size(), patterns_->velocity.columns);
   for (int row = 0; row < rows_; ++row)
-    y[row] -=
-        row_product(patterns_->position, derivatives.position, row, x) + row_product(patterns_->velocity, derivatives.velocity, row, v);
+    y[row] -= row_product(patterns_->position, derivatives.position, row, x) +
+              row_product(patterns_->velocity, derivatives.velocity, row, v);
 }
 
-void StageProduct::subtract(const Linearization<std::complex<double>>& derivatives, In<std::complex<double>> xv,
-                            Out<std::complex<double>> y) const {
+void StageProduct::subtract(const Linearization<std::complex<double>>& derivatives,
+                            In<std::complex<double>> xv, Out<std::complex<double>> y) const {
   subtract_rows(derivatives, xv, y);
 }
 
 template <int N>
-void StageProduct::subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const {
+void StageProduct::subtract(const Linearization<double>& derivatives, In<double> xv,
+                            Out<double> y) const {
   const std::ptrdiff_t positions = std::ptrdiff_t{N} * patterns_->position.columns;
-  assert(xv.size() == positions + std::ptrdiff_t{N} * patterns_->velocity.columns && y.size() == std::ptrdiff_t{N} * rows_);
+  assert(xv.size() == positions + std::ptrdiff_t{N} * patterns_->velocity.columns &&
+         y.size() == std::ptrdiff_t{N} * rows_);
   if (const StraightLine* const code = code_->get([this] { return sums(*patterns_, rows_); }, N)) {
-    code->run({y.data(), derivatives.position.data(), derivatives.velocity.data(), xv.data(), nullptr});
+    code->run(
+        {y.data(), derivatives.position.data(), derivatives.velocity.data(), xv.data(), nullptr});
   } else if constexpr (N == 1) {
     subtract_rows(derivatives, xv, y);
   } else {
@@ -114,11 +127,16 @@ void StageProduct::subtract(const Linearization<double>& derivatives, In<double>
   }
 }
 
-template void StageProduct::subtract<1>(const Linearization<double>&, In<double>, Out<double>) const;
-template void StageProduct::subtract<4>(const Linearization<double>&, In<double>, Out<double>) const;
-template void StageProduct::subtract<8>(const Linearization<double>&, In<double>, Out<double>) const;
+template void StageProduct::subtract<1>(const Linearization<double>&, In<double>,
+                                        Out<double>) const;
+template void StageProduct::subtract<4>(const Linearization<double>&, In<double>,
+                                        Out<double>) const;
+template void StageProduct::subtract<8>(const Linearization<double>&, In<double>,
+                                        Out<double>) const;
 
-Projection::Projection(const CompiledSystem& system) : layout_(system.layout()), matrix_(system) { derivatives_.resize(system.patterns()); }
+Projection::Projection(const CompiledSystem& system) : layout_(system.layout()), matrix_(system) {
+  derivatives_.resize(system.patterns());
+}
 
 void Projection::correct(const VectorX<double>& error, VectorX<double>* target) {
   correction_.setZero(layout_.columns());

@@ -13,8 +13,9 @@ namespace codesign {
 
 class CompiledSystem;
 
-/// The matrix E = G_z + c_v G_v + c_q G_q (+ c_s G_s) of a step, doc/theory.md (16), and its solves. For complex numbers, which only
-/// derivative checks use, Eigen factors it. factor() returns false for a singular matrix.
+/// The matrix E = G_z + c_v G_v + c_q G_q (+ c_s G_s) of a step, doc/theory.md (16), and its
+/// solves. For complex numbers, which only derivative checks use, Eigen factors it. factor()
+/// returns false for a singular matrix.
 template <class T>
 class StageMatrix;
 
@@ -22,7 +23,9 @@ template <>
 class StageMatrix<double> {
  public:
   explicit StageMatrix(const CompiledSystem& system) : matrix_(system) {}
-  bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) { return matrix_.factor(d, c_v, c_q, c_s); }
+  bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
+    return matrix_.factor(d, c_v, c_q, c_s);
+  }
   void forget() { matrix_.forget(); }
   void settle() { matrix_.settle(); }
   void settle_as(const StageMatrix& other) { matrix_.settle_as(other.matrix_); }
@@ -56,22 +59,28 @@ class StageMatrix<std::complex<double>> {
 
 class LazyStraightLine;
 
-/// The products with G_q (and G_s) and G_v on the right-hand side of every stage of a step and of its tangent; doc/theory.md (16), (18).
+/// The products with G_q (and G_s) and G_v on the right-hand side of every stage of a step and of
+/// its tangent; doc/theory.md (16), (18).
 class StageProduct {
  public:
-  /// @param system must outlive this. @param machine_code whether to compile the products to machine code where possible; loops otherwise.
+  /// @param system must outlive this. @param machine_code whether to compile the products to
+  /// machine code where possible; loops otherwise.
   explicit StageProduct(const CompiledSystem& system, bool machine_code = true);
   ~StageProduct();
   StageProduct(StageProduct&&) noexcept;
   StageProduct& operator=(StageProduct&&) noexcept;
 
-  /// y -= G_q x + G_v v over the rows of the equations, for N vectors stored row by row. xv is [x | v] with x = (q, s). N is 1, 4 or 8.
+  /// y -= G_q x + G_v v over the rows of the equations, for N vectors stored row by row. xv is [x |
+  /// v] with x = (q, s). N is 1, 4 or 8.
   template <int N>
   void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const;
 
   /// The same for one complex vector, which only derivative checks use.
-  void subtract(const Linearization<std::complex<double>>& derivatives, In<std::complex<double>> xv, Out<std::complex<double>> y) const;
-  void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const { subtract<1>(derivatives, xv, y); }
+  void subtract(const Linearization<std::complex<double>>& derivatives, In<std::complex<double>> xv,
+                Out<std::complex<double>> y) const;
+  void subtract(const Linearization<double>& derivatives, In<double> xv, Out<double> y) const {
+    subtract<1>(derivatives, xv, y);
+  }
 
  private:
   template <class T>
@@ -82,14 +91,14 @@ class StageProduct {
   std::unique_ptr<LazyStraightLine> code_;
 };
 
-/// Projects a state onto the constraints, doc/theory.md (17), with two Newton steps, since the drift may be larger than the drift of one
-/// step.
+/// Projects a state onto the constraints, doc/theory.md (17), with two Newton steps, since the
+/// drift may be larger than the drift of one step.
 class Projection {
  public:
   explicit Projection(const CompiledSystem& system);
 
-  /// Changes q and v so that Phi = 0 and Phi_q v = 0; z is unchanged. `equations` must hold the design. False if the augmented matrix is
-  /// singular or the result is not finite.
+  /// Changes q and v so that Phi = 0 and Phi_q v = 0; z is unchanged. `equations` must hold the
+  /// design. False if the augmented matrix is singular or the result is not finite.
   bool apply(Equations<double>* equations, State<double>* state);
 
  private:

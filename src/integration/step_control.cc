@@ -11,8 +11,10 @@ BreakTimes::BreakTimes(const MotionStudy& study) : apart_(1e-12 * study.duration
     add(controller.feedforward);
     for (const FeedbackTerm& term : controller.feedback) add(term.reference);
     const BasisDescription& basis = controller.basis;
-    // A linear basis has kinks at the knots, where each coefficient begins to act; a cubic one is smooth until its end.
-    for (int k = 0; k < basis.count() && basis.shape == BasisShape::kLinear; ++k) times_.push_back(basis.support(k)[0]);
+    // A linear basis has kinks at the knots, where each coefficient begins to act; a cubic one is
+    // smooth until its end.
+    for (int k = 0; k < basis.count() && basis.shape == BasisShape::kLinear; ++k)
+      times_.push_back(basis.support(k)[0]);
     if (basis.count() > 0) times_.push_back(basis.duration);
   }
   for (const ObjectiveTerm& term : study.integral) add(term.reference);
@@ -22,7 +24,8 @@ BreakTimes::BreakTimes(const MotionStudy& study) : apart_(1e-12 * study.duration
 
 void BreakTimes::add(const ReferenceDescription& reference) {
   if (reference.kind == ReferenceDescription::Kind::kSampled)
-    for (double time : reference.sampled.samples->times()) times_.push_back(time - reference.sampled.delay.nominal());
+    for (double time : reference.sampled.samples->times())
+      times_.push_back(time - reference.sampled.delay.nominal());
   if (reference.kind == ReferenceDescription::Kind::kLive) add(*reference.live.planned);
   if (reference.kind == ReferenceDescription::Kind::kWaypoints)
     times_.insert(times_.end(), reference.waypoints.times.begin(), reference.waypoints.times.end());

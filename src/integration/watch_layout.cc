@@ -8,14 +8,17 @@
 namespace codesign {
 namespace {
 
-constexpr int kWindows = 16;        // equal windows of an interval, so that two extrema seldom compete within one
-constexpr std::size_t kMost = 200;  // break times that are instants: each adds rows to the optimizer's problem
+constexpr int kWindows =
+    16;  // equal windows of an interval, so that two extrema seldom compete within one
+constexpr std::size_t kMost =
+    200;  // break times that are instants: each adds rows to the optimizer's problem
 
 std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<double>& breaks) {
   if (!(watched.after < watched.before)) return {watched.before};
   const double span = watched.before - watched.after, apart = 1e-6 * span;
   std::vector<double> all;
-  for (int k = 0; k <= kWindows; ++k) all.push_back(k < kWindows ? watched.after + span * k / kWindows : watched.before);
+  for (int k = 0; k <= kWindows; ++k)
+    all.push_back(k < kWindows ? watched.after + span * k / kWindows : watched.before);
   if (breaks.size() <= kMost)
     for (double time : breaks)
       if (time > watched.after + apart && time < watched.before - apart) all.push_back(time);

@@ -10,18 +10,21 @@ namespace codesign {
 
 /// The indices of the extreme values of the watched signals of a study; doc/theory.md (21a).
 ///
-/// The interval of a signal is divided into windows by instants that do not depend on the design. The numbers of a signal are its values at
-/// the instants, then the largest value in each window, then the smallest. Their count therefore does not depend on the design, in contrast
-/// to the number of local extrema, and each is a continuous function of the design.
+/// The interval of a signal is divided into windows by instants that do not depend on the design.
+/// The numbers of a signal are its values at the instants, then the largest value in each window,
+/// then the smallest. Their count therefore does not depend on the design, in contrast to the
+/// number of local extrema, and each is a continuous function of the design.
 ///
-/// A signal may jump at the break times of functions of time. If there are few break times, they are instants, so that windows end there.
-/// Many break times would give too many numbers; they then lie within windows, which count the values on both sides of a jump.
+/// A signal may jump at the break times of functions of time. If there are few break times, they
+/// are instants, so that windows end there. Many break times would give too many numbers; they then
+/// lie within windows, which count the values on both sides of a jump.
 class WatchLayout {
  public:
   /// The numbers of one watched signal.
   struct Entry {
-    int first = 0;                 ///< place of the value at the first instant
-    std::vector<double> instants;  ///< [s], ascending; one for the end of the study, else at least two
+    int first = 0;  ///< place of the value at the first instant
+    std::vector<double>
+        instants;  ///< [s], ascending; one for the end of the study, else at least two
 
     int windows() const { return static_cast<int>(instants.size()) - 1; }
     int at_instant(int k) const { return first + k; }

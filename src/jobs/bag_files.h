@@ -14,8 +14,8 @@ struct BagFiles {
   TrajectoryBagWriter write_trajectory;
 };
 
-/// The functions that the program is linked with: from ros/loaded_bag_files.cc if ROS was found, else from cli/no_bag_files.cc. It is not
-/// in this library.
+/// The functions that the program is linked with: from ros/loaded_bag_files.cc if ROS was found,
+/// else from cli/no_bag_files.cc. It is not in this library.
 BagFiles bag_files();
 
 }  // namespace codesign

@@ -19,7 +19,8 @@ std::string quoted(const std::string& cell) {
 
 }  // namespace
 
-CsvWriter::CsvWriter(std::ostream& out, const std::vector<std::string>& names, std::string where) : out_(out), where_(std::move(where)) {
+CsvWriter::CsvWriter(std::ostream& out, const std::vector<std::string>& names, std::string where)
+    : out_(out), where_(std::move(where)) {
   write(names);
 }
 

@@ -16,14 +16,18 @@ namespace {
 
 constexpr mode_t kMode = 0666;
 
-int open_at(const std::string& path, int flags) { return open(path.c_str(), flags | O_RDWR | O_CLOEXEC, kMode); }
+int open_at(const std::string& path, int flags) {
+  return open(path.c_str(), flags | O_RDWR | O_CLOEXEC, kMode);
+}
 
 }  // namespace
 
-OutputError::OutputError(const std::string& path, const std::string& cause) : std::runtime_error(path + ": cannot be written: " + cause) {}
+OutputError::OutputError(const std::string& path, const std::string& cause)
+    : std::runtime_error(path + ": cannot be written: " + cause) {}
 
 OutputError OutputError::of_system(const std::string& path, int number) {
-  return OutputError(path, number == 0 ? "a write failed" : std::generic_category().message(number));
+  return OutputError(path,
+                     number == 0 ? "a write failed" : std::generic_category().message(number));
 }
 
 void write_whole_file(const std::string& path, const std::string& text) {
@@ -50,7 +54,8 @@ void give_final_name(const std::string& active, const std::string& path) {
   if (std::rename(active.c_str(), path.c_str()) != 0) throw OutputError::of_system(path, errno);
 }
 
-LockFile::LockFile(LockFile&& other) noexcept : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+LockFile::LockFile(LockFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 LockFile& LockFile::operator=(LockFile&& other) noexcept {
   std::swap(path_, other.path_);
@@ -68,7 +73,8 @@ LockFile::~LockFile() {
 bool LockFile::is_at_its_path() const {
   struct stat mine {};
   struct stat there {};
-  return fstat(descriptor_, &mine) == 0 && stat(path_.c_str(), &there) == 0 && mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
+  return fstat(descriptor_, &mine) == 0 && stat(path_.c_str(), &there) == 0 &&
+         mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
 std::optional<LockFile> LockFile::create(const std::string& path) {
@@ -76,8 +82,9 @@ std::optional<LockFile> LockFile::create(const std::string& path) {
   if (descriptor < 0 && errno == EEXIST) return std::nullopt;
   if (descriptor < 0) throw OutputError::of_system(path, errno);
   LockFile file(path, descriptor);
-  // Exclusive creation reserves the name even on file systems without locks. Between the two calls another process may have mistaken the
-  // file for an abandoned one and removed it, which the check below detects.
+  // Exclusive creation reserves the name even on file systems without locks. Between the two calls
+  // another process may have mistaken the file for an abandoned one and removed it, which the check
+  // below detects.
   flock(descriptor, LOCK_EX);
   if (!file.is_at_its_path()) return std::nullopt;
   return file;

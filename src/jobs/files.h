@@ -7,45 +7,52 @@
 
 namespace codesign {
 
-/// A failure outside the main computation, such as a file that could not be written or a recorded run that ended early.
+/// A failure outside the main computation, such as a file that could not be written or a recorded
+/// run that ended early.
 struct Failure {
   std::string code;  ///< snake case, for `error.code`
   std::string message;
 };
 
-/// A result could not be written, for example because the disk is full or the folder is not writable. Not a case of bad input.
+/// A result could not be written, for example because the disk is full or the folder is not
+/// writable. Not a case of bad input.
 ///
 /// `what()` reads `path: cannot be written: No space left on device`.
 class OutputError : public std::runtime_error {
  public:
   OutputError(const std::string& path, const std::string& cause);
 
-  /// An error with the system's text for the cause. @param number errno of the failed call; 0: unknown cause.
+  /// An error with the system's text for the cause. @param number errno of the failed call; 0:
+  /// unknown cause.
   static OutputError of_system(const std::string& path, int number);
 };
 
 /// Suffix of a file that write_whole_file() has not finished.
 inline constexpr const char* kPartSuffix = ".part";
 
-/// Writes `path`.part and renames it to `path` when it is complete, so that `path` is never half-written, even if the process is killed. An
-/// existing `path` is replaced. @throws OutputError if that fails; `path`.part is removed then.
+/// Writes `path`.part and renames it to `path` when it is complete, so that `path` is never
+/// half-written, even if the process is killed. An existing `path` is replaced. @throws OutputError
+/// if that fails; `path`.part is removed then.
 void write_whole_file(const std::string& path, const std::string& text);
 
-/// Renames the finished file `active` to `path`, which must not exist. @throws OutputError if it exists or renaming fails.
+/// Renames the finished file `active` to `path`, which must not exist. @throws OutputError if it
+/// exists or renaming fails.
 void give_final_name(const std::string& active, const std::string& path);
 
-/// A lock file (flock) that exists while a process works on the files that it protects. The system releases the lock at every end of the
-/// process, so that an unlocked file is the file of a killed process. The destructor removes the file.
+/// A lock file (flock) that exists while a process works on the files that it protects. The system
+/// releases the lock at every end of the process, so that an unlocked file is the file of a killed
+/// process. The destructor removes the file.
 class LockFile {
  public:
   /// Creates and locks `path`; nullopt if it exists. @throws OutputError if it cannot be created.
   static std::optional<LockFile> create(const std::string& path);
 
-  /// Locks `path`, which is created if needed; nullopt if another process holds the lock. @throws OutputError if it cannot be created or
-  /// locked.
+  /// Locks `path`, which is created if needed; nullopt if another process holds the lock. @throws
+  /// OutputError if it cannot be created or locked.
   static std::optional<LockFile> take(const std::string& path);
 
-  /// Locks `path` if it was left behind by a killed process; nullopt if it does not exist, is locked, or cannot be locked.
+  /// Locks `path` if it was left behind by a killed process; nullopt if it does not exist, is
+  /// locked, or cannot be locked.
   static std::optional<LockFile> take_abandoned(const std::string& path);
 
   ~LockFile();

@@ -86,11 +86,13 @@ Json outputs_json(const std::vector<OutputFit>& fits, Eigen::Index samples) {
   return {{"samples", samples}, {"joints", std::move(joints)}};
 }
 
-void add_rows(const std::string& set, const FittedSeries& series, std::vector<std::vector<std::string>>* rows) {
+void add_rows(const std::string& set, const FittedSeries& series,
+              std::vector<std::vector<std::string>>* rows) {
   Eigen::Index row = 0;
   for (std::size_t recording = 0; recording < series.lengths.size(); ++recording)
     for (const Eigen::Index end = row + series.lengths[recording]; row < end; ++row) {
-      std::vector<std::string> cells = {set, std::to_string(recording + 1), to_decimal(series.times[to_index(row)])};
+      std::vector<std::string> cells = {set, std::to_string(recording + 1),
+                                        to_decimal(series.times[to_index(row)])};
       for (Eigen::Index k = 0; k < series.recorded.cols(); ++k) {
         cells.push_back(to_decimal(series.recorded(row, k)));
         cells.push_back(to_decimal(series.computed(row, k)));
@@ -100,9 +102,11 @@ void add_rows(const std::string& set, const FittedSeries& series, std::vector<st
 }
 
 std::string sentence_of(const std::string& set, const OutputFit& fit) {
-  return set + ", " + fit.joint + ": root mean square of the residuals " + readable(fit.start) + " -> " + readable(fit.rms) + " of " +
-         readable(fit.recorded) + " recorded, " + readable(100.0 * std::max(0.0, fit.explained), 3) + " % explained" +
-         (fit.whiteness.probability < kWhiteBelow ? "; not white, correlation of neighbours " + readable(fit.whiteness.first_correlation, 2)
+  return set + ", " + fit.joint + ": root mean square of the residuals " + readable(fit.start) +
+         " -> " + readable(fit.rms) + " of " + readable(fit.recorded) + " recorded, " +
+         readable(100.0 * std::max(0.0, fit.explained), 3) + " % explained" +
+         (fit.whiteness.probability < kWhiteBelow ? "; not white, correlation of neighbours " +
+                                                        readable(fit.whiteness.first_correlation, 2)
                                                   : "");
 }
 
@@ -110,11 +114,16 @@ Json searches_json(const FitSearches& searches, const std::vector<IdentifiedNumb
   Json optima = Json::array();
   for (const Optimum& optimum : searches.optima) {
     Json values = Json::object();
-    for (std::size_t k = 0; k < numbers.size(); ++k) values[numbers[k].name] = optimum.rho[to_signed(k)];
-    optima.push_back({{"mean_spread", optimum.objective}, {"found", optimum.found}, {"values", std::move(values)}});
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      values[numbers[k].name] = optimum.rho[to_signed(k)];
+    optima.push_back({{"mean_spread", optimum.objective},
+                      {"found", optimum.found},
+                      {"values", std::move(values)}});
   }
-  return {
-      {"starts", searches.starts.size()}, {"screened", searches.screened}, {"unusable", searches.unusable}, {"optima", std::move(optima)}};
+  return {{"starts", searches.starts.size()},
+          {"screened", searches.screened},
+          {"unusable", searches.unusable},
+          {"optima", std::move(optima)}};
 }
 
 std::string residuals_text(const IdentificationResult& result) {
@@ -125,7 +134,8 @@ std::string residuals_text(const IdentificationResult& result) {
 }
 
 std::string identified_urdf(const Problem& problem, const IdentificationResult& result) {
-  return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters, std::nullopt, problem.robot().laws);
+  return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters, std::nullopt,
+                          problem.robot().laws);
 }
 
 constexpr int kDigits = 6;
@@ -133,29 +143,35 @@ constexpr int kDigits = 6;
 std::string interval_text(const IdentifiedNumber& number) {
   if (number.is_on_bound) return "on its bound, without an interval";
   if (!number.is_determined) return "not identifiable: the recordings do not determine it";
-  std::string text = readable(number.low, kDigits) + " to " + readable(number.high, kDigits) + ", standard deviation " +
-                     readable(number.deviation, kDigits);
+  std::string text = readable(number.low, kDigits) + " to " + readable(number.high, kDigits) +
+                     ", standard deviation " + readable(number.deviation, kDigits);
   if (const auto& profile = number.profile)
-    text += "; by its profile " + readable(profile->lower, kDigits) + " to " + readable(profile->upper, kDigits);
+    text += "; by its profile " + readable(profile->lower, kDigits) + " to " +
+            readable(profile->upper, kDigits);
   return text;
 }
 
 std::string heading(const Problem& problem) {
-  return "Identified by codesign identify, version " + std::string(version()) + ", from " + problem.study_text().name + "; intervals of " +
-         readable(100.0 * problem.study().identification->intervals.level) + " %. Give this file after the other overlays of the model.";
+  return "Identified by codesign identify, version " + std::string(version()) + ", from " +
+         problem.study_text().name + "; intervals of " +
+         readable(100.0 * problem.study().identification->intervals.level) +
+         " %. Give this file after the other overlays of the model.";
 }
 
 /// A line for each number that only the study can take.
-std::string of_the_study(const IdentificationResult& result, const std::map<std::string, const IdentifiedNumber*>& left) {
+std::string of_the_study(const IdentificationResult& result,
+                         const std::map<std::string, const IdentifiedNumber*>& left) {
   std::string lines;
   for (const IdentifiedNumber& number : result.numbers) {
     if (left.count(number.name) == 0) continue;
     const std::size_t slash = number.name.rfind('/');
     const std::string value = to_decimal(number.value);
     std::string place = "identify." + number.name + ": " + value;
-    if (identifier_fault(number.name).empty()) place = "parameters: {" + number.name + ": {initial: " + value + "}}";
+    if (identifier_fault(number.name).empty())
+      place = "parameters: {" + number.name + ": {initial: " + value + "}}";
     if (slash != std::string::npos)
-      place = "identify: {joints: {" + number.name.substr(0, slash) + ": {" + number.name.substr(slash + 1) + ": " + value + "}}}";
+      place = "identify: {joints: {" + number.name.substr(0, slash) + ": {" +
+              number.name.substr(slash + 1) + ": " + value + "}}}";
     lines += "\n       " + place + "   " + interval_text(number);
   }
   return lines.empty() ? "" : "Not of the model; a study takes them so:" + lines;
@@ -185,14 +201,18 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   object["undetermined"] = result.undetermined;
   object["combinations"] = Json::array();
   for (const BaseParameter& of : result.combinations)
-    object["combinations"].push_back(
-        {{"expression", of.expression}, {"value", of.value}, {"deviation", of.deviation}, {"interval", {of.low, of.high}}});
+    object["combinations"].push_back({{"expression", of.expression},
+                                      {"value", of.value},
+                                      {"deviation", of.deviation},
+                                      {"interval", {of.low, of.high}}});
   object["names"] = std::move(names);
   object["covariance"] = rows_json(result.covariance);
   object["correlation"] = rows_json(correlation_of(result.covariance));
   object["data"] = outputs_json(result.data, result.samples);
-  if (!result.searches.starts.empty()) object["multistart"] = searches_json(result.searches, result.numbers);
-  if (!result.holdout.empty()) object["holdout"] = outputs_json(result.holdout, result.holdout_samples);
+  if (!result.searches.starts.empty())
+    object["multistart"] = searches_json(result.searches, result.numbers);
+  if (!result.holdout.empty())
+    object["holdout"] = outputs_json(result.holdout, result.holdout_samples);
   return object;
 }
 
@@ -203,15 +223,19 @@ std::vector<std::string> identification_sentences(const IdentificationResult& re
   for (std::size_t k = 0; k < std::min(kToldSentences, result.undetermined.size()); ++k)
     sentences.push_back("not identifiable: " + result.undetermined[k]);
   if (result.undetermined.size() > kToldSentences)
-    sentences.push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) + " more; what is known stands below");
+    sentences.push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) +
+                        " more; what is known stands below");
   const std::vector<Optimum>& optima = result.searches.optima;
   for (std::size_t k = 0; k < std::min(kShownOptima, optima.size()); ++k)
-    sentences.push_back("optimum " + std::to_string(k + 1) + ": mean spread of the residuals " + readable(optima[k].objective) +
-                        ", found by " + std::to_string(optima[k].found) + " of " + std::to_string(result.searches.starts.size()) + " fits");
+    sentences.push_back("optimum " + std::to_string(k + 1) + ": mean spread of the residuals " +
+                        readable(optima[k].objective) + ", found by " +
+                        std::to_string(optima[k].found) + " of " +
+                        std::to_string(result.searches.starts.size()) + " fits");
   return sentences;
 }
 
-std::string identification_report(const Problem& problem, const IdentificationResult& result, const Warnings& of_run) {
+std::string identification_report(const Problem& problem, const IdentificationResult& result,
+                                  const Warnings& of_run) {
   Json object = identification_json(problem, result);
   add_outcome(problem, of_run, result.status, &object);
   return to_text(object);
@@ -233,18 +257,26 @@ std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& 
   return rows;
 }
 
-std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const std::string& json) {
+std::vector<IdentificationFile> identification_files(const Problem& problem,
+                                                     const IdentificationResult& result,
+                                                     const std::string& json) {
   return {{"identification.json", [&json] { return json; }},
-          {"identified_overlay.urdf", [&problem, &result] { return identified_overlay(problem, result); }},
+          {"identified_overlay.urdf",
+           [&problem, &result] { return identified_overlay(problem, result); }},
           {"identified.urdf", [&problem, &result] { return identified_urdf(problem, result); }},
           {"residuals.csv", [&result] { return residuals_text(result); }},
           {"job_study.yaml", [&problem] { return problem.study_text().text; }}};
 }
 
-IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const std::string& json,
-                                       ComparedMotion motion) {
-  IdentificationShow show{problem.study_text().text, json, identified_urdf(problem, result), std::move(motion), result.data_series,
-                          result.holdout_series,     {}};
+IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result,
+                                       const std::string& json, ComparedMotion motion) {
+  IdentificationShow show{problem.study_text().text,
+                          json,
+                          identified_urdf(problem, result),
+                          std::move(motion),
+                          result.data_series,
+                          result.holdout_series,
+                          {}};
   for (const OutputFit& fit : result.data) show.joints.push_back(fit.joint);
   return show;
 }
@@ -259,12 +291,14 @@ std::string identified_overlay(const Problem& problem, const IdentificationResul
     if (found == numbers.end() && result.parameters[k] == declared[k].value) continue;
     SetValue set{declared[k], result.parameters[k], "not identified: as the study has it"};
     if (found != numbers.end()) {
-      set.comment = interval_text(*found->second) + (declared[k].unit.empty() ? "" : " [" + declared[k].unit + "]");
+      set.comment = interval_text(*found->second) +
+                    (declared[k].unit.empty() ? "" : " [" + declared[k].unit + "]");
       numbers.erase(found);
     }
     values.push_back(set);
   }
-  return write_set_overlay(problem.robot().name, heading(problem), values, of_the_study(result, numbers));
+  return write_set_overlay(problem.robot().name, heading(problem), values,
+                           of_the_study(result, numbers));
 }
 
 }  // namespace codesign

@@ -14,19 +14,21 @@
 
 namespace codesign {
 
-/// identification.json, doc/study.md: `identified` (by name: value, start, deviation, interval, ...), `undetermined`, `covariance`,
-/// `correlation`, `data` and `holdout` (residuals by joint), `parameters`, `termination` and counts. Infinite and unknown numbers are null.
+/// identification.json, doc/study.md: `identified` (by name: value, start, deviation, interval,
+/// ...), `undetermined`, `covariance`, `correlation`, `data` and `holdout` (residuals by joint),
+/// `parameters`, `termination` and counts. Infinite and unknown numbers are null.
 Json identification_json(const Problem& problem, const IdentificationResult& result);
 
 /// The same as text, with the outcome that add_outcome() adds.
-std::string identification_report(const Problem& problem, const IdentificationResult& result, const Warnings& of_run);
+std::string identification_report(const Problem& problem, const IdentificationResult& result,
+                                  const Warnings& of_run);
 
-/// A summary for people, one sentence per line: whether the holdout is explained, which numbers the data do not determine, residuals by
-/// joint.
+/// A summary for people, one sentence per line: whether the holdout is explained, which numbers the
+/// data do not determine, residuals by joint.
 std::vector<std::string> identification_sentences(const IdentificationResult& result);
 
-/// Columns and rows of residuals.csv: set (data or holdout), recording (from 1), time [s], then per joint JOINT/recorded and
-/// JOINT/computed.
+/// Columns and rows of residuals.csv: set (data or holdout), recording (from 1), time [s], then per
+/// joint JOINT/recorded and JOINT/computed.
 std::vector<std::string> residual_columns(const IdentificationResult& result);
 std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& result);
 
@@ -37,9 +39,12 @@ struct IdentificationFile {
 };
 
 /// The text files of an identification with numbers: identification.json, identified_overlay.urdf,
-/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may throw. @param json the text of
-/// identification_json() with all additions of the front end. All three arguments must outlive the texts.
-std::vector<IdentificationFile> identification_files(const Problem& problem, const IdentificationResult& result, const std::string& json);
+/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may
+/// throw. @param json the text of identification_json() with all additions of the front end. All
+/// three arguments must outlive the texts.
+std::vector<IdentificationFile> identification_files(const Problem& problem,
+                                                     const IdentificationResult& result,
+                                                     const std::string& json);
 
 /// The contents of the bag of an identification; doc/ros_api.md.
 struct IdentificationShow {
@@ -50,20 +55,22 @@ struct IdentificationShow {
 };
 
 /// @param json as above. @param motion compare_motion()
-IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result, const std::string& json,
-                                       ComparedMotion motion);
+IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result,
+                                       const std::string& json, ComparedMotion motion);
 
-/// Callback that writes an identification into a bag, for replay in rviz. The caller provides it, since this library does not depend on
-/// ROS.
+/// Callback that writes an identification into a bag, for replay in rviz. The caller provides it,
+/// since this library does not depend on ROS.
 /// @param path must not exist. @throws OutputError
-using IdentificationBagWriter = std::function<void(const std::string& path, const IdentificationShow& show)>;
+using IdentificationBagWriter =
+    std::function<void(const std::string& path, const IdentificationShow& show)>;
 
 /// Default rate of the instants in a bag [Hz].
 constexpr double kShownRate = 50.0;
 
-/// identified_overlay.urdf, doc/study.md: sets every parameter of the model to the value of the fit, with intervals as comments. Merged
-/// after the problem's own overlays, it turns the model into identified.urdf. Numbers that do not belong to the model are in a comment at
-/// the end, in the form in which a study takes them.
+/// identified_overlay.urdf, doc/study.md: sets every parameter of the model to the value of the
+/// fit, with intervals as comments. Merged after the problem's own overlays, it turns the model
+/// into identified.urdf. Numbers that do not belong to the model are in a comment at the end, in
+/// the form in which a study takes them.
 /// @param result of a fit with a best point
 std::string identified_overlay(const Problem& problem, const IdentificationResult& result);
 

@@ -48,64 +48,81 @@ bool exists(const std::string& path) {
 }
 
 bool has_files(const std::string& stem) {
-  return exists(stem) || exists(stem + ".bag") || exists(stem + ".bag.active") || exists(stem + kBest[0]) || exists(stem + kBest[1]) ||
-         exists(stem + kJournal) || exists(stem + ".identification.json");
+  return exists(stem) || exists(stem + ".bag") || exists(stem + ".bag.active") ||
+         exists(stem + kBest[0]) || exists(stem + kBest[1]) || exists(stem + kJournal) ||
+         exists(stem + ".identification.json");
 }
 
 std::string bare_name(const std::string& stem) { return fs::path(stem).filename().string(); }
 
-/// The first name for a bag that is not taken. A cancelled job already has a bag when it is resumed.
+/// The first name for a bag that is not taken. A cancelled job already has a bag when it is
+/// resumed.
 std::string free_bag(const std::string& stem) {
   std::string bag = stem + ".bag";
-  for (int number = 1; exists(bag); ++number) bag = stem + ".resumed" + (number > 1 ? "-" + std::to_string(number) : "") + ".bag";
+  for (int number = 1; exists(bag); ++number)
+    bag = stem + ".resumed" + (number > 1 ? "-" + std::to_string(number) : "") + ".bag";
   return bag;
 }
 
-/// Removes the unfinished files of a killed job. Returns a sentence that names the removed files and the best point.
+/// Removes the unfinished files of a killed job. Returns a sentence that names the removed files
+/// and the best point.
 std::string clean(const std::string& stem) {
   std::string removed, kept;
-  // ".active" without ".bag" is for a bag of the simulation node in the same folder, whose path may have any ending.
-  for (const std::string& suffix : {std::string(".bag.active"), std::string(".active"), kBest[0] + kPartSuffix, kBest[1] + kPartSuffix}) {
+  // ".active" without ".bag" is for a bag of the simulation node in the same folder, whose path may
+  // have any ending.
+  for (const std::string& suffix : {std::string(".bag.active"), std::string(".active"),
+                                    kBest[0] + kPartSuffix, kBest[1] + kPartSuffix}) {
     std::error_code error;
     if (fs::remove(stem + suffix, error)) removed += (removed.empty() ? "" : ", ") + stem + suffix;
   }
   for (const std::string& suffix : kBest)
     if (exists(stem + suffix)) kept += (kept.empty() ? "" : " and ") + stem + suffix;
-  return "a job was killed: " + (removed.empty() ? stem + " had no unfinished bag" : "removed " + removed) +
+  return "a job was killed: " +
+         (removed.empty() ? stem + " had no unfinished bag" : "removed " + removed) +
          (kept.empty() ? "; it had no best point yet" : "; its best point is in " + kept) +
-         (exists(stem + kJournal) ? "; a request with resume: " + bare_name(stem) + " goes on with it" : "");
+         (exists(stem + kJournal)
+              ? "; a request with resume: " + bare_name(stem) + " goes on with it"
+              : "");
 }
 
-[[noreturn]] void refuse_resume(const std::string& message, const std::string& value, const std::string& allowed) {
+[[noreturn]] void refuse_resume(const std::string& message, const std::string& value,
+                                const std::string& allowed) {
   throw InputError({{"request", 0}, "resume", message, value, allowed});
 }
 
 /// Names of jobs consist only of these characters, so that no name leads out of the folder.
 void require_bare_name(const std::string& name) {
   constexpr std::size_t kLongest = 255;
-  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  };
   if (name.empty() || name.size() > kLongest || !std::all_of(name.begin(), name.end(), is_plain))
-    refuse_resume("not the name of a job", name.substr(0, 80), "letters, digits, - and _, such as slider_crank_2026-11-23-08-30-00");
+    refuse_resume("not the name of a job", name.substr(0, 80),
+                  "letters, digits, - and _, such as slider_crank_2026-11-23-08-30-00");
 }
 
 }  // namespace
 
 Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
-  if (inputs.study.name.empty()) return load_mechanism_at(inputs.design, inputs.urdf, inputs.overlays, inputs.settings);
-  return load_problem_at(inputs.design, inputs.urdf, inputs.overlays, inputs.study, inputs.settings, loader,
-                         inputs.study_is_tree ? files_in("") : FileLoader());
+  if (inputs.study.name.empty())
+    return load_mechanism_at(inputs.design, inputs.urdf, inputs.overlays, inputs.settings);
+  return load_problem_at(inputs.design, inputs.urdf, inputs.overlays, inputs.study, inputs.settings,
+                         loader, inputs.study_is_tree ? files_in("") : FileLoader());
 }
 
-JobFiles::JobFiles(const std::string& directory, const std::string& robot) : JobFiles(reserve(directory, robot)) {}
+JobFiles::JobFiles(const std::string& directory, const std::string& robot)
+    : JobFiles(reserve(directory, robot)) {}
 
 JobFiles JobFiles::reserve(const std::string& directory, const std::string& robot) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw OutputError(directory, error.message());
-  const std::string first = (fs::path(directory) / (file_name_of(robot, directory) + "_" + time_stamp())).string();
+  const std::string first =
+      (fs::path(directory) / (file_name_of(robot, directory) + "_" + time_stamp())).string();
   std::string stem = first;
   for (int number = 2;; ++number) {
-    // The holder of the lock owns the stem. Only then is it safe to check for files of an earlier job with the same stem.
+    // The holder of the lock owns the stem. Only then is it safe to check for files of an earlier
+    // job with the same stem.
     std::optional<LockFile> lock = LockFile::create(stem + kLock);
     if (lock && !has_files(stem)) return JobFiles(stem, std::move(*lock));
     stem = first + "-" + std::to_string(number);
@@ -119,8 +136,9 @@ JobFiles JobFiles::resume(const std::string& directory, const std::string& name)
     std::error_code error;
     if (fs::symlink_status(stem + kJournal, error).type() == fs::file_type::regular) return;
     const bool is_complete = exists(stem + ".bag");
-    refuse_resume(is_complete ? "the job is complete, its bag is " + stem + ".bag" : "there is no journal " + stem + kJournal, name,
-                  "a job of this output directory that was killed or cancelled");
+    refuse_resume(is_complete ? "the job is complete, its bag is " + stem + ".bag"
+                              : "there is no journal " + stem + kJournal,
+                  name, "a job of this output directory that was killed or cancelled");
   };
   require_journal_here();
   std::optional<LockFile> lock = LockFile::take(stem + kLock);
@@ -130,14 +148,16 @@ JobFiles JobFiles::resume(const std::string& directory, const std::string& name)
   return JobFiles(stem, std::move(*lock));
 }
 
-JobFiles::JobFiles(std::string stem, LockFile lock) : stem_(std::move(stem)), bag_(free_bag(stem_)), lock_(std::move(lock)) {}
+JobFiles::JobFiles(std::string stem, LockFile lock)
+    : stem_(std::move(stem)), bag_(free_bag(stem_)), lock_(std::move(lock)) {}
 
 std::string JobFiles::name() const { return bare_name(stem_); }
 
 std::vector<std::string> remove_leftovers(const std::string& directory) {
   std::vector<std::string> sentences;
   std::error_code error;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
     if (entry->path().extension() != kLock) continue;
     const std::optional<LockFile> lock = LockFile::take_abandoned(entry->path().string());
     if (lock) sentences.push_back(clean(entry->path().parent_path() / entry->path().stem()));

@@ -29,18 +29,21 @@ constexpr mode_t kFileMode = 0666;
 
 std::map<const CompiledSystem*, int> number_systems(const Problem& problem) {
   std::map<const CompiledSystem*, int> numbers;
-  for (const auto& system : distinct_systems(problem)) numbers.emplace(system.get(), static_cast<int>(numbers.size()));
+  for (const auto& system : distinct_systems(problem))
+    numbers.emplace(system.get(), static_cast<int>(numbers.size()));
   return numbers;
 }
 
 std::vector<Eigen::Index> count_extremes(const Problem& problem) {
   std::vector<Eigen::Index> counts;
-  for (const auto& system : distinct_systems(problem)) counts.push_back(WatchLayout(system->whole_study()).size());
+  for (const auto& system : distinct_systems(problem))
+    counts.push_back(WatchLayout(system->whole_study()).size());
   return counts;
 }
 
 std::size_t hash_of(const std::vector<double>& values) {
-  return std::hash<std::string_view>()({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
+  return std::hash<std::string_view>()(
+      {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
 }
 
 std::size_t key_of(int system, Derivatives derivatives, const std::vector<double>& parameters) {
@@ -49,8 +52,11 @@ std::size_t key_of(int system, Derivatives derivatives, const std::vector<double
 
 /// What is the same whenever a task is evaluated again.
 std::size_t outcome_of(const Evaluation& evaluation) {
-  std::vector<double> numbers = {static_cast<double>(evaluation.status.code), evaluation.status.time, evaluation.objective};
-  const auto add = [&numbers](const auto& more) { numbers.insert(numbers.end(), more.data(), more.data() + more.size()); };
+  std::vector<double> numbers = {static_cast<double>(evaluation.status.code),
+                                 evaluation.status.time, evaluation.objective};
+  const auto add = [&numbers](const auto& more) {
+    numbers.insert(numbers.end(), more.data(), more.data() + more.size());
+  };
   add(evaluation.gradient);
   add(evaluation.jacobian_root);
   add(evaluation.extremes.values);
@@ -60,21 +66,28 @@ std::size_t outcome_of(const Evaluation& evaluation) {
 
 void require_count(const char* what, Eigen::Index found, Eigen::Index expected) {
   if (found != expected)
-    throw std::invalid_argument("it has " + std::to_string(found) + " numbers of " + what + " instead of " + std::to_string(expected));
+    throw std::invalid_argument("it has " + std::to_string(found) + " numbers of " + what +
+                                " instead of " + std::to_string(expected));
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 }  // namespace
 
 void require_journal(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
-    throw InputError({{path, 0}, "", "there is no journal to resume", "", "the folder of an optimization that was killed or cancelled"});
+    throw InputError({{path, 0},
+                      "",
+                      "there is no journal to resume",
+                      "",
+                      "the folder of an optimization that was killed or cancelled"});
 }
 
-Journal::Journal(std::string path, const Problem& problem, const OptimizerOptions& options, Mode mode)
+Journal::Journal(std::string path, const Problem& problem, const OptimizerOptions& options,
+                 Mode mode)
     : path_(std::move(path)),
       header_(journal_header(problem, options)),
       parameters_(problem.all_parameters().size()),
@@ -99,7 +112,8 @@ void Journal::read() {
     ++number;
     // Each line was written with its end, by one call.
     if (file.eof()) {
-      notes_.push_back(path_ + ": line " + std::to_string(number) + ", the last one, was not finished and is dropped");
+      notes_.push_back(path_ + ": line " + std::to_string(number) +
+                       ", the last one, was not finished and is dropped");
       break;
     }
     if (number == 1)
@@ -110,25 +124,31 @@ void Journal::read() {
   }
   if (!file.eof()) throw InputError({{path_, 0}, "", "the journal cannot be read", "", ""});
   resumed_ = lines_.size();
-  notes_.push_back("goes on from " + path_ + ", which has " + std::to_string(resumed_) + " finished evaluations");
+  notes_.push_back("goes on from " + path_ + ", which has " + std::to_string(resumed_) +
+                   " finished evaluations");
   for (const Warning& warning : warnings()) notes_.push_back(warning.message);
 }
 
 void Journal::check_header(const std::string& line) const {
   const std::string difference = header_difference(line, header_);
-  if (!difference.empty()) throw InputError({{path_, 1}, "", difference + "; optimize without resuming, or in another folder", "", ""});
+  if (!difference.empty())
+    throw InputError(
+        {{path_, 1}, "", difference + "; optimize without resuming, or in another folder", "", ""});
 }
 
 void Journal::add_line(std::int64_t number, const std::string& line, ReadLines* before) {
   try {
     const EvaluationRecord record = read_line(line);
     require_fit(record);
-    const std::size_t key = key_of(record.system, record.derivatives, record.parameters), outcome = outcome_of(record.evaluation);
+    const std::size_t key = key_of(record.system, record.derivatives, record.parameters),
+                      outcome = outcome_of(record.evaluation);
     const auto [same, is_new] = before->try_emplace(key, Read{number, outcome});
     if (is_new) lines_.emplace(key, Line{end_, static_cast<std::int64_t>(line.size())});
     if (same->second.outcome == outcome) return;
     // Nothing tells which of the two is right.
-    if (lines_.erase(key) > 0) damages_.push_back({same->second.number, "line " + std::to_string(number) + " contradicts it"});
+    if (lines_.erase(key) > 0)
+      damages_.push_back(
+          {same->second.number, "line " + std::to_string(number) + " contradicts it"});
     throw std::invalid_argument("it contradicts line " + std::to_string(same->second.number));
   } catch (const std::exception& error) {
     damages_.push_back({number, error.what()});
@@ -137,16 +157,19 @@ void Journal::add_line(std::int64_t number, const std::string& line, ReadLines* 
 
 /// @throws std::invalid_argument for a record that no evaluation of this job can have.
 void Journal::require_fit(const EvaluationRecord& record) const {
-  const bool fits = record.parameters.size() == parameters_ && record.system >= 0 && record.system < static_cast<int>(systems_.size());
+  const bool fits = record.parameters.size() == parameters_ && record.system >= 0 &&
+                    record.system < static_cast<int>(systems_.size());
   if (!fits) throw std::invalid_argument("it is of another job");
   const Evaluation& evaluation = record.evaluation;
   if (!evaluation.status.ok()) return;
-  if (!std::isfinite(evaluation.objective)) throw std::invalid_argument("its objective is not finite");
+  if (!std::isfinite(evaluation.objective))
+    throw std::invalid_argument("its objective is not finite");
   const Eigen::Index slopes = record.derivatives == Derivatives::kNone ? 0 : tuned_;
   const Eigen::Index extremes = extremes_[to_index(record.system)];
   require_count("the gradient", evaluation.gradient.size(), slopes);
   require_count("the signals' extremes", evaluation.extremes.values.size(), extremes);
-  require_count("the slopes of the signals' extremes", evaluation.extremes.gradients.size(), extremes * slopes);
+  require_count("the slopes of the signals' extremes", evaluation.extremes.gradients.size(),
+                extremes * slopes);
 }
 
 Warnings Journal::warnings() const {
@@ -156,8 +179,10 @@ Warnings Journal::warnings() const {
   std::string others;
   for (std::size_t k = 1; k < std::min(damages_.size(), kMostNamed); ++k)
     others += (k > 1 ? ", " : "") + std::to_string(damages_[k].number);
-  if (damages_.size() > kMostNamed) others += " and " + std::to_string(damages_.size() - kMostNamed) + " more";
-  const std::string sentence = "line " + std::to_string(first.number) + " is damaged: " + first.reason +
+  if (damages_.size() > kMostNamed)
+    others += " and " + std::to_string(damages_.size() - kMostNamed) + " more";
+  const std::string sentence = "line " + std::to_string(first.number) +
+                               " is damaged: " + first.reason +
                                (others.empty() ? "" : "; damaged, too: " + others) +
                                "; damaged lines are not used, their evaluations are computed again";
   return {warn("journal_damaged", {{path_, static_cast<int>(first.number)}, "", sentence, "", ""})};
@@ -179,7 +204,8 @@ bool Journal::append(const std::string& line) {
   std::size_t done = 0;
   ssize_t written = 1;
   errno = 0;
-  while (done < text.size() && (written = write(file_, text.data() + done, text.size() - done)) > 0) done += to_index(written);
+  while (done < text.size() && (written = write(file_, text.data() + done, text.size() - done)) > 0)
+    done += to_index(written);
   if (done == text.size()) {
     end_ += static_cast<std::int64_t>(done);
     return true;
@@ -196,10 +222,13 @@ std::optional<Evaluation> Journal::look_up(std::size_t key, const EvaluationTask
   const auto [first, last] = lines_.equal_range(key);
   for (auto place = first; place != last; ++place) {
     std::string line(to_index(place->second.size), '\0');
-    if (pread(file_, line.data(), line.size(), place->second.begin) != static_cast<ssize_t>(line.size())) continue;
+    if (pread(file_, line.data(), line.size(), place->second.begin) !=
+        static_cast<ssize_t>(line.size()))
+      continue;
     if (!has_right_checksum(line)) continue;  // the file has changed since it was opened
     EvaluationRecord record = read_line(line);
-    const bool same = record.system == systems_.at(task.system.get()) && record.derivatives == task.derivatives &&
+    const bool same = record.system == systems_.at(task.system.get()) &&
+                      record.derivatives == task.derivatives &&
                       same_bits(record.parameters, task.parameters);
     if (same) return std::move(record.evaluation);
   }

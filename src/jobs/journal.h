@@ -14,12 +14,15 @@
 
 namespace codesign {
 
-/// The file with all evaluations of a job, doc/study.md. Searches are deterministic given their evaluations, so that the same job with this
-/// memory continues where a killed job ended. Line 1 identifies the job (journal_header.h), every further line is one evaluation
-/// (evaluation_record.h), written by one call as soon as it is finished. Lines stay in the file; the memory holds only their places.
+/// The file with all evaluations of a job, doc/study.md. Searches are deterministic given their
+/// evaluations, so that the same job with this memory continues where a killed job ended. Line 1
+/// identifies the job (journal_header.h), every further line is one evaluation
+/// (evaluation_record.h), written by one call as soon as it is finished. Lines stay in the file;
+/// the memory holds only their places.
 ///
-/// A damaged line is not used, so that its evaluation is computed again and appended: a line whose checksum is wrong, whose numbers are not
-/// as many as this job has, or that contradicts another line about the same evaluation. warnings() names it. Thread-safe.
+/// A damaged line is not used, so that its evaluation is computed again and appended: a line whose
+/// checksum is wrong, whose numbers are not as many as this job has, or that contradicts another
+/// line about the same evaluation. warnings() names it. Thread-safe.
 class Journal final : public EvaluationMemory {
  public:
   enum class Mode {
@@ -28,8 +31,8 @@ class Journal final : public EvaluationMemory {
   };
 
   /// Creates or opens the file. The unfinished last line of a killed process is dropped.
-  /// @throws InputError for a file that is missing, whose first line is damaged, or that is the journal of another job, naming file and
-  /// line. OutputError if it cannot be written.
+  /// @throws InputError for a file that is missing, whose first line is damaged, or that is the
+  /// journal of another job, naming file and line. OutputError if it cannot be written.
   Journal(std::string path, const Problem& problem, const OptimizerOptions& options, Mode mode);
   ~Journal() override;
   Journal(const Journal&) = delete;
@@ -54,7 +57,8 @@ class Journal final : public EvaluationMemory {
   struct Line {
     std::int64_t begin = 0, size = 0;
   };
-  /// A line with an evaluation that was read, to compare later lines about the same evaluation with it.
+  /// A line with an evaluation that was read, to compare later lines about the same evaluation with
+  /// it.
   struct Read {
     std::int64_t number = 0;
     std::size_t outcome = 0;  ///< hash of what the evaluation has found
@@ -76,12 +80,14 @@ class Journal final : public EvaluationMemory {
   const std::size_t parameters_;  ///< number of parameters
   const Eigen::Index tuned_;      ///< number of tuned parameters
   const std::map<const CompiledSystem*, int> systems_;
-  const std::vector<Eigen::Index> extremes_;  ///< number of extreme values of an evaluation, by system
+  const std::vector<Eigen::Index>
+      extremes_;  ///< number of extreme values of an evaluation, by system
   int file_ = -1;
   std::size_t resumed_ = 0;
   std::vector<std::string> notes_;
-  std::vector<Damage> damages_;  ///< in the order of the lines, except for lines that a later line contradicts
-  mutable std::mutex mutex_;     // guards all members below
+  std::vector<Damage>
+      damages_;  ///< in the order of the lines, except for lines that a later line contradicts
+  mutable std::mutex mutex_;  // guards all members below
   std::unordered_multimap<std::size_t, Line> lines_;
   std::int64_t end_ = 0;  ///< size of the file
   std::string failure_;

@@ -23,17 +23,20 @@ struct Part {
   const char* key;
   const char* name;
 };
-constexpr Part kParts[] = {{"model", "the model differs"},
-                           {"overlays", "the overlays differ"},
-                           {"study", "the study differs"},
-                           {"start", "the values of the parameters at the start (--set, ~set or a request's start) differ"},
-                           {"tuned", "the tuned parameters differ"},
-                           {"optimizer", "the options of the optimizer differ"},
-                           {"trajectories", "the recorded trajectories that the study names differ"},
-                           {"files", "the contents of the files that the study names differ"}};
+constexpr Part kParts[] = {
+    {"model", "the model differs"},
+    {"overlays", "the overlays differ"},
+    {"study", "the study differs"},
+    {"start",
+     "the values of the parameters at the start (--set, ~set or a request's start) differ"},
+    {"tuned", "the tuned parameters differ"},
+    {"optimizer", "the options of the optimizer differ"},
+    {"trajectories", "the recorded trajectories that the study names differ"},
+    {"files", "the contents of the files that the study names differ"}};
 
 bool is_whole(const std::string& text) {
-  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+  return !text.empty() && text.size() < 10 &&
+         text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 std::string overlay_texts(const Problem& problem) {
@@ -46,7 +49,8 @@ std::string trajectory_numbers(const Problem& problem) {
   std::string text;
   for (const LoadedTrajectory& loaded : problem.contents().trajectories) {
     const RecordedTrajectory& recorded = loaded.trajectory;
-    for (const auto* column : {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
+    for (const auto* column :
+         {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
       text += format_numbers(*column) + "\n";
   }
   return text;
@@ -88,7 +92,9 @@ Eigen::VectorXd vector_of(const Json& array) {
 
 Json extremes_json(const Extremes& extremes) {
   const auto& [values, times, gradients] = extremes;
-  return {{"values", numbers_json(values)}, {"times", numbers_json(times)}, {"gradients", numbers_json(gradients.reshaped())}};
+  return {{"values", numbers_json(values)},
+          {"times", numbers_json(times)},
+          {"gradients", numbers_json(gradients.reshaped())}};
 }
 
 Extremes extremes_of(const Json& object) {
@@ -111,7 +117,8 @@ Json root_json(const Eigen::MatrixXd& root) {
 
 Eigen::MatrixXd root_of(const Json& array, Eigen::Index size) {
   const Eigen::VectorXd numbers = vector_of(array);
-  if (numbers.size() != size * (size + 1) / 2) throw std::invalid_argument("a root of another size than the gradient");
+  if (numbers.size() != size * (size + 1) / 2)
+    throw std::invalid_argument("a root of another size than the gradient");
   Eigen::MatrixXd root = Eigen::MatrixXd::Zero(size, size);
   Eigen::Index next = 0;
   for (Eigen::Index column = 0; column < size; ++column)
@@ -123,21 +130,26 @@ StatusCode code_of(const std::string& name) {
   for (int k = 0;; ++k) {
     const auto code = static_cast<StatusCode>(k);
     if (name == name_of(code)) return code;
-    if (code == StatusCode::kNotIdentifiable) throw std::invalid_argument("unknown status: " + name);
+    if (code == StatusCode::kNotIdentifiable)
+      throw std::invalid_argument("unknown status: " + name);
   }
 }
 
 Json statistics_json(const Statistics& statistics) {
   const auto& [steps, rejected, seconds, drift, energy, explicit_steps] = statistics;
-  return Json::array({steps, rejected, exact(seconds), exact(drift), exact(energy), explicit_steps});
+  return Json::array(
+      {steps, rejected, exact(seconds), exact(drift), exact(energy), explicit_steps});
 }
 
 // The first journals with a checksum per line have no explicit steps.
 Statistics statistics_of(const Json& array) {
   constexpr std::size_t kOldSize = 5;
-  return {array.at(0).get<std::int64_t>(), array.at(1).get<std::int64_t>(),
-          number_of(array.at(2)),          number_of(array.at(3)),
-          number_of(array.at(4)),          array.size() > kOldSize ? array.at(kOldSize).get<std::int64_t>() : 0};
+  return {array.at(0).get<std::int64_t>(),
+          array.at(1).get<std::int64_t>(),
+          number_of(array.at(2)),
+          number_of(array.at(3)),
+          number_of(array.at(4)),
+          array.size() > kOldSize ? array.at(kOldSize).get<std::int64_t>() : 0};
 }
 
 Warnings warnings_of(const Json& array) {
@@ -154,8 +166,8 @@ Warnings warnings_of(const Json& array) {
 std::string journal_header(const Problem& problem, const OptimizerOptions& options) {
   std::string tuned;
   for (const std::string& name : problem.tuned_names()) tuned += name + "\n";
-  const std::string optimizer =
-      options.algorithm + " " + std::to_string(options.max_evaluations) + " " + to_decimal(options.relative_tolerance);
+  const std::string optimizer = options.algorithm + " " + std::to_string(options.max_evaluations) +
+                                " " + to_decimal(options.relative_tolerance);
   Json header = {{"journal", kFormat},
                  {"version", version()},
                  {"model", fingerprint(problem.urdf().text)},
@@ -164,8 +176,10 @@ std::string journal_header(const Problem& problem, const OptimizerOptions& optio
                  {"start", fingerprint(format_numbers(problem.parameters()))},
                  {"tuned", fingerprint(tuned)},
                  {"optimizer", fingerprint(optimizer)}};
-  if (const std::string numbers = trajectory_numbers(problem); !numbers.empty()) header["trajectories"] = fingerprint(numbers);
-  if (const std::string texts = file_texts(problem); !texts.empty()) header["files"] = fingerprint(texts);
+  if (const std::string numbers = trajectory_numbers(problem); !numbers.empty())
+    header["trajectories"] = fingerprint(numbers);
+  if (const std::string texts = file_texts(problem); !texts.empty())
+    header["files"] = fingerprint(texts);
   return with_checksum(header.dump());
 }
 
@@ -174,13 +188,16 @@ std::string header_difference(const std::string& found, const std::string& expec
   if (found.rfind(begin, 0) != 0) return "this is not the journal of an optimization";
   const std::string format = found.substr(begin.size(), found.find(',') - begin.size());
   if (format != own_format && is_whole(format))
-    return "the journal has format " + format + ", written by another version of this program, which writes format " + own_format;
-  const Json theirs = Json::parse(has_right_checksum(found) ? found : "", nullptr, false), ours = Json::parse(expected);
-  if (!theirs.is_object()) return "line 1 is damaged, and only this line says to which job the journal belongs";
+    return "the journal has format " + format +
+           ", written by another version of this program, which writes format " + own_format;
+  const Json theirs = Json::parse(has_right_checksum(found) ? found : "", nullptr, false),
+             ours = Json::parse(expected);
+  if (!theirs.is_object())
+    return "line 1 is damaged, and only this line says to which job the journal belongs";
   const Json version = theirs.value("version", Json());
   if (version != ours["version"])
-    return "the journal is of version " + version.dump() + " of this program, which is version " + ours["version"].dump() +
-           "; the bits of results may differ between versions";
+    return "the journal is of version " + version.dump() + " of this program, which is version " +
+           ours["version"].dump() + "; the bits of results may differ between versions";
   for (const Part& part : kParts)
     if (theirs.value(part.key, Json()) != ours.value(part.key, Json()))
       return std::string(part.name) + " from the journal, which belongs to another job";
@@ -188,10 +205,15 @@ std::string header_difference(const std::string& found, const std::string& expec
 }
 
 std::string to_line(const EvaluationRecord& record) {
-  // All members by name, so that a new member of Evaluation does not compile before it is written here and read in read_line().
-  const auto& [status, objective, gradient, root, extremes, statistics, warnings] = record.evaluation;
-  const bool with_gradient = record.derivatives != Derivatives::kNone, with_root = record.derivatives == Derivatives::kGaussNewton;
-  Json line = {{"system", record.system}, {"parameters", numbers_json(record.parameters)}, {"with_gradient", with_gradient}};
+  // All members by name, so that a new member of Evaluation does not compile before it is written
+  // here and read in read_line().
+  const auto& [status, objective, gradient, root, extremes, statistics, warnings] =
+      record.evaluation;
+  const bool with_gradient = record.derivatives != Derivatives::kNone,
+             with_root = record.derivatives == Derivatives::kGaussNewton;
+  Json line = {{"system", record.system},
+               {"parameters", numbers_json(record.parameters)},
+               {"with_gradient", with_gradient}};
   if (with_root) line["with_root"] = true;
   line["status"] = name_of(status.code);
   line["time"] = exact(status.time);
@@ -206,19 +228,23 @@ std::string to_line(const EvaluationRecord& record) {
 }
 
 EvaluationRecord read_line(const std::string& line) {
-  if (!has_right_checksum(line)) throw std::invalid_argument("its checksum is not that of its text");
+  if (!has_right_checksum(line))
+    throw std::invalid_argument("its checksum is not that of its text");
   const Json object = Json::parse(line);
   EvaluationRecord record;
   record.system = object.at("system").get<int>();
   record.parameters = numbers_of(object.at("parameters"));
-  const bool with_gradient = object.at("with_gradient").get<bool>(), with_root = object.value("with_root", false);
+  const bool with_gradient = object.at("with_gradient").get<bool>(),
+             with_root = object.value("with_root", false);
   record.derivatives = with_root ? Derivatives::kGaussNewton : gradient_if(with_gradient);
   Evaluation& evaluation = record.evaluation;
-  evaluation.status = {code_of(object.at("status").get<std::string>()), number_of(object.at("time")),
-                       object.value("message", std::string())};
+  evaluation.status = {code_of(object.at("status").get<std::string>()),
+                       number_of(object.at("time")), object.value("message", std::string())};
   if (evaluation.status.ok()) evaluation.objective = number_of(object.at("objective"));
-  if (evaluation.status.ok() && with_gradient) evaluation.gradient = vector_of(object.at("gradient"));
-  if (evaluation.status.ok() && with_root) evaluation.jacobian_root = root_of(object.at("root"), evaluation.gradient.size());
+  if (evaluation.status.ok() && with_gradient)
+    evaluation.gradient = vector_of(object.at("gradient"));
+  if (evaluation.status.ok() && with_root)
+    evaluation.jacobian_root = root_of(object.at("root"), evaluation.gradient.size());
   if (object.contains("extremes")) evaluation.extremes = extremes_of(object.at("extremes"));
   evaluation.statistics = statistics_of(object.at("statistics"));
   if (object.contains("warnings")) evaluation.warnings = warnings_of(object.at("warnings"));

@@ -16,12 +16,13 @@ namespace {
 
 Json to_json(const std::vector<ConstraintRow>& rows) {
   Json array = Json::array();
-  for (const ConstraintRow& row : rows) array.push_back({{"joint", row.joint}, {"row", row.row}, {"kind", row.kind}});
+  for (const ConstraintRow& row : rows)
+    array.push_back({{"joint", row.joint}, {"row", row.row}, {"kind", row.kind}});
   return array;
 }
 
-/// The check belongs to writing files, so it must not make a job noticeably longer: this share of the search's processor time, or these
-/// seconds.
+/// The check belongs to writing files, so it must not make a job noticeably longer: this share of
+/// the search's processor time, or these seconds.
 constexpr double kShare = 0.1, kUnnoticed = 0.5;
 
 Json bound_json(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
@@ -34,12 +35,14 @@ const char* bound_of(const Parameter& parameter, double value) {
   return is_on(parameter.lower) ? "lower" : is_on(parameter.upper) ? "upper" : "";
 }
 
-/// The time that the check takes [s]: two gradients, and along each direction a complex run, which is not compiled and takes about as long
-/// as forty gradients, or Ridders' extrapolation, about as long as twenty.
+/// The time that the check takes [s]: two gradients, and along each direction a complex run, which
+/// is not compiled and takes about as long as forty gradients, or Ridders' extrapolation, about as
+/// long as twenty.
 double expected_seconds(const Problem& problem, const OptimizationResult& result) {
   const double evaluations = std::max(1, result.evaluations);
   const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 40.0;
-  const auto directions = static_cast<double>(std::min<Eigen::Index>(result.rho.size(), kCheckedDirections));
+  const auto directions =
+      static_cast<double>(std::min<Eigen::Index>(result.rho.size(), kCheckedDirections));
   return (2.0 + runs * directions) * result.statistics.cpu_seconds / evaluations;
 }
 
@@ -69,23 +72,33 @@ Json to_json(const Counts& counts) {
 
 Json to_json(const InputError& error) {
   const InputFault& fault = error.fault();
-  return {{"code", "bad_input"},      {"message", error.what()}, {"file", fault.where.file}, {"line", fault.where.line},
-          {"element", fault.element}, {"value", fault.value},    {"allowed", fault.allowed}};
+  return {{"code", "bad_input"},      {"message", error.what()},  {"file", fault.where.file},
+          {"line", fault.where.line}, {"element", fault.element}, {"value", fault.value},
+          {"allowed", fault.allowed}};
 }
 
 Json to_json(const std::vector<LimitCrossing>& crossings) {
   Json array = Json::array();
   for (const LimitCrossing& c : crossings)
-    array.push_back({{"joint", c.joint}, {"limit", c.limit}, {"bound", c.bound}, {"worst", c.worst}, {"time", c.time}});
+    array.push_back({{"joint", c.joint},
+                     {"limit", c.limit},
+                     {"bound", c.bound},
+                     {"worst", c.worst},
+                     {"time", c.time}});
   return array;
 }
 
-Json to_json(const Status& status) { return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}}; }
+Json to_json(const Status& status) {
+  return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}};
+}
 
 Json to_json(const Warnings& warnings) {
   Json array = Json::array();
   for (const Warning& warning : warnings)
-    array.push_back({{"code", warning.code}, {"message", warning.message}, {"file", warning.where.file}, {"line", warning.where.line}});
+    array.push_back({{"code", warning.code},
+                     {"message", warning.message},
+                     {"file", warning.where.file},
+                     {"line", warning.where.line}});
   return array;
 }
 
@@ -98,7 +111,8 @@ void add_statistics(const Statistics& statistics, Json* object) {
   (*object)["energy_error"] = statistics.energy_error;
 }
 
-void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status, Json* object) {
+void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status,
+                 Json* object) {
   Warnings warnings = problem.warnings();
   append(of_run, &warnings);
   (*object)["setup_seconds"] = problem.setup_seconds();
@@ -114,11 +128,13 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
 
 Json parameter_table(const Problem& problem, const OptimizationResult& result) {
   const Study& study = problem.study();
-  const std::vector<double> initial = problem.parameters(result.initial_rho), tuned = problem.parameters(result.rho);
+  const std::vector<double> initial = problem.parameters(result.initial_rho),
+                            tuned = problem.parameters(result.rho);
   Json table = Json::array();
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     const Parameter& parameter = study.parameters[i];
-    const bool is_tuned = std::count(study.tuned.begin(), study.tuned.end(), static_cast<int>(i)) > 0;
+    const bool is_tuned =
+        std::count(study.tuned.begin(), study.tuned.end(), static_cast<int>(i)) > 0;
     table.push_back({{"name", parameter.name},
                      {"unit", parameter.unit},
                      {"tuned", is_tuned},
@@ -131,9 +147,12 @@ Json parameter_table(const Problem& problem, const OptimizationResult& result) {
   return table;
 }
 
-Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel) {
-  if (!is_evaluated(problem, result) || result.status.is_interrupted()) return skipped("the search was interrupted");
-  if (const double seconds = expected_seconds(problem, result); seconds > std::max(kUnnoticed, kShare * result.statistics.cpu_seconds))
+Json gradient_check_json(const Problem& problem, const OptimizationResult& result,
+                         const std::atomic<bool>* cancel) {
+  if (!is_evaluated(problem, result) || result.status.is_interrupted())
+    return skipped("the search was interrupted");
+  if (const double seconds = expected_seconds(problem, result);
+      seconds > std::max(kUnnoticed, kShare * result.statistics.cpu_seconds))
     return skipped("it would take about " + readable(std::ceil(seconds)) +
                    " s, more than a tenth of the search; codesign gradient --verify does it");
   const bool by_differences = problem.study().solver.integrator == IntegratorKind::kIdas;
@@ -142,7 +161,8 @@ Json gradient_check_json(const Problem& problem, const OptimizationResult& resul
   try {
     check = check_along(Ensemble(problem), result.rho, method, cancel);
   } catch (const InputError& error) {
-    return skipped(error.what());  // the gradient cannot be checked, for example because the processes of the engine are missing
+    return skipped(error.what());  // the gradient cannot be checked, for example because the
+                                   // processes of the engine are missing
   }
   if (!check.status.ok()) return skipped(describe(check.status));
   const std::vector<std::string> names = problem.tuned_names();

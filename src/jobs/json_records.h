@@ -26,20 +26,25 @@ Json to_json(const std::vector<LimitCrossing>& crossings);
 Json to_json(const Status& status);
 /// `[{code, message, file, line}]`
 Json to_json(const Warnings& warnings);
-/// Sets `steps`, `rejected_steps`, `explicit_steps`, `cpu_seconds`, `constraint_drift` and `energy_error`.
+/// Sets `steps`, `rejected_steps`, `explicit_steps`, `cpu_seconds`, `constraint_drift` and
+/// `energy_error`.
 void add_statistics(const Statistics& statistics, Json* object);
-/// Sets `setup_seconds`, `warnings`, those of the problem before those of the run, and `error` if the run failed.
-void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status, Json* object);
+/// Sets `setup_seconds`, `warnings`, those of the problem before those of the run, and `error` if
+/// the run failed.
+void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status,
+                 Json* object);
 /// Sets `counts` for the design at `parameters`, if it can be assembled.
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object);
 
-/// A list of all named parameters: `name`, `unit`, `tuned` (whether the study tunes it), `lower`, `upper` (null: none), `initial`,
-/// `value`, and `bound`: lower or upper if a tuned value lies on it, else empty.
+/// A list of all named parameters: `name`, `unit`, `tuned` (whether the study tunes it), `lower`,
+/// `upper` (null: none), `initial`, `value`, and `bound`: lower or upper if a tuned value lies on
+/// it, else empty.
 Json parameter_table(const Problem& problem, const OptimizationResult& result);
 
-/// The gradient at the best point beside a reference by complex step (with `idas` by Ridders' differences): `method`, `gradient`,
-/// `reference`, `largest_relative_difference`. If the check would probably take more than a few seconds, or if it fails, `skipped` has the
-/// reason.
-Json gradient_check_json(const Problem& problem, const OptimizationResult& result, const std::atomic<bool>* cancel);
+/// The gradient at the best point beside a reference by complex step (with `idas` by Ridders'
+/// differences): `method`, `gradient`, `reference`, `largest_relative_difference`. If the check
+/// would probably take more than a few seconds, or if it fails, `skipped` has the reason.
+Json gradient_check_json(const Problem& problem, const OptimizationResult& result,
+                         const std::atomic<bool>* cancel);
 
 }  // namespace codesign

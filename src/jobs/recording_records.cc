@@ -17,16 +17,19 @@ namespace {
 constexpr int kFactorDigits = 3;  // of a predicted factor
 
 Json predicted_json(const PredictedNumber& number) {
-  return {{"nominal", number.nominal},
-          {"unit", number.unit},
-          {"determined", number.is_determined},
-          {"before", {{"deviation", number.deviation_before}, {"half_interval", number.half_before}}},
-          {"after", {{"deviation", number.deviation}, {"half_interval", number.half}}}};
+  return {
+      {"nominal", number.nominal},
+      {"unit", number.unit},
+      {"determined", number.is_determined},
+      {"before", {{"deviation", number.deviation_before}, {"half_interval", number.half_before}}},
+      {"after", {{"deviation", number.deviation}, {"half_interval", number.half}}}};
 }
 
 Json limit_json(const KeptLimit& limit) {
-  return {
-      {"lower", limit.limits.lower}, {"upper", limit.limits.upper}, {"lowest", limit.reached.lowest}, {"highest", limit.reached.highest}};
+  return {{"lower", limit.limits.lower},
+          {"upper", limit.limits.upper},
+          {"lowest", limit.reached.lowest},
+          {"highest", limit.reached.highest}};
 }
 
 Json trajectory_json(const ExcitationDescription& description, const ExcitationResult& result) {
@@ -42,8 +45,9 @@ Json trajectory_json(const ExcitationDescription& description, const ExcitationR
   for (std::size_t joint = 0; joint < result.points.joints.size(); ++joint) {
     const auto column = to_signed(joint);
     const Eigen::VectorXd coefficients = result.coefficients.col(column);
-    object["joints"][result.points.joints[joint]] = {{"rest", result.rest[column]},
-                                                     {"coefficients", std::vector<double>(coefficients.begin(), coefficients.end())}};
+    object["joints"][result.points.joints[joint]] = {
+        {"rest", result.rest[column]},
+        {"coefficients", std::vector<double>(coefficients.begin(), coefficients.end())}};
   }
   return object;
 }
@@ -92,13 +96,15 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
   object["cpu_seconds"] = result.cpu_seconds;
   if (result.numbers.empty()) return object;
   object["parameters"] = parameters_json(problem, problem.parameters());
-  for (const PredictedNumber& number : result.numbers) object["predicted"][number.name] = predicted_json(number);
+  for (const PredictedNumber& number : result.numbers)
+    object["predicted"][number.name] = predicted_json(number);
   object["level"] = problem.study().identification->intervals.level;
   object["volume_factor"] = result.volume_factor();
   object["mean_factor"] = factor_of_one(result);
   object["undetermined"] = result.undetermined;
   if (result.points.joints.empty()) return object;
-  for (const KeptLimit& limit : result.limits) object["limits"][limit.limits.name] = limit_json(limit);
+  for (const KeptLimit& limit : result.limits)
+    object["limits"][limit.limits.name] = limit_json(limit);
   object["trajectory"] = trajectory_json(*problem.study().excitation, result);
   Json starts = Json::array();
   for (const ExcitationStart& start : result.starts)
@@ -112,23 +118,28 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
 
 std::vector<std::string> excitation_sentences(const ExcitationResult& result) {
   std::vector<std::string> sentences;
-  for (const std::string& sentence : result.undetermined) sentences.push_back("not identifiable by any trajectory: " + sentence);
+  for (const std::string& sentence : result.undetermined)
+    sentences.push_back("not identifiable by any trajectory: " + sentence);
   if (result.points.joints.empty()) return sentences;
   if (!std::isfinite(result.criterion))
     sentences.push_back("no single trajectory was found that determines all numbers");
   else if (!std::isfinite(result.criterion_before))
-    sentences.push_back("the plain trajectory does not determine all identifiable numbers; the trajectory found does");
+    sentences.push_back(
+        "the plain trajectory does not determine all identifiable numbers; the trajectory found "
+        "does");
   else
-    sentences.push_back("predicted volume of the intervals: " + readable(result.volume_factor(), kFactorDigits) +
-                        " times smaller than with the plain trajectory, each interval on average " +
-                        readable(factor_of_one(result), kFactorDigits) + " times");
+    sentences.push_back(
+        "predicted volume of the intervals: " + readable(result.volume_factor(), kFactorDigits) +
+        " times smaller than with the plain trajectory, each interval on average " +
+        readable(factor_of_one(result), kFactorDigits) + " times");
   return sentences;
 }
 
 std::vector<std::string> trajectory_columns(const TrajectoryPoints& points) {
   std::vector<std::string> columns = {"time"};
   for (const std::string& joint : points.joints)
-    for (const char* quantity : {"/position", "/velocity", "/acceleration", "/effort"}) columns.push_back(joint + quantity);
+    for (const char* quantity : {"/position", "/velocity", "/acceleration", "/effort"})
+      columns.push_back(joint + quantity);
   return columns;
 }
 
@@ -139,7 +150,8 @@ std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& po
     const auto column = to_signed(k);
     std::vector<std::string> cells = {to_decimal(points.times[k])};
     for (Eigen::Index joint = 0; joint < points.position.rows(); ++joint)
-      for (const Eigen::MatrixXd* part : {&points.position, &points.velocity, &points.acceleration, &points.effort})
+      for (const Eigen::MatrixXd* part :
+           {&points.position, &points.velocity, &points.acceleration, &points.effort})
         cells.push_back(to_decimal((*part)(joint, column)));
     rows.push_back(std::move(cells));
   }

@@ -30,14 +30,17 @@ RecordingSummary summary_of(const JointRecording& recording, const MeasuredMotio
 /// `[{recording, file, samples, rate, from, to, fitted, measured}]`
 Json to_json(const std::vector<RecordingSummary>& recordings);
 
-/// excitation.json, doc/study.md: `predicted` (by name: nominal value, deviation and half the interval before and after), `volume_factor`,
-/// `undetermined`, `limits`, `trajectory`, `starts`, and counts. Infinite numbers are null.
+/// excitation.json, doc/study.md: `predicted` (by name: nominal value, deviation and half the
+/// interval before and after), `volume_factor`, `undetermined`, `limits`, `trajectory`, `starts`,
+/// and counts. Infinite numbers are null.
 Json excitation_json(const Problem& problem, const ExcitationResult& result);
 
-/// A summary for people, one sentence per line: the numbers that no trajectory determines, and the factor by which the intervals shrink.
+/// A summary for people, one sentence per line: the numbers that no trajectory determines, and the
+/// factor by which the intervals shrink.
 std::vector<std::string> excitation_sentences(const ExcitationResult& result);
 
-/// Columns and rows of trajectory.csv: time [s], then per joint JOINT/position, /velocity, /acceleration and the expected /effort.
+/// Columns and rows of trajectory.csv: time [s], then per joint JOINT/position, /velocity,
+/// /acceleration and the expected /effort.
 std::vector<std::string> trajectory_columns(const TrajectoryPoints& points);
 std::vector<std::vector<std::string>> trajectory_rows(const TrajectoryPoints& points);
 

@@ -29,14 +29,16 @@ void write_file(const std::string& path, const Text& text, std::vector<Failure>*
   }
 }
 
-/// The path in `folder` for a copy of a file that the study names; empty for an absolute path, or if the path leads out of the folder.
+/// The path in `folder` for a copy of a file that the study names; empty for an absolute path, or
+/// if the path leads out of the folder.
 std::string place_of(const LoadedFile& file, const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(file.file).lexically_normal();
   if (path.is_absolute() || path.empty() || *path.begin() == "..") return "";
   return (std::filesystem::path(folder) / path).string();
 }
 
-/// Copies a named file, so that job_study.yaml finds it in the folder, too. Never overwrites the file that was read.
+/// Copies a named file, so that job_study.yaml finds it in the folder, too. Never overwrites the
+/// file that was read.
 void write_named_file(const LoadedFile& file, const std::string& folder) {
   const std::string place = place_of(file, folder);
   std::error_code unknown;
@@ -53,7 +55,8 @@ void BestRecord::note(const Trial& trial) {
   if (iteration_ < 0) first_ = trial;
   iteration_ = trial.iteration;
   try {
-    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf(), problem_.overlays(), problem_.parameters(trial.rho),
+    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf(), problem_.overlays(),
+                                                             problem_.parameters(trial.rho),
                                                              std::nullopt, problem_.robot().laws));
     write_whole_file(prefix_ + "best.json", json(trial));
     failure_.clear();
@@ -81,25 +84,34 @@ void BestRecord::remove() {
 }
 
 const std::vector<std::string>& ResultFolder::file_names() {
-  static const std::vector<std::string> kNames = {"result.json",  "details.json",   "tuned.urdf",   "initial.urdf",
-                                                  "initial.json", "job_study.yaml", "gains.yaml",   "initial.csv",
-                                                  "tuned.csv",    "starts.csv",     "scenarios.csv"};
+  static const std::vector<std::string> kNames = {
+      "result.json", "details.json", "tuned.urdf", "initial.urdf", "initial.json", "job_study.yaml",
+      "gains.yaml",  "initial.csv",  "tuned.csv",  "starts.csv",   "scenarios.csv"};
   return kNames;
 }
 
-std::string ResultFolder::in_folder(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
+std::string ResultFolder::in_folder(const std::string& name) const {
+  return (std::filesystem::path(path_) / name).string();
+}
 
-std::vector<Failure> ResultFolder::write_design(const std::string& json, const OptimizationResult& result) const {
+std::vector<Failure> ResultFolder::write_design(const std::string& json,
+                                                const OptimizationResult& result) const {
   std::vector<Failure> failures;
-  const auto write = [&](const char* name, const Text& text) { write_file(in_folder(name), text, &failures); };
-  const std::vector<double> initial = problem_.parameters(result.initial_rho), tuned = problem_.parameters(result.rho);
+  const auto write = [&](const char* name, const Text& text) {
+    write_file(in_folder(name), text, &failures);
+  };
+  const std::vector<double> initial = problem_.parameters(result.initial_rho),
+                            tuned = problem_.parameters(result.rho);
   const auto urdf_at = [this](const std::vector<double>& parameters) {
-    return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters, std::nullopt, problem_.robot().laws);
+    return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters, std::nullopt,
+                            problem_.robot().laws);
   };
   write("result.json", [&] { return json; });
   write("tuned.urdf", [&] { return urdf_at(tuned); });
   write("initial.urdf", [&] { return urdf_at(initial); });
-  write("initial.json", [&] { return to_text({{"parameters", parameters_json(problem_, initial)}}); });
+  write("initial.json", [&] {
+    return to_text({{"parameters", parameters_json(problem_, initial)}});
+  });
   write("job_study.yaml", [this] { return problem_.study_text().text; });
   for (const LoadedFile& file : problem_.contents().files) {
     try {
@@ -108,27 +120,38 @@ std::vector<Failure> ResultFolder::write_design(const std::string& json, const O
       failures.push_back({"output_failed", error.what()});
     }
   }
-  if (!problem_.study().hardware.empty()) write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
+  if (!problem_.study().hardware.empty())
+    write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
   if (!result.starts.empty())
-    write("starts.csv", [&] { return csv_text(start_columns(problem_), start_rows(result), in_folder("starts.csv")); });
+    write("starts.csv", [&] {
+      return csv_text(start_columns(problem_), start_rows(result), in_folder("starts.csv"));
+    });
   if (!result.scenarios.empty())
-    write("scenarios.csv", [&] { return csv_text(scenario_columns(result), scenario_rows(result), in_folder("scenarios.csv")); });
+    write("scenarios.csv", [&] {
+      return csv_text(scenario_columns(result), scenario_rows(result), in_folder("scenarios.csv"));
+    });
   return failures;
 }
 
-std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result, const std::atomic<bool>* cancel) const {
+std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result,
+                                              const std::atomic<bool>* cancel) const {
   std::vector<Failure> failures;
   Json details;
   details["model"] = problem_.robot().name;
-  details["files"] = {{"model", problem_.urdf().name}, {"study", problem_.study_text().name}, {"overlays", Json::array()}};
-  for (const SourceText& overlay : problem_.overlays()) details["files"]["overlays"].push_back(overlay.name);
+  details["files"] = {{"model", problem_.urdf().name},
+                      {"study", problem_.study_text().name},
+                      {"overlays", Json::array()}};
+  for (const SourceText& overlay : problem_.overlays())
+    details["files"]["overlays"].push_back(overlay.name);
   details["duration"] = problem_.study().duration;
   details["parameters"] = parameter_table(problem_, result);
   const auto record = [&](const char* side, const Eigen::VectorXd& rho) {
     const std::string name = std::string(side) + ".csv";
     try {
       DesignRecord run = record_design(problem_, problem_.parameters(rho), cancel);
-      if (!run.status.ok()) failures.push_back({name_of(run.status.code), in_folder(name) + " ends early: " + describe(run.status)});
+      if (!run.status.ok())
+        failures.push_back(
+            {name_of(run.status.code), in_folder(name) + " ends early: " + describe(run.status)});
       details[side] = std::move(run.summary);
       write_whole_file(in_folder(name), run.csv);
     } catch (const std::exception& error) {
@@ -144,7 +167,8 @@ std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result, 
   return failures;
 }
 
-std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows, const std::string& where) {
+std::string csv_text(const std::vector<std::string>& columns,
+                     const std::vector<std::vector<std::string>>& rows, const std::string& where) {
   std::ostringstream text;
   CsvWriter csv(text, columns, where);
   for (const std::vector<std::string>& row : rows) csv.write(row);
@@ -152,15 +176,20 @@ std::string csv_text(const std::vector<std::string>& columns, const std::vector<
 }
 
 std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names) {
-  std::vector<std::string> columns = {"evaluation", "iteration", "status", "objective", "best_objective", "gradient_norm"};
+  std::vector<std::string> columns = {"evaluation", "iteration",      "status",
+                                      "objective",  "best_objective", "gradient_norm"};
   columns.insert(columns.end(), tuned_names.begin(), tuned_names.end());
   return columns;
 }
 
 std::vector<std::string> convergence_row(const Trial& trial) {
-  const auto known = [&trial](double value) { return trial.status.ok() ? to_decimal(value) : std::string(); };
-  std::vector<std::string> cells = {std::to_string(trial.evaluation), std::to_string(trial.iteration),  name_of(trial.status.code),
-                                    known(trial.objective),           to_decimal(trial.best_objective), known(trial.gradient_norm)};
+  const auto known = [&trial](double value) {
+    return trial.status.ok() ? to_decimal(value) : std::string();
+  };
+  std::vector<std::string> cells = {
+      std::to_string(trial.evaluation), std::to_string(trial.iteration),
+      name_of(trial.status.code),       known(trial.objective),
+      to_decimal(trial.best_objective), known(trial.gradient_norm)};
   for (const double value : trial.rho) cells.push_back(to_decimal(value));
   return cells;
 }

@@ -12,12 +12,15 @@
 
 namespace codesign {
 
-/// Keeps the best point of a running job on disk: `best.urdf`, the tuned model, and `best.json` with objective, gradient and parameters.
-/// Both exist from the first evaluation on and are replaced as a whole at each improvement, so that a killed job leaves complete files.
+/// Keeps the best point of a running job on disk: `best.urdf`, the tuned model, and `best.json`
+/// with objective, gradient and parameters. Both exist from the first evaluation on and are
+/// replaced as a whole at each improvement, so that a killed job leaves complete files.
 class BestRecord {
  public:
-  /// @param prefix the path before `best.urdf` and `best.json`: "folder/" or "folder/stem.". @param problem must outlive this.
-  BestRecord(std::string prefix, const Problem& problem) : prefix_(std::move(prefix)), problem_(problem) {}
+  /// @param prefix the path before `best.urdf` and `best.json`: "folder/" or "folder/stem.". @param
+  /// problem must outlive this.
+  BestRecord(std::string prefix, const Problem& problem)
+      : prefix_(std::move(prefix)), problem_(problem) {}
 
   /// Writes the point if it is the best so far. Does not throw if writing fails; see failure().
   void note(const Trial& trial);
@@ -38,25 +41,32 @@ class BestRecord {
   std::string failure_;
 };
 
-/// The files that a finished optimization leaves for people, robots and `codesign report`; doc/results.md lists them. They are complete:
-/// from tuned.urdf (or initial.urdf), job_study.yaml and result.json the program computes the same objective again, to the last bit. Each
-/// file is written as a whole, and a file that cannot be written does not affect the others.
+/// The files that a finished optimization leaves for people, robots and `codesign report`;
+/// doc/results.md lists them. They are complete: from tuned.urdf (or initial.urdf), job_study.yaml
+/// and result.json the program computes the same objective again, to the last bit. Each file is
+/// written as a whole, and a file that cannot be written does not affect the others.
 class ResultFolder {
  public:
   /// @param path an existing folder. @param problem must outlive this.
-  ResultFolder(std::string path, const Problem& problem) : path_(std::move(path)), problem_(problem) {}
+  ResultFolder(std::string path, const Problem& problem)
+      : path_(std::move(path)), problem_(problem) {}
 
   /// The names of all files that any write_...() may write.
   static const std::vector<std::string>& file_names();
 
-  /// Writes result.json, tuned.urdf, initial.urdf, initial.json, job_study.yaml with the files that it names by relative paths, gains.yaml
-  /// if the study has `hardware:`, starts.csv and scenarios.csv if the study has starts or scenarios. @param json the text of result.json.
+  /// Writes result.json, tuned.urdf, initial.urdf, initial.json, job_study.yaml with the files that
+  /// it names by relative paths, gains.yaml if the study has `hardware:`, starts.csv and
+  /// scenarios.csv if the study has starts or scenarios. @param json the text of result.json.
   /// @returns one failure for each file that is missing.
-  std::vector<Failure> write_design(const std::string& json, const OptimizationResult& result) const;
+  std::vector<Failure> write_design(const std::string& json,
+                                    const OptimizationResult& result) const;
 
-  /// Runs both designs and checks the gradient if that takes seconds; writes initial.csv, tuned.csv and details.json.
-  /// @param cancel ends the runs early. @returns one failure for each file that is missing, or incomplete because its run failed.
-  std::vector<Failure> write_runs(const OptimizationResult& result, const std::atomic<bool>* cancel) const;
+  /// Runs both designs and checks the gradient if that takes seconds; writes initial.csv, tuned.csv
+  /// and details.json.
+  /// @param cancel ends the runs early. @returns one failure for each file that is missing, or
+  /// incomplete because its run failed.
+  std::vector<Failure> write_runs(const OptimizationResult& result,
+                                  const std::atomic<bool>* cancel) const;
 
   std::string in_folder(const std::string& name) const;
 
@@ -66,10 +76,12 @@ class ResultFolder {
 };
 
 /// A CSV table as text. @param where its file, for messages.
-std::string csv_text(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows, const std::string& where);
+std::string csv_text(const std::vector<std::string>& columns,
+                     const std::vector<std::vector<std::string>>& rows, const std::string& where);
 
-/// Columns and a row of convergence.csv: evaluation, iteration, status, objective, best_objective, gradient_norm, then the tuned
-/// parameters. The objective of a failed point is an empty cell, which readers of CSV take as missing.
+/// Columns and a row of convergence.csv: evaluation, iteration, status, objective, best_objective,
+/// gradient_norm, then the tuned parameters. The objective of a failed point is an empty cell,
+/// which readers of CSV take as missing.
 std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names);
 std::vector<std::string> convergence_row(const Trial& trial);
 

@@ -9,11 +9,14 @@
 namespace codesign {
 namespace {
 
-/// A name in a comment. A name of other than printable ASCII characters is written as a JSON text, so that no line end, of which YAML knows
-/// five, ends the comment, and no control character makes the file unreadable.
+/// A name in a comment. A name of other than printable ASCII characters is written as a JSON text,
+/// so that no line end, of which YAML knows five, ends the comment, and no control character makes
+/// the file unreadable.
 std::string in_comment(const std::string& name) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
-  return std::all_of(name.begin(), name.end(), is_plain) ? name : Json(name).dump(-1, ' ', true, Json::error_handler_t::replace);
+  return std::all_of(name.begin(), name.end(), is_plain)
+             ? name
+             : Json(name).dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
 /// With a decimal point: rosparam takes `1e-06` for a text.
@@ -26,7 +29,11 @@ std::string yaml_number(double value) {
 
 /// The parameters that control_toolbox::Pid reads, in its order.
 Json pid_parameters(const RobotGains& gains) {
-  return {{"p", gains.p}, {"i", gains.i}, {"d", gains.d}, {"i_clamp", gains.i_clamp}, {"antiwindup", gains.antiwindup}};
+  return {{"p", gains.p},
+          {"i", gains.i},
+          {"d", gains.d},
+          {"i_clamp", gains.i_clamp},
+          {"antiwindup", gains.antiwindup}};
 }
 
 /// The object at a namespace; creates missing parts of the namespace.
@@ -48,7 +55,10 @@ void write_block(const Json& object, std::size_t depth, std::string* text) {
       *text += "\n";
       write_block(value, depth + 1, text);
     } else {
-      *text += " " + (value.is_boolean() ? (value.get<bool>() ? "true" : "false") : yaml_number(value.get<double>())) + "\n";
+      *text += " " +
+               (value.is_boolean() ? (value.get<bool>() ? "true" : "false")
+                                   : yaml_number(value.get<double>())) +
+               "\n";
     }
   }
 }
@@ -59,8 +69,11 @@ std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<do
   const Study& study = problem.study();
   std::vector<RobotGains> all;
   for (const HardwareGains& gains : study.hardware) {
-    const auto is_it = [&gains](const ControllerDescription& controller) { return controller.name == gains.controller; };
-    const ControllerDescription& controller = *std::find_if(study.controllers.begin(), study.controllers.end(), is_it);
+    const auto is_it = [&gains](const ControllerDescription& controller) {
+      return controller.name == gains.controller;
+    };
+    const ControllerDescription& controller =
+        *std::find_if(study.controllers.begin(), study.controllers.end(), is_it);
     RobotGains found;
     found.name_space = gains.name_space;
     found.controller = controller.name;
@@ -81,11 +94,14 @@ std::string gains_yaml(const Problem& problem, const std::vector<double>& parame
   if (all.empty()) return "";
   std::string text =
       "# Gains for the robot, as control_toolbox::Pid reads them: rosparam load gains.yaml\n"
-      "# Effort = p e + i (integral of e, at most i_clamp as effort) + d de/dt, e = setpoint - measured, SI units.\n";
+      "# Effort = p e + i (integral of e, at most i_clamp as effort) + d de/dt, e = setpoint - "
+      "measured, SI units.\n";
   Json root = Json::object();
   for (const RobotGains& gains : all) {
-    text += "# " + gains.name_space + ": " + in_comment(gains.controller) + " of the study, which drives " + in_comment(gains.joint);
-    if (gains.loses_weight) text += "; in the study it also carries the weight, which is not among these gains";
+    text += "# " + gains.name_space + ": " + in_comment(gains.controller) +
+            " of the study, which drives " + in_comment(gains.joint);
+    if (gains.loses_weight)
+      text += "; in the study it also carries the weight, which is not among these gains";
     text += "\n";
     at_namespace(gains.name_space, &root) = pid_parameters(gains);
   }

@@ -8,13 +8,14 @@
 
 namespace codesign {
 
-/// The gains of one controller as control_toolbox::Pid takes them. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in SI
-/// units.
+/// The gains of one controller as control_toolbox::Pid takes them. Effort = p e + i int e dt + d
+/// de/dt with e = setpoint - measured, in SI units.
 struct RobotGains {
-  std::string name_space;     ///< namespace of the gains on the robot, without a slash at either end
-  std::string controller;     ///< name of the controller in the study
-  std::string joint;          ///< the joint that the controller drives
-  bool loses_weight = false;  ///< whether the controller also compensates gravity in the study, which these gains do not
+  std::string name_space;  ///< namespace of the gains on the robot, without a slash at either end
+  std::string controller;  ///< name of the controller in the study
+  std::string joint;       ///< the joint that the controller drives
+  bool loses_weight = false;  ///< whether the controller also compensates gravity in the study,
+                              ///< which these gains do not
   double p = 0.0, i = 0.0, d = 0.0;
   double i_clamp = 0.0;     ///< largest effort of the integral term [N m or N]
   bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i
@@ -24,9 +25,10 @@ struct RobotGains {
 /// @param parameters all named parameters.
 std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters);
 
-/// The gains of the controllers that `hardware:` names, as ROS parameters for `rosparam load`: p, i, d, i_clamp and antiwindup, as
-/// control_toolbox::Pid reads them, below the namespace of each controller. Effort = p e + i int e dt + d de/dt with e = setpoint -
-/// measured, in the study and on the robot, in SI units. Numbers read back as the same doubles. Empty without `hardware:`.
+/// The gains of the controllers that `hardware:` names, as ROS parameters for `rosparam load`: p,
+/// i, d, i_clamp and antiwindup, as control_toolbox::Pid reads them, below the namespace of each
+/// controller. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in the study and
+/// on the robot, in SI units. Numbers read back as the same doubles. Empty without `hardware:`.
 /// @param parameters all named parameters.
 std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters);
 

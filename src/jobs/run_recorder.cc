@@ -73,8 +73,10 @@ Json signal_json(const ShownSignal& shown, const Watched& watched) {
   return object;
 }
 
-/// Adds the integrals of the powers among the signals: powers of the mechanism as `energy`, friction of joints as `friction_energy`.
-void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watched>& watched, double duration, Json* summary) {
+/// Adds the integrals of the powers among the signals: powers of the mechanism as `energy`,
+/// friction of joints as `friction_energy`.
+void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watched>& watched,
+                  double duration, Json* summary) {
   Json whole = Json::object(), friction = Json::object();
   const std::string power = "_power";
   for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -98,14 +100,17 @@ std::vector<SignalDescription> signals_in(const std::vector<ShownSignal>& shown)
 
 }  // namespace
 
-LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names)
-    : absolute_margin_(problem.study().solver.absolute_tolerance), relative_margin_(problem.study().solver.relative_tolerance) {
+LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters,
+                       const FrameNames& names)
+    : absolute_margin_(problem.study().solver.absolute_tolerance),
+      relative_margin_(problem.study().solver.relative_tolerance) {
   const LimitOptions& enforced = problem.study().limits;
   for (const JointDescription& joint : problem.robot().joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (!joint.limit || found == names.joints.end()) continue;
     const auto watch = [&](const char* limit, const Quantity& bound) {
-      watched_.push_back({to_index(found - names.joints.begin()), joint.name, limit, bound.at(parameters), -1});
+      watched_.push_back(
+          {to_index(found - names.joints.begin()), joint.name, limit, bound.at(parameters), -1});
     };
     if (has_stops(joint) && !enforced.position) {
       watch("lower", joint.limit->lower);
@@ -120,10 +125,15 @@ void LimitWatch::observe(const Frame& frame) {
   for (Watched& watched : watched_) {
     const JointSample& sample = frame.joints[watched.sample];
     const double margin = absolute_margin_ + relative_margin_ * std::abs(watched.bound);
-    if (watched.limit == "lower") note(&watched, sample.position, sample.position < watched.bound - margin, frame.time);
-    if (watched.limit == "upper") note(&watched, sample.position, sample.position > watched.bound + margin, frame.time);
-    if (watched.limit == "velocity") note(&watched, sample.velocity, std::abs(sample.velocity) > watched.bound + margin, frame.time);
-    if (watched.limit == "effort") note(&watched, sample.effort, std::abs(sample.effort) > watched.bound + margin, frame.time);
+    if (watched.limit == "lower")
+      note(&watched, sample.position, sample.position < watched.bound - margin, frame.time);
+    if (watched.limit == "upper")
+      note(&watched, sample.position, sample.position > watched.bound + margin, frame.time);
+    if (watched.limit == "velocity")
+      note(&watched, sample.velocity, std::abs(sample.velocity) > watched.bound + margin,
+           frame.time);
+    if (watched.limit == "effort")
+      note(&watched, sample.effort, std::abs(sample.effort) > watched.bound + margin, frame.time);
   }
 }
 
@@ -136,17 +146,20 @@ void LimitWatch::note(Watched* watched, double value, bool beyond, double time) 
   LimitCrossing& crossing = crossings_[to_index(watched->crossing)];
   const bool position = watched->limit == "lower" || watched->limit == "upper";
   const double excess = position ? std::abs(value - watched->bound) : std::abs(value);
-  const double largest = position ? std::abs(crossing.worst - watched->bound) : std::abs(crossing.worst);
+  const double largest =
+      position ? std::abs(crossing.worst - watched->bound) : std::abs(crossing.worst);
   if (excess > largest) crossing.worst = value;
 }
 
 std::string describe(const LimitCrossing& crossing) {
-  return "joint '" + crossing.joint + "' exceeds its " + crossing.limit + " limit " + readable(crossing.bound) +
-         " from t = " + readable(crossing.time) + " s; the worst value is " + readable(crossing.worst);
+  return "joint '" + crossing.joint + "' exceeds its " + crossing.limit + " limit " +
+         readable(crossing.bound) + " from t = " + readable(crossing.time) +
+         " s; the worst value is " + readable(crossing.worst);
 }
 
-RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
-                      int samples, const RowSink& sink, const std::atomic<bool>* cancel) {
+RunSummary record_run(const Problem& problem, const std::vector<double>& parameters,
+                      const std::vector<SignalDescription>& signals, int samples,
+                      const RowSink& sink, const std::atomic<bool>* cancel) {
   Simulation simulation(problem.system(), parameters, signals);
   LimitWatch watch(problem, parameters, simulation.names());
   std::vector<double> row;
@@ -158,14 +171,17 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
     return true;
   };
   RunSummary summary;
-  summary.status = codesign::simulate(&simulation, problem.study().duration, samples, observer, cancel);
+  summary.status =
+      codesign::simulate(&simulation, problem.study().duration, samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
   summary.warnings = simulation.warnings();
   const Study& study = problem.study();
-  const bool has_peak = std::any_of(study.watched.begin(), study.watched.end(),
-                                    [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; });
-  if (summary.status.ok() && has_objective(study) && !has_peak && simulation.time() == study.duration)
+  const bool has_peak = std::any_of(
+      study.watched.begin(), study.watched.end(),
+      [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; });
+  if (summary.status.ok() && has_objective(study) && !has_peak &&
+      simulation.time() == study.duration)
     summary.objective = simulation.objective();
   summary.crossings = watch.crossings();
   return summary;
@@ -177,7 +193,8 @@ std::vector<std::string> column_names(const std::vector<SignalDescription>& sign
   return names;
 }
 
-DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters, const std::atomic<bool>* cancel) {
+DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters,
+                           const std::atomic<bool>* cancel) {
   const double duration = problem.study().duration;
   const std::vector<ShownSignal> shown = shown_signals(problem, parameters);
   const std::vector<SignalDescription> signals = signals_in(shown);
@@ -190,7 +207,8 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   int index = 0;
   const auto observer = [&](const Frame& frame) {
     limits.observe(frame);
-    for (std::size_t k = 0; k < shown.size(); ++k) watched[k].observe(index, frame.time, frame.signals[k]);
+    for (std::size_t k = 0; k < shown.size(); ++k)
+      watched[k].observe(index, frame.time, frame.signals[k]);
     if (index % kPoseEvery == 0) poses.observe(frame);
     if (index % kRowEvery == 0) {
       std::vector<double> row(1, frame.time);
@@ -204,7 +222,8 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   record.status = simulate(&simulation, duration, kIntervals + 1, observer, cancel);
   record.csv = text.str();
   record.summary = {{"status", to_json(record.status)}, {"signals", Json::array()}};
-  for (std::size_t k = 0; k < shown.size(); ++k) record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
+  for (std::size_t k = 0; k < shown.size(); ++k)
+    record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
   // If the run ends early, the integrals would not cover the whole study.
   if (record.status.ok()) add_energies(shown, watched, duration, &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());

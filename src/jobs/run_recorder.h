@@ -19,17 +19,20 @@ namespace codesign {
 struct LimitCrossing {
   std::string joint;
   std::string limit;   ///< lower, upper, velocity or effort
-  double bound = 0.0;  ///< the limit in the file; velocity and effort: a magnitude [rad or m, rad/s or m/s, N m or N]
+  double bound = 0.0;  ///< the limit in the file; velocity and effort: a magnitude [rad or m, rad/s
+                       ///< or m/s, N m or N]
   double worst = 0.0;  ///< the value farthest beyond the limit
   double time = 0.0;   ///< time of the first sample beyond the limit [s]
 };
 
-/// Finds joints that exceed their `<limit>` during a run: velocities always, positions and efforts unless the study enforces them. A limit
-/// counts as exceeded if the excess is more than absolute_tolerance + relative_tolerance * |bound| of the solver.
+/// Finds joints that exceed their `<limit>` during a run: velocities always, positions and efforts
+/// unless the study enforces them. A limit counts as exceeded if the excess is more than
+/// absolute_tolerance + relative_tolerance * |bound| of the solver.
 class LimitWatch {
  public:
   /// @param parameters all named parameters. @param names of the frames to observe.
-  LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names);
+  LimitWatch(const Problem& problem, const std::vector<double>& parameters,
+             const FrameNames& names);
 
   void observe(const Frame& frame);
   const std::vector<LimitCrossing>& crossings() const { return crossings_; }
@@ -58,32 +61,41 @@ struct RunSummary {
   std::vector<MethodChange> methods;     ///< Simulation::methods()
   std::vector<LimitCrossing> crossings;  ///< found at the sampled instants
   Warnings warnings;                     ///< Simulation::warnings()
-  /// The study's objective; empty if the study has none or a peak, or if the run does not end at the study's duration.
+  /// The study's objective; empty if the study has none or a peak, or if the run does not end at
+  /// the study's duration.
   std::optional<double> objective;
 };
 
 /// Receives the row `time, signal, ...` of each instant.
 using RowSink = std::function<void(const std::vector<double>&)>;
 
-/// Runs a study at `parameters` and calls `sink` with the values of `signals` at `samples` equally spaced instants from 0 to its duration.
-/// @param parameters all named parameters. @param cancel once set, the run ends soon with kCancelled; nullptr: no cancellation.
-RunSummary record_run(const Problem& problem, const std::vector<double>& parameters, const std::vector<SignalDescription>& signals,
-                      int samples, const RowSink& sink, const std::atomic<bool>* cancel = nullptr);
+/// Runs a study at `parameters` and calls `sink` with the values of `signals` at `samples` equally
+/// spaced instants from 0 to its duration.
+/// @param parameters all named parameters. @param cancel once set, the run ends soon with
+/// kCancelled; nullptr: no cancellation.
+RunSummary record_run(const Problem& problem, const std::vector<double>& parameters,
+                      const std::vector<SignalDescription>& signals, int samples,
+                      const RowSink& sink, const std::atomic<bool>* cancel = nullptr);
 
 /// The columns of the rows: `time`, then the signals as the user wrote them.
 std::vector<std::string> column_names(const std::vector<SignalDescription>& signals);
 
-/// The record of a run of one design: a table for people and plotting, and a summary for the report.
+/// The record of a run of one design: a table for people and plotting, and a summary for the
+/// report.
 struct DesignRecord {
   Status status;
   std::string csv;  ///< `time` and shown_signals(), at 501 equally spaced instants
-  /// `signals` (name, unit, smallest, largest, their times, limits), `energy` and `friction_energy` [J], `limits_exceeded`, `poses`.
+  /// `signals` (name, unit, smallest, largest, their times, limits), `energy` and `friction_energy`
+  /// [J], `limits_exceeded`, `poses`.
   Json summary;
 };
 
-/// Runs the nominal study at `parameters`. Peaks are taken over 1001 samples; energies are integrals of powers over these samples by
-/// Simpson's rule, negative if energy leaves the mechanism.
-/// @param parameters all named parameters. @param cancel once set, the run ends soon with kCancelled; nullptr: no cancellation.
-DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters, const std::atomic<bool>* cancel = nullptr);
+/// Runs the nominal study at `parameters`. Peaks are taken over 1001 samples; energies are
+/// integrals of powers over these samples by Simpson's rule, negative if energy leaves the
+/// mechanism.
+/// @param parameters all named parameters. @param cancel once set, the run ends soon with
+/// kCancelled; nullptr: no cancellation.
+DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters,
+                           const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

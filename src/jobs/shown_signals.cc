@@ -14,7 +14,8 @@ namespace {
 
 template <class Item>
 const Item* find_named(const std::vector<Item>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(), [&name](const Item& item) { return item.name == name; });
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&name](const Item& item) { return item.name == name; });
   return found == items.end() ? nullptr : &*found;
 }
 
@@ -33,7 +34,8 @@ const char* fixed_unit(const std::string& quantity) {
 }
 
 std::string joint_unit(const std::string& quantity, const JointDescription& joint) {
-  const bool turns = is_turn(joint.type) || joint.type == JointType::kSpherical || joint.type == JointType::kUniversal;
+  const bool turns = is_turn(joint.type) || joint.type == JointType::kSpherical ||
+                     joint.type == JointType::kUniversal;
   if (quantity == "position") return turns ? "rad" : "m";
   if (quantity == "velocity" || quantity == "sliding_velocity") return turns ? "rad/s" : "m/s";
   if (quantity == "acceleration") return turns ? "rad/s²" : "m/s²";
@@ -41,10 +43,13 @@ std::string joint_unit(const std::string& quantity, const JointDescription& join
   return turns ? "N m" : "N";  // effort, friction
 }
 
-std::string link_unit(const std::string& quantity) { return quantity == "position" ? "m" : quantity == "velocity" ? "m/s" : ""; }
+std::string link_unit(const std::string& quantity) {
+  return quantity == "position" ? "m" : quantity == "velocity" ? "m/s" : "";
+}
 
 /// Adds the limits of a joint that apply to one of its signals.
-void add_limits(const RobotDescription& robot, const std::vector<double>& parameters, ShownSignal* shown) {
+void add_limits(const RobotDescription& robot, const std::vector<double>& parameters,
+                ShownSignal* shown) {
   if (shown->signal.terms.size() != 1 || shown->signal.terms[0].factor < 0.0) return;
   const SignalTerm& term = shown->signal.terms[0];
   const JointDescription* joint = find_named(robot.joints, term.object);
@@ -55,27 +60,33 @@ void add_limits(const RobotDescription& robot, const std::vector<double>& parame
     shown->upper = upper.at(parameters);
   };
   if (term.quantity == "position" && has_stops(*joint)) set(limit.lower, 1.0, limit.upper);
-  if (term.quantity == "velocity" && limit.bounds_velocity()) set(limit.velocity, -1.0, limit.velocity);
+  if (term.quantity == "velocity" && limit.bounds_velocity())
+    set(limit.velocity, -1.0, limit.velocity);
   if (term.quantity == "effort" && limit.bounds_effort()) set(limit.effort, -1.0, limit.effort);
 }
 
 /// Candidates beyond default_signals(); some of them do not exist in every mechanism.
-std::vector<std::string> further_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+std::vector<std::string> further_signals(const RobotDescription& robot,
+                                         const std::vector<ControllerDescription>& controllers) {
   std::vector<std::string> texts;
   for (const ControllerDescription& controller : controllers) {
     if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
     if (!controller.kind->has_error()) continue;
-    for (const char* quantity : {"/setpoint", "/error"}) texts.push_back(controller.name + quantity);
+    for (const char* quantity : {"/setpoint", "/error"})
+      texts.push_back(controller.name + quantity);
   }
   for (const JointDescription& joint : robot.joints)
-    if (has_friction(joint) && has_one_coordinate(joint.type)) texts.push_back(joint.name + "/friction_power");
+    if (has_friction(joint) && has_one_coordinate(joint.type))
+      texts.push_back(joint.name + "/friction_power");
   for (const char* quantity : {"friction_power", "damping_power", "actuator_power", "load_power"})
     texts.push_back(std::string("mechanism/") + quantity);
   return texts;
 }
 
-/// Whether a signal exists and is not ambiguous, such as a power of a joint with the name `mechanism`.
-bool exists(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+/// Whether a signal exists and is not ambiguous, such as a power of a joint with the name
+/// `mechanism`.
+bool exists(const SignalDescription& signal, const RobotDescription& robot,
+            const std::vector<ControllerDescription>& controllers) {
   try {
     check_signal(signal, robot, controllers, "");
   } catch (const InputError&) {
@@ -89,11 +100,14 @@ constexpr double kShown = 1e-8;  // smaller violations are rounding
 /// A number, or null where there is no bound.
 Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json place(const ScenarioResult& scenario) { return {{"run", scenario.run}, {"sample", scenario.sample + 1}}; }
+Json place(const ScenarioResult& scenario) {
+  return {{"run", scenario.run}, {"sample", scenario.sample + 1}};
+}
 
 }  // namespace
 
-std::string unit_of(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+std::string unit_of(const SignalDescription& signal, const RobotDescription& robot,
+                    const std::vector<ControllerDescription>& controllers) {
   const SignalTerm& term = signal.terms.front();
   if (const char* unit = fixed_unit(term.quantity)) return unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
@@ -104,16 +118,21 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
   }
   // A joint and a link may share a name; only a link's position and velocity have components.
   const JointDescription* joint = find_named(robot.joints, term.object);
-  return joint != nullptr && term.component.empty() ? joint_unit(term.quantity, *joint) : link_unit(term.quantity);
+  return joint != nullptr && term.component.empty() ? joint_unit(term.quantity, *joint)
+                                                    : link_unit(term.quantity);
 }
 
-std::vector<ShownSignal> shown_signals(const Problem& problem, const std::vector<double>& parameters) {
+std::vector<ShownSignal> shown_signals(const Problem& problem,
+                                       const std::vector<double>& parameters) {
   const RobotDescription& robot = problem.robot();
   const std::vector<ControllerDescription>& controllers = problem.study().controllers;
   std::vector<ShownSignal> shown;
   const auto add = [&](const SignalDescription& signal) {
-    const auto is_same = [&signal](const ShownSignal& other) { return other.signal.text == signal.text; };
-    if (std::any_of(shown.begin(), shown.end(), is_same) || !exists(signal, robot, controllers)) return;
+    const auto is_same = [&signal](const ShownSignal& other) {
+      return other.signal.text == signal.text;
+    };
+    if (std::any_of(shown.begin(), shown.end(), is_same) || !exists(signal, robot, controllers))
+      return;
     shown.push_back({signal, unit_of(signal, robot, controllers), {}, {}});
     add_limits(robot, parameters, &shown.back());
   };
@@ -154,9 +173,12 @@ void add_watched(const OptimizationResult& result, Json* object) {
 std::vector<std::string> watched_sentences(const OptimizationResult& result) {
   std::vector<std::string> sentences;
   for (const WatchedResult& watched : result.watched)
-    sentences.push_back(watched.element + ", " + watched.signal + ": from " + readable(watched.initial_smallest) + " ... " +
-                        readable(watched.initial_largest) + " to " + readable(watched.smallest) + " ... " + readable(watched.largest) +
-                        (watched.violation > kShown ? ", beyond its bounds by " + readable(watched.violation, 3) : ""));
+    sentences.push_back(
+        watched.element + ", " + watched.signal + ": from " + readable(watched.initial_smallest) +
+        " ... " + readable(watched.initial_largest) + " to " + readable(watched.smallest) +
+        " ... " + readable(watched.largest) +
+        (watched.violation > kShown ? ", beyond its bounds by " + readable(watched.violation, 3)
+                                    : ""));
   return sentences;
 }
 

@@ -11,7 +11,9 @@ namespace codesign {
 namespace {
 
 /// With two digits, or as a whole number.
-std::string roughly(double value) { return readable(value < 10.0 ? value : std::round(value), value < 10.0 ? 2 : 10); }
+std::string roughly(double value) {
+  return readable(value < 10.0 ? value : std::round(value), value < 10.0 ? 2 : 10);
+}
 
 std::string in_a_good_unit(double seconds) {
   if (seconds < 120.0) return roughly(seconds) + " s";
@@ -62,15 +64,19 @@ std::string TrialLines::line(const Trial& trial, const Progress& progress) {
   std::string line = trial.start > 0 ? "search " + std::to_string(trial.start) + ", " : "";
   line += "trial " + std::to_string(trial.evaluation) + ": ";
   if (trial.status.ok())
-    line += "objective " + readable(trial.objective) + ", scaled gradient " + readable(trial.gradient_norm);
+    line += "objective " + readable(trial.objective) + ", scaled gradient " +
+            readable(trial.gradient_norm);
   else
     line += "failed, " + describe(trial.status);
   const auto [best, is_first] = best_.emplace(trial.start, Best{trial.iteration, trial.rho});
   if (!is_first) {
-    line += ", step " + readable(distance(scaling_.to_scaled(best->second.rho), scaling_.to_scaled(trial.rho)), 3);
+    line +=
+        ", step " +
+        readable(distance(scaling_.to_scaled(best->second.rho), scaling_.to_scaled(trial.rho)), 3);
     if (trial.iteration > best->second.iteration) best->second = {trial.iteration, trial.rho};
   }
-  return line + ", best " + readable(trial.best_objective) + time_left(progress.seconds_left, progress.is_bound);
+  return line + ", best " + readable(trial.best_objective) +
+         time_left(progress.seconds_left, progress.is_bound);
 }
 
 std::string FitLines::line(const FitTrial& trial) {
@@ -86,19 +92,23 @@ std::string FitLines::line(const FitTrial& trial) {
   } else {
     line += "failed, " + describe(trial.status);
   }
-  if (best_.size() == trial.x.size() && best_.size() > 0) line += ", step " + readable(largest_change(best_, trial.x), 3);
+  if (best_.size() == trial.x.size() && best_.size() > 0)
+    line += ", step " + readable(largest_change(best_, trial.x), 3);
   if (best_.size() != trial.x.size() || trial.iteration > iteration_) {
     best_ = trial.x;
     iteration_ = trial.iteration;
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const int left = std::max(most_evaluations_ - trial.evaluation, 0);
-  return line + time_left(trial.evaluation > 0 ? std::optional(seconds * left / trial.evaluation) : std::nullopt, true);
+  return line + time_left(trial.evaluation > 0 ? std::optional(seconds * left / trial.evaluation)
+                                               : std::nullopt,
+                          true);
 }
 
 std::string describe(const Status& status) {
   const std::string at = moment(status);
-  return std::string(name_of(status.code)) + (at.empty() ? "" : " " + at) + (status.cause.empty() ? "" : ": " + status.cause);
+  return std::string(name_of(status.code)) + (at.empty() ? "" : " " + at) +
+         (status.cause.empty() ? "" : ": " + status.cause);
 }
 
 std::string reason(const Status& status) {

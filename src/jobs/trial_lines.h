@@ -23,9 +23,10 @@ class TrialLines {
   /// @param study must outlive this.
   explicit TrialLines(const Study& study) : scaling_(study) {}
 
-  /// "trial 12: objective 0.0123, scaled gradient 0.02, step 0.03, best 0.0123, at most 12 s left", and, with several searches, the number
-  /// of the search before it. `step` is the distance from the best point of this search so far, in the scaled variables of doc/theory.md
-  /// (24); the first trial of a search has none. @param progress at this trial.
+  /// "trial 12: objective 0.0123, scaled gradient 0.02, step 0.03, best 0.0123, at most 12 s left",
+  /// and, with several searches, the number of the search before it. `step` is the distance from
+  /// the best point of this search so far, in the scaled variables of doc/theory.md (24); the first
+  /// trial of a search has none. @param progress at this trial.
   std::string line(const Trial& trial, const Progress& progress);
 
  private:
@@ -45,8 +46,9 @@ class FitLines {
   /// @param most_evaluations limit of the fit.
   explicit FitLines(int most_evaluations) : most_evaluations_(most_evaluations) {}
 
-  /// "evaluation 3: cost 12.1, root mean squares 0.1 0.2, step 0.03, at most 12 s left"; `step` is the largest change of a number since the
-  /// best point so far, over its size. For evaluations of profiles: "profile 2 of 5" when a profile begins, else empty.
+  /// "evaluation 3: cost 12.1, root mean squares 0.1 0.2, step 0.03, at most 12 s left"; `step` is
+  /// the largest change of a number since the best point so far, over its size. For evaluations of
+  /// profiles: "profile 2 of 5" when a profile begins, else empty.
   std::string line(const FitTrial& trial);
 
  private:
@@ -58,10 +60,12 @@ class FitLines {
   Eigen::VectorXd best_;
 };
 
-/// Code, time and cause of a status: "step_size_too_small at t = 0.5 s: the step size fell below ...".
+/// Code, time and cause of a status: "step_size_too_small at t = 0.5 s: the step size fell below
+/// ...".
 std::string describe(const Status& status);
 
-/// Cause and time of a status, for replies that have the code in a field of its own: "the step size fell below ... (at t = 0.5 s)".
+/// Cause and time of a status, for replies that have the code in a field of its own: "the step size
+/// fell below ... (at t = 0.5 s)".
 std::string reason(const Status& status);
 
 }  // namespace codesign

@@ -16,10 +16,12 @@ enum class CoordinateDetail {
   kAll            ///< position
 };
 
-/// A joint coordinate theta with its rate and acceleration, and the gradient J of the rate by the pair's 14 velocities; doc/theory.md (8).
+/// A joint coordinate theta with its rate and acceleration, and the gradient J of the rate by the
+/// pair's 14 velocities; doc/theory.md (8).
 ///
-/// rate = J v, and a load L that opposes the coordinate enters the equations of motion as +J^T L, so that its power is exactly -L * rate.
-/// Members that CoordinateDetail excludes are not initialized.
+/// rate = J v, and a load L that opposes the coordinate enters the equations of motion as +J^T L,
+/// so that its power is exactly -L * rate. Members that CoordinateDetail excludes are not
+/// initialized.
 template <class T>
 struct CoordinateMotion {
   T position, rate, acceleration;  ///< [rad or m], per s, per s^2
@@ -28,14 +30,16 @@ struct CoordinateMotion {
 
 namespace internal {
 
-/// All members except the position for theta = atan2(N, D), with scalar products N and D, by the quotient rule.
+/// All members except the position for theta = atan2(N, D), with scalar products N and D, by the
+/// quotient rule.
 template <class T>
-void angle_motion(const ProductMotion<T>& N, const LocalRow<T>& N_q, const ProductMotion<T>& D, const LocalRow<T>& D_q,
-                  CoordinateMotion<T>* m) {
+void angle_motion(const ProductMotion<T>& N, const LocalRow<T>& N_q, const ProductMotion<T>& D,
+                  const LocalRow<T>& D_q, CoordinateMotion<T>* m) {
   const T square = N.phi * N.phi + D.phi * D.phi;
   const T c = D.phi / square, s = N.phi / square;
   m->J = c * N_q - s * D_q;
-  const T ratio = (N.phid * N.phi + D.phid * D.phi) / square;  // half the relative growth rate of N^2 + D^2
+  const T ratio =
+      (N.phid * N.phi + D.phid * D.phi) / square;  // half the relative growth rate of N^2 + D^2
   m->rate = c * N.phid - s * D.phid;
   m->acceleration = c * N.phidd - s * D.phidd - 2.0 * m->rate * ratio;
 }
@@ -48,23 +52,28 @@ struct Product {
 };
 
 template <class T>
-Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+Product<T> product(const PairVector<T>& X, const PairVector<T>& Y, const BodyKinematics<T>& i,
+                   const BodyKinematics<T>& j) {
   const VectorMotion<T> x = motion_of(X, i, j), y = motion_of(Y, i, j);
   return {product_motion(x, y), product_gradient(X, Y, x, y, i, j)};
 }
 
 /// The product of the direction a_i, fixed in body i, and b_j, fixed in body j.
 template <class T>
-Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
-  return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j), i, j);
+Product<T> directions_product(const Vector3<T>& a_i, const Vector3<T>& b_j,
+                              const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+  return product(PairVector<T>::direction(Side::kI, a_i), PairVector<T>::direction(Side::kJ, b_j),
+                 i, j);
 }
 
-/// The rate u_i . R(p_i) p_i' + u_j . R(p_j) p_j' with R = G or E, so that no arc tangent need be differentiated.
-/// @param rate_matrix p -> R(p). @param to_body (A, u) -> u in body axes. @param u_i, u_j fixed in the bodies (G) or in the ground (E),
-/// factor and sign included.
+/// The rate u_i . R(p_i) p_i' + u_j . R(p_j) p_j' with R = G or E, so that no arc tangent need be
+/// differentiated.
+/// @param rate_matrix p -> R(p). @param to_body (A, u) -> u in body axes. @param u_i, u_j fixed in
+/// the bodies (G) or in the ground (E), factor and sign included.
 template <class T, class RateMatrix, class ToBody>
-void angular_rate(const RateMatrix& rate_matrix, const ToBody& to_body, const Vector3<T>& u_i, const Vector3<T>& u_j,
-                  const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail, CoordinateMotion<T>* m) {
+void angular_rate(const RateMatrix& rate_matrix, const ToBody& to_body, const Vector3<T>& u_i,
+                  const Vector3<T>& u_j, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+                  CoordinateDetail detail, CoordinateMotion<T>* m) {
   m->J.setZero();
   m->rate = m->acceleration = T(0.0);
   const auto add = [&](Side side, const BodyKinematics<T>& body, const Vector3<T>& u) {
@@ -88,19 +97,22 @@ void angular_rate(const RateMatrix& rate_matrix, const ToBody& to_body, const Ve
 
 /// The rate of a turn about the common axis, 2 u_j . G(p_j) p_j' - 2 u_i . G(p_i) p_i'.
 template <class T>
-void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
-               CoordinateMotion<T>* m) {
-  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); }, [](const Matrix3<T>&, const Vector3<T>& u) { return u; },
-                  Vector3<T>(T(-2.0) * pair.C_i.col(2)), Vector3<T>(2.0 * pair.C_j.col(2)), i, j, detail, m);
+void turn_rate(const PairConstants<T>& pair, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+               CoordinateDetail detail, CoordinateMotion<T>* m) {
+  angular_rate<T>([](const Vector4<T>& p) { return body_rate_matrix(p); },
+                  [](const Matrix3<T>&, const Vector3<T>& u) { return u; },
+                  Vector3<T>(T(-2.0) * pair.C_i.col(2)), Vector3<T>(2.0 * pair.C_j.col(2)), i, j,
+                  detail, m);
 }
 
 /// The rate of a turn about a ground axis a, 2 a . (E(p_j) p_j' - E(p_i) p_i').
 template <class T>
-void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
-               CoordinateMotion<T>* m) {
-  angular_rate<T>([](const Vector4<T>& p) { return ground_rate_matrix(p); },
-                  [](const Matrix3<T>& A, const Vector3<T>& u) { return Vector3<T>(A.transpose() * u); }, Vector3<T>(T(-2.0) * a),
-                  Vector3<T>(2.0 * a), i, j, detail, m);
+void spin_rate(const Vector3<T>& a, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+               CoordinateDetail detail, CoordinateMotion<T>* m) {
+  angular_rate<T>(
+      [](const Vector4<T>& p) { return ground_rate_matrix(p); },
+      [](const Matrix3<T>& A, const Vector3<T>& u) { return Vector3<T>(A.transpose() * u); },
+      Vector3<T>(T(-2.0) * a), Vector3<T>(2.0 * a), i, j, detail, m);
 }
 
 /// All members except the position for theta = asin(s), with the scalar product s.
@@ -132,24 +144,28 @@ PairVector<T> slide_axis(const CoordinateConstants<T>& c) {
   return PairVector<T>::direction(c.fixed_in_j ? Side::kJ : Side::kI, c.a);
 }
 
-/// The value of a coordinate [rad or m]; 0 for kSpin and kNone, which have none. Arc tangents lie in (-pi, pi]; the caller adds whole
-/// turns.
+/// The value of a coordinate [rad or m]; 0 for kSpin and kNone, which have none. Arc tangents lie
+/// in (-pi, pi]; the caller adds whole turns.
 template <class T>
-T coordinate_position(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
-                      const BodyKinematics<T>& j) {
+T coordinate_position(const PairConstants<T>& pair, const CoordinateConstants<T>& c,
+                      const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   using Kind = typename CoordinateConstants<T>::Kind;
   using std::asin;
-  const auto cosine = [&](const Vector3<T>& a, const Vector3<T>& b) { return dot<T>(i.A * a, j.A * b); };
+  const auto cosine = [&](const Vector3<T>& a, const Vector3<T>& b) {
+    return dot<T>(i.A * a, j.A * b);
+  };
   const T sign(c.sign);
   switch (c.kind) {
     case Kind::kTurn:
-      return sign * arc_tangent(cosine(pair.C_i.col(1), pair.C_j.col(0)), cosine(pair.C_i.col(0), pair.C_j.col(0)));
+      return sign * arc_tangent(cosine(pair.C_i.col(1), pair.C_j.col(0)),
+                                cosine(pair.C_i.col(0), pair.C_j.col(0)));
     case Kind::kAngle:
       return sign * arc_tangent(cosine(c.a, c.b), cosine(c.c, c.d));
     case Kind::kSine:
       return sign * asin(cosine(c.a, c.b));
     case Kind::kSlide:
-      return sign * dot<T>((c.fixed_in_j ? j : i).A * c.a, j.r + j.A * pair.s_j - i.r - i.A * pair.s_i);
+      return sign *
+             dot<T>((c.fixed_in_j ? j : i).A * c.a, j.r + j.A * pair.s_j - i.r - i.A * pair.s_i);
     case Kind::kSpin:
     case Kind::kNone:
       break;
@@ -161,8 +177,9 @@ namespace internal {
 
 /// All members except the position for a sliding coordinate, a scalar product itself.
 template <class T>
-void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j,
-                  CoordinateDetail detail, CoordinateMotion<T>* m) {
+void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c,
+                  const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateDetail detail,
+                  CoordinateMotion<T>* m) {
   const auto s = product(slide_axis(c), PairVector<T>::displacement(pair.s_i, pair.s_j), i, j);
   m->rate = s.motion.phid;
   m->J = s.phi_q;
@@ -171,7 +188,8 @@ void slide_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c,
 
 /// All members except the position for kAngle and kSine.
 template <class T>
-void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<T>& i, const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
+void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
+                          const BodyKinematics<T>& j, CoordinateMotion<T>* m) {
   const auto N = directions_product(c.a, c.b, i, j);
   if (c.kind == CoordinateConstants<T>::Kind::kSine) {
     sine_motion(N, m);
@@ -185,8 +203,9 @@ void angle_or_sine_motion(const CoordinateConstants<T>& c, const BodyKinematics<
 
 /// Evaluates one coordinate of a pair; its position as coordinate_position().
 template <class T>
-CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c, const BodyKinematics<T>& i,
-                                      const BodyKinematics<T>& j, CoordinateDetail detail = CoordinateDetail::kAll) {
+CoordinateMotion<T> coordinate_motion(const PairConstants<T>& pair, const CoordinateConstants<T>& c,
+                                      const BodyKinematics<T>& i, const BodyKinematics<T>& j,
+                                      CoordinateDetail detail = CoordinateDetail::kAll) {
   using Kind = typename CoordinateConstants<T>::Kind;
   CoordinateMotion<T> m;
   switch (c.kind) {

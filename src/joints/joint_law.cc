@@ -58,24 +58,67 @@ void distance_rows(const PairConstants<T>& c, PairRows<T>* rows) {
 
 using J = JointType;
 using F = ForceRows;
-constexpr Law<PairRowsFunction> kNoRows{}, kTurnless{fixed_rows, fixed_rows}, kHinge{revolute_rows, revolute_rows};
-constexpr BearingLaw kPlane{{planar_normal_force, planar_normal_force}}, kPin{{pin_normal_force, pin_normal_force}, true, false, true},
+constexpr Law<PairRowsFunction> kNoRows{}, kTurnless{fixed_rows, fixed_rows},
+    kHinge{revolute_rows, revolute_rows};
+constexpr BearingLaw kPlane{{planar_normal_force, planar_normal_force}},
+    kPin{{pin_normal_force, pin_normal_force}, true, false, true},
     kPinHeldAlong{{revolute_normal_force, revolute_normal_force}, true, false, true},
     kRail{{translational_normal_force, translational_normal_force}, true, true, false},
     kBall{{ball_normal_force, ball_normal_force}, false, false, true};
 
-// of_joints, of_loops, type, rows, force, torque_rows, in_forest, add_rows, bearing, slip_coordinates, slips_of_the_point
+// of_joints, of_loops, type, rows, force, torque_rows, in_forest, add_rows, bearing,
+// slip_coordinates, slips_of_the_point
 constexpr JointLaw kJointTable[] = {
     {"fixed", "fixed", J::kFixed, 6, F::kAll, true, false, kTurnless},
     {"revolute", "revolute", J::kRevolute, 5, F::kAll, true, true, kHinge, kPinHeldAlong},
     {"continuous", "continuous", J::kContinuous, 5, F::kAll, true, true, kHinge, kPinHeldAlong},
-    {"prismatic", "prismatic", J::kPrismatic, 5, F::kAcross, true, true, {prismatic_rows, prismatic_rows}, kRail},
-    {"planar", "planar", J::kPlanar, 3, F::kAlong, true, true, {planar_rows, planar_rows}, kPlane, 3, 2},
+    {"prismatic",
+     "prismatic",
+     J::kPrismatic,
+     5,
+     F::kAcross,
+     true,
+     true,
+     {prismatic_rows, prismatic_rows},
+     kRail},
+    {"planar",
+     "planar",
+     J::kPlanar,
+     3,
+     F::kAlong,
+     true,
+     true,
+     {planar_rows, planar_rows},
+     kPlane,
+     3,
+     2},
     {"floating", nullptr, J::kFloating, 0, F::kNone, false},
     {nullptr, "codesign:spherical", J::kSpherical, 3, F::kAll, false, false, kNoRows, kBall, 3, 3},
-    {nullptr, "codesign:universal", J::kUniversal, 4, F::kAll, false, true, {universal_rows, universal_rows}},
-    {nullptr, "codesign:cylindrical", J::kCylindrical, 4, F::kAcross, true, true, {cylindrical_rows, cylindrical_rows}, kPin},
-    {nullptr, "codesign:distance", J::kDistance, 1, F::kNone, false, false, {distance_rows, distance_rows}},
+    {nullptr,
+     "codesign:universal",
+     J::kUniversal,
+     4,
+     F::kAll,
+     false,
+     true,
+     {universal_rows, universal_rows}},
+    {nullptr,
+     "codesign:cylindrical",
+     J::kCylindrical,
+     4,
+     F::kAcross,
+     true,
+     true,
+     {cylindrical_rows, cylindrical_rows},
+     kPin},
+    {nullptr,
+     "codesign:distance",
+     J::kDistance,
+     1,
+     F::kNone,
+     false,
+     false,
+     {distance_rows, distance_rows}},
     {nullptr, nullptr, J::kOther, 4, F::kAlong, true, true, {table_rows, table_rows}, kPlane, 2, 2},
     {nullptr, nullptr, J::kOther, 3, F::kNone, true, true, kTurnless},
 };
@@ -88,10 +131,12 @@ constexpr const JointLaw& row_of(JointType type) {
 
 }  // namespace
 
-const PairKind PairKind::kFixed{row_of(J::kFixed)}, PairKind::kRevolute{row_of(J::kRevolute)}, PairKind::kPrismatic{row_of(J::kPrismatic)},
-    PairKind::kCylindrical{row_of(J::kCylindrical)}, PairKind::kUniversal{row_of(J::kUniversal)},
-    PairKind::kSpherical{row_of(J::kSpherical)}, PairKind::kPlanar{row_of(J::kPlanar)}, PairKind::kDistance{row_of(J::kDistance)},
-    PairKind::kFree{row_of(J::kFloating)}, PairKind::kTable{kJointTable[10]}, PairKind::kTranslational{kJointTable[11]};
+const PairKind PairKind::kFixed{row_of(J::kFixed)}, PairKind::kRevolute{row_of(J::kRevolute)},
+    PairKind::kPrismatic{row_of(J::kPrismatic)}, PairKind::kCylindrical{row_of(J::kCylindrical)},
+    PairKind::kUniversal{row_of(J::kUniversal)}, PairKind::kSpherical{row_of(J::kSpherical)},
+    PairKind::kPlanar{row_of(J::kPlanar)}, PairKind::kDistance{row_of(J::kDistance)},
+    PairKind::kFree{row_of(J::kFloating)}, PairKind::kTable{kJointTable[10]},
+    PairKind::kTranslational{kJointTable[11]};
 
 std::vector<RowReference<JointLaw>> joint_laws() {
   return std::vector<RowReference<JointLaw>>(std::begin(kJointTable), std::end(kJointTable));

@@ -8,8 +8,8 @@
 
 namespace codesign {
 
-/// The types of joints and loops to which other parts of a file refer, such as limits, lengths and poses. kOther: only its row of the table
-/// of joints (JointLaw) tells about it.
+/// The types of joints and loops to which other parts of a file refer, such as limits, lengths and
+/// poses. kOther: only its row of the table of joints (JointLaw) tells about it.
 enum class JointType {
   kFixed,
   kRevolute,
@@ -25,9 +25,14 @@ enum class JointType {
 };
 
 /// Whether the only coordinate of a type is an angle.
-constexpr bool is_turn(JointType type) { return type == JointType::kRevolute || type == JointType::kContinuous; }
-/// Whether a type has exactly one coordinate, and with it a scalar position, velocity, acceleration and effort.
-constexpr bool has_one_coordinate(JointType type) { return is_turn(type) || type == JointType::kPrismatic; }
+constexpr bool is_turn(JointType type) {
+  return type == JointType::kRevolute || type == JointType::kContinuous;
+}
+/// Whether a type has exactly one coordinate, and with it a scalar position, velocity, acceleration
+/// and effort.
+constexpr bool has_one_coordinate(JointType type) {
+  return is_turn(type) || type == JointType::kPrismatic;
+}
 
 template <class T>
 struct PairRows;
@@ -35,11 +40,14 @@ struct PairRows;
 /// Adds the constraint rows of a pair to those of coincident points, if it has these; theory (6).
 template <class T>
 using PairRowsFunction = void (*)(const PairConstants<T>& c, PairRows<T>* rows);
-/// The normal force N [N] in the bearing as a function of the reaction F'' [N] and T'' [N m], theory (12).
+/// The normal force N [N] in the bearing as a function of the reaction F'' [N] and T'' [N m],
+/// theory (12).
 template <class T>
-using NormalForceFunction = T (*)(const Vector3<T>& F, const Vector3<T>& torque, const FrictionNumbers<T>& c);
+using NormalForceFunction = T (*)(const Vector3<T>& F, const Vector3<T>& torque,
+                                  const FrictionNumbers<T>& c);
 
-/// The components of the reaction force F'', theory (11), that equal the multipliers of a pair's first rows.
+/// The components of the reaction force F'', theory (11), that equal the multipliers of a pair's
+/// first rows.
 enum class ForceRows {
   kNone,    ///< no row is a component of F''
   kAll,     ///< three rows of coincident points, in ground axes
@@ -47,29 +55,40 @@ enum class ForceRows {
   kAlong    ///< one, along z''
 };
 
-/// The bearing of a joint: the formula of its normal force, none if the joint has no friction law, and which dimensions it needs.
+/// The bearing of a joint: the formula of its normal force, none if the joint has no friction law,
+/// and which dimensions it needs.
 struct BearingLaw {
   Law<NormalForceFunction> normal_force{};
   bool joint_length = false, joint_width = false, pin_radius = false;
 };
 
-/// A joint, one row of the table in joint_law.cc: its names, the properties of the pair of bodies that it makes, and its functions of
-/// values. Body i is on the parent's side, body j on the child's; z is the joint axis.
+/// A joint, one row of the table in joint_law.cc: its names, the properties of the pair of bodies
+/// that it makes, and its functions of values. Body i is on the parent's side, body j on the
+/// child's; z is the joint axis.
 struct JointLaw {
-  const char* of_joints;   ///< value of `<joint type>`; null: no joint of the tree has this type
-  const char* of_loops;    ///< value of `<loop type>`; null: no loop has it
-  JointType type;          ///< kOther: nothing but this row depends on it; such a joint is a loop, or arises by folding
-  int rows;                ///< number of constraint rows
-  ForceRows force;         ///< the force components that the first rows stand for
-  bool torque_rows;        ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are rows
-  bool in_forest = false;  ///< whether its coordinates are scalars, which hold in all positions; theory (56)
+  const char* of_joints;  ///< value of `<joint type>`; null: no joint of the tree has this type
+  const char* of_loops;   ///< value of `<loop type>`; null: no loop has it
+  JointType type;    ///< kOther: nothing but this row depends on it; such a joint is a loop, or
+                     ///< arises by folding
+  int rows;          ///< number of constraint rows
+  ForceRows force;   ///< the force components that the first rows stand for
+  bool torque_rows;  ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as
+                     ///< far as there are rows
+  bool in_forest =
+      false;  ///< whether its coordinates are scalars, which hold in all positions; theory (56)
   Law<PairRowsFunction> add_rows{};
   BearingLaw bearing{};
-  int slip_coordinates = 0;    ///< number of slip coordinates of isotropic friction (13a); 0: each coordinate has its own friction, (13)
-  int slips_of_the_point = 0;  ///< how many of them, from the first on, make up the reported speed and friction
+  int slip_coordinates = 0;  ///< number of slip coordinates of isotropic friction (13a); 0: each
+                             ///< coordinate has its own friction, (13)
+  int slips_of_the_point =
+      0;  ///< how many of them, from the first on, make up the reported speed and friction
 
   /// How many of the first rows are components of F''.
-  constexpr int force_rows() const { return force == ForceRows::kAll ? 3 : force == ForceRows::kAcross ? 2 : force == ForceRows::kAlong; }
+  constexpr int force_rows() const {
+    return force == ForceRows::kAll      ? 3
+           : force == ForceRows::kAcross ? 2
+                                         : force == ForceRows::kAlong;
+  }
   /// Whether friction acts in a plane, whose normal force only the first row enters.
   constexpr bool is_plane() const { return slips_of_the_point == 2; }
 };
@@ -95,10 +114,12 @@ class PairKind : public RowReference<JointLaw> {
 std::vector<RowReference<JointLaw>> joint_laws();
 
 /// The kind of pair that a joint makes: a continuous joint is a revolute one without limits.
-inline PairKind pair_of(const JointLaw& joint) { return joint.type == JointType::kContinuous ? PairKind::kRevolute : PairKind(joint); }
+inline PairKind pair_of(const JointLaw& joint) {
+  return joint.type == JointType::kContinuous ? PairKind::kRevolute : PairKind(joint);
+}
 
-/// Whether friction in such a pair is isotropic, one law for all directions of slip, doc/theory.md (13a), instead of one law per
-/// coordinate, (13).
+/// Whether friction in such a pair is isotropic, one law for all directions of slip, doc/theory.md
+/// (13a), instead of one law per coordinate, (13).
 inline bool slips_isotropically(PairKind kind) { return kind->slip_coordinates > 0; }
 
 }  // namespace codesign

@@ -9,17 +9,20 @@
 
 namespace codesign {
 
-// How a pair of the forest moves its body j, and how it carries the wrench on body j back to its coordinates and to body i; theory (56),
-// (57). All vectors are in the axes of the body to which they belong.
+// How a pair of the forest moves its body j, and how it carries the wrench on body j back to its
+// coordinates and to body i; theory (56), (57). All vectors are in the axes of the body to which
+// they belong.
 
 /// The pose and the motion of a body, in its own axes.
 template <class T>
 struct AxesMotion {
-  Matrix3<T> A = Matrix3<T>::Identity();                                                             ///< body axes to ground axes
-  Vector3<T> r = Vector3<T>::Zero();                                                                 ///< centre of mass, in ground axes [m]
-  Vector3<T> velocity = Vector3<T>::Zero(), omega = Vector3<T>::Zero(), alpha = Vector3<T>::Zero();  ///< of the centre [m/s]; [rad/s]
+  Matrix3<T> A = Matrix3<T>::Identity();  ///< body axes to ground axes
+  Vector3<T> r = Vector3<T>::Zero();      ///< centre of mass, in ground axes [m]
+  Vector3<T> velocity = Vector3<T>::Zero(), omega = Vector3<T>::Zero(),
+             alpha = Vector3<T>::Zero();         ///< of the centre [m/s]; [rad/s]
   Vector3<T> acceleration = Vector3<T>::Zero();  ///< of the centre, less gravity [m/s^2]
-  Matrix3<T> N = Matrix3<T>::Zero();             ///< alpha~ + omega~ omega~: N s is the acceleration of a point s relative to the centre
+  Matrix3<T> N = Matrix3<T>::Zero();  ///< alpha~ + omega~ omega~: N s is the acceleration of a
+                                      ///< point s relative to the centre
 
   /// Sets N from omega and alpha.
   void update_turning() {
@@ -53,11 +56,13 @@ Wrench<T> inertia_wrench(const T& mass, const Matrix3<T>& J, const AxesMotion<T>
 template <class T>
 struct JointPose {
   static constexpr std::size_t kMostTurns = 2;
-  std::array<Matrix3<T>, kMostTurns> turn;  ///< per turn, in order: the axes after it in those before it; the last one includes R_ij
+  std::array<Matrix3<T>, kMostTurns> turn;  ///< per turn, in order: the axes after it in those
+                                            ///< before it; the last one includes R_ij
   Matrix3<T> R = Matrix3<T>::Identity();    ///< axes of body j in those of body i
 };
 
-/// exp(angle u~) R for a unit vector u. Three constant matrices, so that only their combination depends on the angle.
+/// exp(angle u~) R for a unit vector u. Three constant matrices, so that only their combination
+/// depends on the angle.
 template <class T>
 Matrix3<T> turned(const Vector3<T>& u, const Matrix3<T>& R, const T& angle) {
   using std::cos;
@@ -65,7 +70,8 @@ Matrix3<T> turned(const Vector3<T>& u, const Matrix3<T>& R, const T& angle) {
   const T c = cos(angle), s = sin(angle);
   Matrix3<T> result;
   for (int k = 0; k < 3; ++k) {
-    const Vector3<T> column = R.col(k), along = dot<T>(u, column) * u, across = column - along, turn = cross<T>(u, column);
+    const Vector3<T> column = R.col(k), along = dot<T>(u, column) * u, across = column - along,
+                     turn = cross<T>(u, column);
     for (int row = 0; row < 3; ++row) result(row, k) = along[row] + c * across[row] + s * turn[row];
   }
   return result;
@@ -73,8 +79,9 @@ Matrix3<T> turned(const Vector3<T>& u, const Matrix3<T>& R, const T& angle) {
 
 namespace internal {
 
-/// The number of turns of a pair, and the axis of one of its coordinates in the axes that move with it: those of body i before the last
-/// turn, and those of body j from the last turn on (of a pair without turns: always). At zero position both differ by R_ij only.
+/// The number of turns of a pair, and the axis of one of its coordinates in the axes that move with
+/// it: those of body i before the last turn, and those of body j from the last turn on (of a pair
+/// without turns: always). At zero position both differ by R_ij only.
 template <class T>
 std::size_t turns_of(const PairConstants<T>& pair) {
   std::size_t turns = 0;
@@ -84,13 +91,15 @@ std::size_t turns_of(const PairConstants<T>& pair) {
 
 template <class T>
 Vector3<T> moving_axis(const PairConstants<T>& pair, std::size_t step, std::size_t turns_left) {
-  return turns_left == 0 ? Vector3<T>(pair.R_ij.transpose() * pair.steps[step].axis) : pair.steps[step].axis;
+  return turns_left == 0 ? Vector3<T>(pair.R_ij.transpose() * pair.steps[step].axis)
+                         : pair.steps[step].axis;
 }
 
 /// Changes to other axes: R has the new axes in the old ones as columns.
 template <class T>
 void change_axes(const Matrix3<T>& R, AxesMotion<T>* m) {
-  for (Vector3<T>* x : {&m->velocity, &m->omega, &m->alpha, &m->acceleration}) *x = Vector3<T>(R.transpose() * *x);
+  for (Vector3<T>* x : {&m->velocity, &m->omega, &m->alpha, &m->acceleration})
+    *x = Vector3<T>(R.transpose() * *x);
   m->A = Matrix3<T>(m->A * R);
 }
 
@@ -104,7 +113,8 @@ void go_to(const Vector3<T>& s, AxesMotion<T>* m) {
 
 }  // namespace internal
 
-/// The turns of a pair at its position. @param q, v, a one entry per step of the pair, here and below.
+/// The turns of a pair at its position. @param q, v, a one entry per step of the pair, here and
+/// below.
 template <class T>
 JointPose<T> joint_pose(const PairConstants<T>& pair, const T* q) {
   JointPose<T> pose;
@@ -113,7 +123,8 @@ JointPose<T> joint_pose(const PairConstants<T>& pair, const T* q) {
   for (std::size_t k = 0; k < pair.steps.size(); ++k) {
     if (!pair.steps[k].turns) continue;
     Matrix3<T>& R = pose.turn[turn];
-    R = turned<T>(pair.steps[k].axis, left == 1 ? pair.R_ij : Matrix3<T>(Matrix3<T>::Identity()), q[k]);
+    R = turned<T>(pair.steps[k].axis, left == 1 ? pair.R_ij : Matrix3<T>(Matrix3<T>::Identity()),
+                  q[k]);
     pose.R = turn == 0 ? R : Matrix3<T>(pose.turn[0] * R);
     --left, ++turn;
   }
@@ -129,10 +140,11 @@ JointPose<T> joint_pose_of(const Matrix3<T>& A_i, const Matrix3<T>& A_j) {
   return pose;
 }
 
-/// The motion of body j from that of body i, the pair's pose and its coordinates. @param q only the entries of slides are read.
+/// The motion of body j from that of body i, the pair's pose and its coordinates. @param q only the
+/// entries of slides are read.
 template <class T>
-AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pair, const JointPose<T>& pose, const T* q, const T* v,
-                         const T* a) {
+AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pair,
+                         const JointPose<T>& pose, const T* q, const T* v, const T* a) {
   AxesMotion<T> m = parent;
   internal::go_to(pair.s_i, &m);
   std::size_t left = internal::turns_of(pair), turn = 0;
@@ -160,7 +172,8 @@ AxesMotion<T> move_child(const AxesMotion<T>& parent, const PairConstants<T>& pa
   return m;
 }
 
-/// Euler parameters of body j's axes in those of body i: continuous in q, since they turn by half of each angle.
+/// Euler parameters of body j's axes in those of body i: continuous in q, since they turn by half
+/// of each angle.
 template <class T>
 Vector4<T> joint_parameters(const PairConstants<T>& pair, const T* q) {
   using std::cos;
@@ -176,11 +189,12 @@ Vector4<T> joint_parameters(const PairConstants<T>& pair, const T* q) {
 }
 
 /// Carries the wrench that the pair transmits to body j back to its coordinates, and to body i.
-/// @param wrench about the centre of body j. @param q only the entries of slides are read. @param rows receives the loads along the
-/// coordinates, one per step; overwritten.
+/// @param wrench about the centre of body j. @param q only the entries of slides are read. @param
+/// rows receives the loads along the coordinates, one per step; overwritten.
 /// @returns the wrench about the centre of body i, in its axes.
 template <class T>
-Wrench<T> carry_back(const Wrench<T>& wrench, const PairConstants<T>& pair, const JointPose<T>& pose, const T* q, T* rows) {
+Wrench<T> carry_back(const Wrench<T>& wrench, const PairConstants<T>& pair,
+                     const JointPose<T>& pose, const T* q, T* rows) {
   Wrench<T> w = wrench;
   w.moment -= cross<T>(pair.s_j, w.force);  // about the joint's point of body j
   std::size_t turn = internal::turns_of(pair), left = 0;

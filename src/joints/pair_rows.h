@@ -15,8 +15,9 @@ namespace codesign {
 constexpr int kLocalSize = 14;
 constexpr int kBodySize = 7;
 
-/// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column. Of a body of the forest, theory (56), the three
-/// entries from p_offset() on are the gradient by its angular velocity in its own axes, the fourth is zero.
+/// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column. Of a body
+/// of the forest, theory (56), the three entries from p_offset() on are the gradient by its angular
+/// velocity in its own axes, the fourth is zero.
 template <class T>
 using LocalRow = Eigen::Matrix<T, kLocalSize, 1>;
 
@@ -37,7 +38,8 @@ struct VectorTerm {
   int shared = -1;  ///< index in PairRows::vectors, or -1
 };
 
-/// A vector over a pair of bodies, in ground axes: a direction fixed in one of them, or the displacement from a point of i to a point of j.
+/// A vector over a pair of bodies, in ground axes: a direction fixed in one of them, or the
+/// displacement from a point of i to a point of j.
 template <class T>
 struct PairVector {
   int terms = 0;
@@ -49,7 +51,8 @@ struct PairVector {
     x.term[0] = {side, false, 1.0, a, shared};
     return x;
   }
-  static PairVector displacement(const Vector3<T>& s_i, const Vector3<T>& s_j, int shared_i = -1, int shared_j = -1) {
+  static PairVector displacement(const Vector3<T>& s_i, const Vector3<T>& s_j, int shared_i = -1,
+                                 int shared_j = -1) {
     PairVector x;
     x.terms = 2;
     x.term[0] = {Side::kJ, true, 1.0, s_j, shared_j};
@@ -58,12 +61,14 @@ struct PairVector {
   }
 };
 
-// The scalar product phi = X . Y of two vectors over a pair of bodies. All constraints of pairs except coincident points have this form:
-// normal directions, a point in a plane, two points at a distance; doc/theory.md (6).
+// The scalar product phi = X . Y of two vectors over a pair of bodies. All constraints of pairs
+// except coincident points have this form: normal directions, a point in a plane, two points at a
+// distance; doc/theory.md (6).
 
 /// The motion of a vector over the pair.
 template <class T>
-VectorMotion<T> motion_of(const PairVector<T>& x, const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
+VectorMotion<T> motion_of(const PairVector<T>& x, const BodyKinematics<T>& i,
+                          const BodyKinematics<T>& j) {
   const VectorTerm<T>& first = x.term[0];
   if (x.terms == 1) return direction_motion(first.side == Side::kI ? i : j, first.s);
   return displacement_motion(i, x.term[1].s, j, first.s);
@@ -78,12 +83,15 @@ struct ProductMotion {
 /// phi = x . y and its time derivatives; theory (6).
 template <class T>
 ProductMotion<T> product_motion(const VectorMotion<T>& x, const VectorMotion<T>& y) {
-  return {dot(x.x, y.x), dot(x.xd, y.x) + dot(x.x, y.xd), dot(x.xdd, y.x) + 2.0 * dot(x.xd, y.xd) + dot(x.x, y.xdd)};
+  return {dot(x.x, y.x), dot(x.xd, y.x) + dot(x.x, y.xd),
+          dot(x.xdd, y.x) + 2.0 * dot(x.xd, y.xd) + dot(x.x, y.xdd)};
 }
 
-/// The gradient phi_q of X . Y by the pair's coordinates, which is also that of phi' by velocities. @param x, y the motion of X and Y.
+/// The gradient phi_q of X . Y by the pair's coordinates, which is also that of phi' by velocities.
+/// @param x, y the motion of X and Y.
 template <class T>
-LocalRow<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y,
+LocalRow<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y,
+                             const VectorMotion<T>& x, const VectorMotion<T>& y,
                              const BodyKinematics<T>& i, const BodyKinematics<T>& j) {
   LocalRow<T> phi_q = LocalRow<T>::Zero();
   const auto add = [&](const PairVector<T>& own, const Vector3<T>& partner) {
@@ -101,7 +109,8 @@ LocalRow<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, con
         continue;
       }
       const Matrix34<T> B = rotated_vector_jacobian(body.p, term.s);
-      for (int c = 0; c < 4; ++c) phi_q[p_offset(term.side) + c] += sign * dot<T>(B.col(c), partner);
+      for (int c = 0; c < 4; ++c)
+        phi_q[p_offset(term.side) + c] += sign * dot<T>(B.col(c), partner);
     }
   };
   add(X, y.x);
@@ -109,7 +118,8 @@ LocalRow<T> product_gradient(const PairVector<T>& X, const PairVector<T>& Y, con
   return phi_q;
 }
 
-/// The load of multipliers on one body: (phi_q^T lambda)_b = [force, K(W) p] with W = sum of b s^T; theory (7).
+/// The load of multipliers on one body: (phi_q^T lambda)_b = [force, K(W) p] with W = sum of b s^T;
+/// theory (7).
 template <class T>
 struct BodyLoad {
   Vector3<T> force = Vector3<T>::Zero();  ///< [N], in ground axes
@@ -131,8 +141,8 @@ void add_vector_load(const PairVector<T>& x, const Vector3<T>& b, BodyLoad<T>* i
 
 /// Adds the load phi_q^T lambda of the product phi = X . Y; x and y are the motions of X and Y.
 template <class T>
-void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x, const VectorMotion<T>& y, const T& lambda,
-                      BodyLoad<T>* i, BodyLoad<T>* j) {
+void add_product_load(const PairVector<T>& X, const PairVector<T>& Y, const VectorMotion<T>& x,
+                      const VectorMotion<T>& y, const T& lambda, BodyLoad<T>* i, BodyLoad<T>* j) {
   add_vector_load<T>(X, lambda * y.x, i, j);
   add_vector_load<T>(Y, lambda * x.x, i, j);
 }
@@ -145,12 +155,13 @@ struct ProductRow {
   double scale = 1.0;
 };
 
-/// The constraint rows of a kinematic pair: if `coincident`, three rows for coincident points, in ground axes; then scalar products;
-/// doc/theory.md (5), (6).
+/// The constraint rows of a kinematic pair: if `coincident`, three rows for coincident points, in
+/// ground axes; then scalar products; doc/theory.md (5), (6).
 ///
-/// Directions and planes belong to body i, so that the multipliers are components of the paper's F'' and T'' in the joint axes of i, theory
-/// (11); the child feels -F'' and -T''. Rows (x_i . d, y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j)
-/// give T'' = (-lambda_2, lambda_1, lambda_3).
+/// Directions and planes belong to body i, so that the multipliers are components of the paper's
+/// F'' and T'' in the joint axes of i, theory (11); the child feels -F'' and -T''. Rows (x_i . d,
+/// y_i . d) give F'' = (lambda_1, lambda_2, 0); rows (x_i . z_j, y_i . z_j, y_i . x_j) give T'' =
+/// (-lambda_2, lambda_1, lambda_3).
 template <class T>
 struct PairRows {
   /// The shared vectors: joint axes x, y, z (0 to 2) and the joint point (3) of each body.
@@ -166,16 +177,19 @@ struct PairRows {
   /// The number of rows.
   int size() const { return (coincident ? 3 : 0) + static_cast<int>(products.size()); }
 
-  // What rows are made of. x, y, z are the joint axes of each body (k is 0 to 2), d runs from the joint point of i to that of j.
+  // What rows are made of. x, y, z are the joint axes of each body (k is 0 to 2), d runs from the
+  // joint point of i to that of j.
 
   PairVector<T> axis(Side side, int k) const {
     return PairVector<T>::direction(side, vectors[to_index(shared(side, k))].s, shared(side, k));
   }
   PairVector<T> displacement() const {
-    return PairVector<T>::displacement(point(Side::kI), point(Side::kJ), shared(Side::kI, kPoint), shared(Side::kJ, kPoint));
+    return PairVector<T>::displacement(point(Side::kI), point(Side::kJ), shared(Side::kI, kPoint),
+                                       shared(Side::kJ, kPoint));
   }
   /// Adds the row scale (X . Y - offset).
-  void add(const PairVector<T>& X, const PairVector<T>& Y, const T& offset = T(0.0), double scale = 1.0) {
+  void add(const PairVector<T>& X, const PairVector<T>& Y, const T& offset = T(0.0),
+           double scale = 1.0) {
     products.push_back({X, Y, offset, scale});
   }
   /// Adds the row k_i . d: the point of j stays in a plane of i.
@@ -188,7 +202,8 @@ struct PairRows {
   void keep_from_turning() { add(axis(Side::kI, 1), axis(Side::kJ, 0)); }
 };
 
-/// The constraint rows of a pair; the table in theory (6) lists them. @param result overwritten, its memory is used again.
+/// The constraint rows of a pair; the table in theory (6) lists them. @param result overwritten,
+/// its memory is used again.
 template <class T>
 void pair_rows(PairKind kind, const PairConstants<T>& c, PairRows<T>* result) {
   PairRows<T>& rows = *result;
@@ -214,7 +229,8 @@ PairRows<T> pair_rows(PairKind kind, const PairConstants<T>& c) {
   return rows;
 }
 
-/// The motion of the vectors that a pair's product rows share (PairRows::vectors), evaluated once for all rows.
+/// The motion of the vectors that a pair's product rows share (PairRows::vectors), evaluated once
+/// for all rows.
 template <class T>
 struct PairMotion {
   std::array<VectorMotion<T>, PairRows<T>::kVectors> motion;
@@ -230,13 +246,19 @@ struct PairMotion {
     }
     constexpr auto from = to_index(PairRows<T>::shared(Side::kI, PairRows<T>::kPoint)),
                    to = to_index(PairRows<T>::shared(Side::kJ, PairRows<T>::kPoint));
-    if (rows.used[from]) displacement = {motion[to].x - motion[from].x, motion[to].xd - motion[from].xd, motion[to].xdd - motion[from].xdd};
+    if (rows.used[from])
+      displacement = {motion[to].x - motion[from].x, motion[to].xd - motion[from].xd,
+                      motion[to].xdd - motion[from].xdd};
   }
 
-  const VectorMotion<T>& of(const VectorTerm<T>& term) const { return motion[to_index(term.shared)]; }
+  const VectorMotion<T>& of(const VectorTerm<T>& term) const {
+    return motion[to_index(term.shared)];
+  }
 
   /// The motion of a direction of the rows, or of the displacement.
-  const VectorMotion<T>& of(const PairVector<T>& x) const { return x.terms == 1 ? of(x.term[0]) : displacement; }
+  const VectorMotion<T>& of(const PairVector<T>& x) const {
+    return x.terms == 1 ? of(x.term[0]) : displacement;
+  }
 };
 
 }  // namespace codesign

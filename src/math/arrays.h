@@ -17,7 +17,8 @@ constexpr std::size_t to_index(Integer k) {
   static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);
   return static_cast<std::size_t>(k);
 }
-/// A size or an index of the standard library's containers as a signed number, as Eigen and Span have them.
+/// A size or an index of the standard library's containers as a signed number, as Eigen and Span
+/// have them.
 template <class Integer>
 constexpr std::ptrdiff_t to_signed(Integer k) {
   static_assert(std::is_integral_v<Integer>);
@@ -26,29 +27,34 @@ constexpr std::ptrdiff_t to_signed(Integer k) {
 
 namespace internal {
 
-/// Whether the entries of a container lie side by side. The entries of some of Eigen's expressions do not, such as a row or a block of a
-/// matrix.
+/// Whether the entries of a container lie side by side. The entries of some of Eigen's expressions
+/// do not, such as a row or a block of a matrix.
 template <class Container, class = void>
 inline constexpr bool kIsContiguous = true;
 template <class Container>
-inline constexpr bool kIsContiguous<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime)>> =
-    Container::IsVectorAtCompileTime ? int{Container::InnerStrideAtCompileTime} == 1
-                                     : int{Container::OuterStrideAtCompileTime} == int{Container::InnerSizeAtCompileTime} &&
-                                           int{Container::OuterStrideAtCompileTime} > 0;
+inline constexpr bool
+    kIsContiguous<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime)>> =
+        Container::IsVectorAtCompileTime
+            ? int{Container::InnerStrideAtCompileTime} == 1
+            : int{Container::OuterStrideAtCompileTime} == int{Container::InnerSizeAtCompileTime} &&
+                  int{Container::OuterStrideAtCompileTime} > 0;
 
 template <class From, class To>
 using IfSameEntries = std::enable_if_t<std::is_convertible_v<From (*)[], To (*)[]>>;
 template <class Container, class To>
-using IfHolds = std::enable_if_t<kIsContiguous<Container> &&
-                                 std::is_convertible_v<std::remove_pointer_t<decltype(std::declval<Container&>().data())> (*)[], To (*)[]>>;
+using IfHolds = std::enable_if_t<
+    kIsContiguous<Container> &&
+    std::is_convertible_v<std::remove_pointer_t<decltype(std::declval<Container&>().data())> (*)[],
+                          To (*)[]>>;
 
 }  // namespace internal
 
-/// An array that another object owns: a pointer to its first entry and its size. The twin of C++20's std::span, but with signed sizes, as
-/// Layout and Eigen have them. Debug builds check every index.
+/// An array that another object owns: a pointer to its first entry and its size. The twin of
+/// C++20's std::span, but with signed sizes, as Layout and Eigen have them. Debug builds check
+/// every index.
 ///
-/// Functions take arrays by value as In<T> or Out<T>, which say who may write. Kernels whose time counts take data() once and check sizes
-/// before.
+/// Functions take arrays by value as In<T> or Out<T>, which say who may write. Kernels whose time
+/// counts take data() once and check sizes before.
 template <class T>
 class Span {
  public:
@@ -57,7 +63,8 @@ class Span {
   // NOLINTBEGIN(google-explicit-constructor): an array is passed as it is.
   template <class Entry, std::size_t size, class = internal::IfSameEntries<Entry, T>>
   Span(Entry (&array)[size]) : Span(array, std::ptrdiff_t{size}) {}
-  /// Vectors, arrays and spans, and Eigen's objects with contiguous numbers. A temporary can be read from only.
+  /// Vectors, arrays and spans, and Eigen's objects with contiguous numbers. A temporary can be
+  /// read from only.
   template <class Container, class = internal::IfHolds<Container, T>>
   Span(Container& from) : Span(from.data(), static_cast<std::ptrdiff_t>(from.size())) {}
   template <class Container, class = internal::IfHolds<const Container, T>>
@@ -85,14 +92,16 @@ class Span {
   std::ptrdiff_t size_ = 0;
 };
 
-/// An array that a function reads. T is not deduced from the argument, so that every container converts.
+/// An array that a function reads. T is not deduced from the argument, so that every container
+/// converts.
 template <class T>
 using In = Span<const std::common_type_t<T>>;
 /// An array that a function writes; it may read it as well, as a solve in place does.
 template <class T>
 using Out = Span<std::common_type_t<T>>;
 
-/// Allocates memory aligned to a cache line (64 bytes), so that no load of a vector register touches two lines.
+/// Allocates memory aligned to a cache line (64 bytes), so that no load of a vector register
+/// touches two lines.
 template <class T>
 struct LineAllocator {
   using value_type = T;
@@ -100,9 +109,12 @@ struct LineAllocator {
 
   LineAllocator() = default;
   template <class U>
-  LineAllocator(const LineAllocator<U>&) {}  // NOLINT(google-explicit-constructor): as containers convert allocators
+  LineAllocator(const LineAllocator<U>&) {
+  }  // NOLINT(google-explicit-constructor): as containers convert allocators
 
-  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  T* allocate(std::size_t count) {
+    return static_cast<T*>(::operator new(count * sizeof(T), kLine));
+  }
   void deallocate(T* first, std::size_t) { ::operator delete(first, kLine); }
 
   template <class U>
@@ -118,7 +130,8 @@ struct LineAllocator {
 /// Numbers in such memory.
 using LineVector = std::vector<double, LineAllocator<double>>;
 
-/// A vector for the short life of a function call: up to `few` entries stand in the object itself, only more are allocated.
+/// A vector for the short life of a function call: up to `few` entries stand in the object itself,
+/// only more are allocated.
 template <class T, std::size_t few>
 class ShortVector {
  public:

@@ -6,8 +6,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kZeroPivot = 1e-12;      // of the variance
-constexpr double kZeroColumn = 1e-6;      // of the product of deviations: largest remainder below a pivot of zero
+constexpr double kZeroPivot = 1e-12;  // of the variance
+constexpr double kZeroColumn =
+    1e-6;  // of the product of deviations: largest remainder below a pivot of zero
 constexpr double kNegativePivot = -1e-9;  // of the variance: a pivot below this is not rounding
 
 }  // namespace
@@ -23,15 +24,18 @@ std::optional<ConditionalNormal> conditional_normal(const Eigen::MatrixXd& covar
     if (pivot < kNegativePivot * variances[k]) return std::nullopt;
     if (pivot <= kZeroPivot * variances[k]) {
       for (Eigen::Index i = k + 1; i < size; ++i)
-        if (std::abs(rest(i, k)) > kZeroColumn * std::sqrt(variances[i] * variances[k])) return std::nullopt;
+        if (std::abs(rest(i, k)) > kZeroColumn * std::sqrt(variances[i] * variances[k]))
+          return std::nullopt;
       continue;
     }
     result.deviations[k] = std::sqrt(pivot);
     const Eigen::Index below = size - k - 1;
     factor.col(k).tail(below) = rest.col(k).tail(below) / pivot;
-    rest.bottomRightCorner(below, below) -= pivot * factor.col(k).tail(below) * factor.col(k).tail(below).transpose();
+    rest.bottomRightCorner(below, below) -=
+        pivot * factor.col(k).tail(below) * factor.col(k).tail(below).transpose();
   }
-  const Eigen::MatrixXd inverse = factor.triangularView<Eigen::UnitLower>().solve(Eigen::MatrixXd::Identity(size, size));
+  const Eigen::MatrixXd inverse =
+      factor.triangularView<Eigen::UnitLower>().solve(Eigen::MatrixXd::Identity(size, size));
   result.slopes.triangularView<Eigen::StrictlyLower>() = -inverse;
   return result;
 }

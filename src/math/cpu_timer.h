@@ -12,7 +12,8 @@ class CpuTimer {
     kThread,  ///< of the constructing thread; seconds() must be called in the same thread
     kProcess  ///< of all threads, for work that several of them share
   };
-  explicit CpuTimer(Of of = Of::kThread) : clock_(of == Of::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID) {}
+  explicit CpuTimer(Of of = Of::kThread)
+      : clock_(of == Of::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID) {}
 
   double seconds() const { return now() - start_; }
 

@@ -22,8 +22,10 @@ Qr factor(const Eigen::MatrixXd& A, double threshold) {
 
 unsigned options(SingularVectors vectors) {
   unsigned flags = 0;
-  if (vectors == SingularVectors::kLeft || vectors == SingularVectors::kBoth) flags |= Eigen::ComputeFullU;
-  if (vectors == SingularVectors::kRight || vectors == SingularVectors::kBoth) flags |= Eigen::ComputeFullV;
+  if (vectors == SingularVectors::kLeft || vectors == SingularVectors::kBoth)
+    flags |= Eigen::ComputeFullU;
+  if (vectors == SingularVectors::kRight || vectors == SingularVectors::kBoth)
+    flags |= Eigen::ComputeFullV;
   return flags;
 }
 
@@ -44,9 +46,11 @@ struct Decompositions {
   Shape* now = nullptr;  ///< the one in use
 
   Eigen::MatrixXd& matrix(Eigen::Index rows, Eigen::Index columns) {
-    const auto found = std::find_if(shapes.begin(), shapes.end(),
-                                    [&](const auto& shape) { return shape->A.rows() == rows && shape->A.cols() == columns; });
-    now = found == shapes.end() ? shapes.emplace_back(std::make_unique<Shape>(rows, columns)).get() : found->get();
+    const auto found = std::find_if(shapes.begin(), shapes.end(), [&](const auto& shape) {
+      return shape->A.rows() == rows && shape->A.cols() == columns;
+    });
+    now = found == shapes.end() ? shapes.emplace_back(std::make_unique<Shape>(rows, columns)).get()
+                                : found->get();
     return now->A;
   }
   void factor(double threshold) {
@@ -55,13 +59,16 @@ struct Decompositions {
   }
 };
 
-/// x = P Z^T (z, 0) for the first `rank` rows z of y, as Eigen's solve() does it. @param reflection workspace.
-void undo_columns(const Orthogonal& factors, Eigen::VectorXd* reflection, Eigen::MatrixXd* y, Eigen::MatrixXd* x) {
+/// x = P Z^T (z, 0) for the first `rank` rows z of y, as Eigen's solve() does it. @param reflection
+/// workspace.
+void undo_columns(const Orthogonal& factors, Eigen::VectorXd* reflection, Eigen::MatrixXd* y,
+                  Eigen::MatrixXd* x) {
   const Eigen::Index rank = factors.rank(), columns = factors.cols();
   for (Eigen::Index k = 0; rank < columns && k < rank; ++k) {
     if (k != rank - 1) y->row(k).swap(y->row(rank - 1));
     y->middleRows(rank - 1, columns - rank + 1)
-        .applyHouseholderOnTheLeft(factors.matrixQTZ().row(k).tail(columns - rank).adjoint(), factors.zCoeffs()(k), reflection->data());
+        .applyHouseholderOnTheLeft(factors.matrixQTZ().row(k).tail(columns - rank).adjoint(),
+                                   factors.zCoeffs()(k), reflection->data());
     if (k != rank - 1) y->row(k).swap(y->row(rank - 1));
   }
   const auto& order = factors.colsPermutation().indices();
@@ -70,7 +77,8 @@ void undo_columns(const Orthogonal& factors, Eigen::VectorXd* reflection, Eigen:
 
 constexpr Eigen::Index kWaiting = 32;  // rows that wait for a reflection, at least
 
-/// Replaces the first `used` rows of A by their triangular root, in the rows above; the rows below it are left over.
+/// Replaces the first `used` rows of A by their triangular root, in the rows above; the rows below
+/// it are left over.
 /// @param workspace of the size of A's columns.
 template <class Matrix>
 void reduce(Eigen::Index used, Matrix* A, Eigen::VectorXd* workspace) {
@@ -80,7 +88,8 @@ void reduce(Eigen::Index used, Matrix* A, Eigen::VectorXd* workspace) {
     auto column = A->col(k).segment(k, rows);
     double factor = 0.0, diagonal = 0.0;
     column.makeHouseholderInPlace(factor, diagonal);
-    A->block(k, k + 1, rows, right).applyHouseholderOnTheLeft(column.tail(rows - 1), factor, workspace->data());
+    A->block(k, k + 1, rows, right)
+        .applyHouseholderOnTheLeft(column.tail(rows - 1), factor, workspace->data());
     column.setZero();
     column[0] = diagonal;
     if (diagonal < 0.0) A->row(k).tail(right + 1) *= -1.0;
@@ -101,20 +110,24 @@ SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors
 PivotedColumns pivot_columns(const Eigen::MatrixXd& A, double threshold) {
   const Qr qr = factor(A, threshold);
   const auto& indices = qr.colsPermutation().indices();
-  return {qr.rank(), std::vector<int>(indices.data(), indices.data() + indices.size()), qr.matrixQR().diagonal().cwiseAbs()};
+  return {qr.rank(), std::vector<int>(indices.data(), indices.data() + indices.size()),
+          qr.matrixQR().diagonal().cwiseAbs()};
 }
 
 struct PivotedLeastSquares::Implementation {
   Qr qr;
 };
 
-PivotedLeastSquares::PivotedLeastSquares(const Eigen::MatrixXd& A) : implementation_(std::make_unique<Implementation>()) {
+PivotedLeastSquares::PivotedLeastSquares(const Eigen::MatrixXd& A)
+    : implementation_(std::make_unique<Implementation>()) {
   implementation_->qr.compute(A);
 }
 PivotedLeastSquares::~PivotedLeastSquares() = default;
 PivotedLeastSquares::PivotedLeastSquares(PivotedLeastSquares&&) noexcept = default;
 
-Eigen::MatrixXd PivotedLeastSquares::solve(const Eigen::MatrixXd& b) const { return implementation_->qr.solve(b); }
+Eigen::MatrixXd PivotedLeastSquares::solve(const Eigen::MatrixXd& b) const {
+  return implementation_->qr.solve(b);
+}
 
 double PivotedLeastSquares::explained(const Eigen::VectorXd& b) const {
   const Qr& qr = implementation_->qr;
@@ -123,7 +136,9 @@ double PivotedLeastSquares::explained(const Eigen::VectorXd& b) const {
 
 bool is_positive_definite(const Eigen::MatrixXd& A) { return A.llt().info() == Eigen::Success; }
 
-Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) { return A.llt().solve(b); }
+Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return A.llt().solve(b);
+}
 
 Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A) {
   const Eigen::Index rows = std::min(A.rows(), A.cols());
@@ -147,7 +162,9 @@ Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold
   return basis;
 }
 
-LeastNorm least_norm(const Eigen::MatrixXd& A) { return {A, least_norm_threshold(A.rows(), A.cols())}; }
+LeastNorm least_norm(const Eigen::MatrixXd& A) {
+  return {A, least_norm_threshold(A.rows(), A.cols())};
+}
 
 double least_norm_threshold(Eigen::Index rows, Eigen::Index columns) {
   return Eigen::NumTraits<double>::epsilon() * static_cast<double>(std::min(rows, columns));
@@ -160,13 +177,16 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A * B; }
 
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.transpose() * B; }
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  return A.transpose() * B;
+}
 
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-// Decompositions that keep their memory. Eigen's matrices give it back when their shape changes, so that each shape has its own.
+// Decompositions that keep their memory. Eigen's matrices give it back when their shape changes, so
+// that each shape has its own.
 
 struct PivotedQr::Implementation : Decompositions<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> {
   Eigen::MatrixXd Q;
@@ -178,10 +198,14 @@ PivotedQr::~PivotedQr() = default;
 PivotedQr::PivotedQr(PivotedQr&&) noexcept = default;
 PivotedQr& PivotedQr::operator=(PivotedQr&&) noexcept = default;
 
-Eigen::MatrixXd& PivotedQr::matrix(Eigen::Index rows, Eigen::Index columns) { return implementation_->matrix(rows, columns); }
+Eigen::MatrixXd& PivotedQr::matrix(Eigen::Index rows, Eigen::Index columns) {
+  return implementation_->matrix(rows, columns);
+}
 void PivotedQr::factor(double threshold) { implementation_->factor(threshold); }
 Eigen::Index PivotedQr::rank() const { return implementation_->now->factors.rank(); }
-int PivotedQr::column(Eigen::Index k) const { return implementation_->now->factors.colsPermutation().indices()[k]; }
+int PivotedQr::column(Eigen::Index k) const {
+  return implementation_->now->factors.colsPermutation().indices()[k];
+}
 
 void PivotedQr::complement(Eigen::MatrixXd* basis) {
   Implementation& to = *implementation_;
@@ -191,7 +215,11 @@ void PivotedQr::complement(Eigen::MatrixXd* basis) {
 
 struct LeastNormWorkspace::Solution {
   Solution(Eigen::Index rows, Eigen::Index columns, Eigen::Index count)
-      : rotated(rows, count), y(columns, count), x(columns, count), row(count), reflection(std::max(columns, count)) {}
+      : rotated(rows, count),
+        y(columns, count),
+        x(columns, count),
+        row(count),
+        reflection(std::max(columns, count)) {}
   Eigen::MatrixXd rotated, y, x;
   Eigen::RowVectorXd row;
   Eigen::VectorXd reflection;
@@ -213,7 +241,9 @@ LeastNorm::~LeastNorm() = default;
 LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
 LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
 
-Eigen::MatrixXd& LeastNorm::matrix(Eigen::Index rows, Eigen::Index columns) { return implementation_->matrix(rows, columns); }
+Eigen::MatrixXd& LeastNorm::matrix(Eigen::Index rows, Eigen::Index columns) {
+  return implementation_->matrix(rows, columns);
+}
 void LeastNorm::factor(double threshold) { implementation_->factor(threshold); }
 Eigen::Index LeastNorm::rank() const { return implementation_->now->factors.rank(); }
 
@@ -227,12 +257,14 @@ Eigen::MatrixXd& LeastNorm::solve(const Eigen::MatrixXd& b, LeastNormWorkspace* 
   const Orthogonal& factors = implementation_->now->factors;
   auto& solutions = workspace->solutions_;
   const auto found = std::find_if(solutions.begin(), solutions.end(), [&](const auto& known) {
-    return known->rotated.rows() == b.rows() && known->y.rows() == factors.cols() && known->y.cols() == b.cols();
+    return known->rotated.rows() == b.rows() && known->y.rows() == factors.cols() &&
+           known->y.cols() == b.cols();
   });
   LeastNormWorkspace::Solution& to =
       found != solutions.end()
           ? **found
-          : *solutions.emplace_back(std::make_unique<LeastNormWorkspace::Solution>(b.rows(), factors.cols(), b.cols()));
+          : *solutions.emplace_back(
+                std::make_unique<LeastNormWorkspace::Solution>(b.rows(), factors.cols(), b.cols()));
   const Eigen::Index rank = factors.rank();
   if (rank == 0) {
     to.x.setZero();
@@ -240,7 +272,10 @@ Eigen::MatrixXd& LeastNorm::solve(const Eigen::MatrixXd& b, LeastNormWorkspace* 
   }
   to.rotated = b;
   factors.matrixQ().setLength(rank).adjoint().applyThisOnTheLeft(to.rotated, to.row);
-  to.y.topRows(rank) = factors.matrixT().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(to.rotated.topRows(rank));
+  to.y.topRows(rank) = factors.matrixT()
+                           .topLeftCorner(rank, rank)
+                           .triangularView<Eigen::Upper>()
+                           .solve(to.rotated.topRows(rank));
   to.y.bottomRows(factors.cols() - rank).setZero();
   undo_columns(factors, &to.reflection, &to.y, &to.x);
   return to.x;
@@ -273,7 +308,8 @@ void RowRoot::add(const Eigen::Ref<const Eigen::VectorXd>& row) {
 void RowRoot::root(Eigen::MatrixXd* root) {
   const Eigen::Index columns = rows_.cols();
   reduced_.resize(rows_.size());
-  Eigen::Map<Eigen::MatrixXd, Eigen::AlignedMax> rows(reduced_.data(), std::max(used_, columns), columns);
+  Eigen::Map<Eigen::MatrixXd, Eigen::AlignedMax> rows(reduced_.data(), std::max(used_, columns),
+                                                      columns);
   rows.setZero();
   rows.topRows(used_) = rows_.topRows(used_);
   reduce(used_, &rows, &workspace_);

@@ -7,9 +7,10 @@
 
 namespace codesign {
 
-// Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each file that uses them; dense.cc compiles the
-// needed ones once. None of these functions belongs into a loop over steps: they allocate. The classes PivotedQr and LeastNorm allocate
-// only for matrices of a shape that they have not had before.
+// Decompositions of dense matrices, by Eigen. Eigen's templates take seconds to compile in each
+// file that uses them; dense.cc compiles the needed ones once. None of these functions belongs into
+// a loop over steps: they allocate. The classes PivotedQr and LeastNorm allocate only for matrices
+// of a shape that they have not had before.
 
 /// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
 struct SingularValues {
@@ -17,7 +18,8 @@ struct SingularValues {
   Eigen::MatrixXd U, V;  ///< empty unless requested
 };
 enum class SingularVectors { kNone, kLeft, kRight, kBoth };
-SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors = SingularVectors::kNone);
+SingularValues singular_values(const Eigen::MatrixXd& A,
+                               SingularVectors vectors = SingularVectors::kNone);
 
 /// Householder QR decomposition with column pivoting, A P = Q R.
 struct PivotedColumns {
@@ -36,7 +38,8 @@ class PivotedQr {
   PivotedQr(PivotedQr&&) noexcept;
   PivotedQr& operator=(PivotedQr&&) noexcept;
 
-  /// The matrix that factor() decomposes: rows x columns, to be filled by the caller; what it holds is undefined.
+  /// The matrix that factor() decomposes: rows x columns, to be filled by the caller; what it holds
+  /// is undefined.
   Eigen::MatrixXd& matrix(Eigen::Index rows, Eigen::Index columns);
   /// Decomposes matrix(). @param threshold as pivot_columns().
   void factor(double threshold);
@@ -59,7 +62,8 @@ class PivotedLeastSquares {
   ~PivotedLeastSquares();
   PivotedLeastSquares(PivotedLeastSquares&&) noexcept;
 
-  /// @param b one right-hand side per column. @returns one solution per column; columns beyond the rank have zeros.
+  /// @param b one right-hand side per column. @returns one solution per column; columns beyond the
+  /// rank have zeros.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
   /// By how much the best x decreases |b|^2.
   double explained(const Eigen::VectorXd& b) const;
@@ -74,11 +78,12 @@ bool is_positive_definite(const Eigen::MatrixXd& A);
 /// A^-1 b by this decomposition.
 Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-/// R of the QR decomposition A = Q R, square and upper triangular with diagonal entries of 0 or more; rows of zeros where A has fewer rows
-/// than columns. R^T R = A^T A.
+/// R of the QR decomposition A = Q R, square and upper triangular with diagonal entries of 0 or
+/// more; rows of zeros where A has fewer rows than columns. R^T R = A^T A.
 Eigen::MatrixXd upper_factor(const Eigen::MatrixXd& A);
 
-/// An orthonormal basis (one vector per column) of the vectors orthogonal to all columns of A. @param threshold as pivot_columns().
+/// An orthonormal basis (one vector per column) of the vectors orthogonal to all columns of A.
+/// @param threshold as pivot_columns().
 Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& A, double threshold);
 
 /// The memory for solutions of LeastNorm, one for each shape of A and b.
@@ -105,7 +110,8 @@ class LeastNorm {
   LeastNorm(LeastNorm&&) noexcept;
   LeastNorm& operator=(LeastNorm&&) noexcept;
 
-  /// The matrix that factor() decomposes: rows x columns, to be filled by the caller; what it holds is undefined.
+  /// The matrix that factor() decomposes: rows x columns, to be filled by the caller; what it holds
+  /// is undefined.
   Eigen::MatrixXd& matrix(Eigen::Index rows, Eigen::Index columns);
   /// Decomposes matrix(). @param threshold as pivot_columns().
   void factor(double threshold);
@@ -124,27 +130,29 @@ class LeastNorm {
 LeastNorm least_norm(const Eigen::MatrixXd& A);
 double least_norm_threshold(Eigen::Index rows, Eigen::Index columns);
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, whose lower triangle is read.
+/// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, whose
+/// lower triangle is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 
-/// A B and A^T B. An expression with such a product compiles Eigen's kernels again in its file; where speed does not depend on it, it calls
-/// these.
+/// A B and A^T B. An expression with such a product compiles Eigen's kernels again in its file;
+/// where speed does not depend on it, it calls these.
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
 /// Principal moments, ascending, of an inertia tensor [kg m^2].
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& J);
 
-/// The upper triangular R with R^T R = A^T A and a diagonal that is not negative, by Householder reflections; square, of the size of A's
-/// columns. A^T A itself, whose condition number is the square of A's condition number, is not formed.
+/// The upper triangular R with R^T R = A^T A and a diagonal that is not negative, by Householder
+/// reflections; square, of the size of A's columns. A^T A itself, whose condition number is the
+/// square of A's condition number, is not formed.
 Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A);
 
-/// The same for a matrix whose rows arrive one after another and are too many to keep. It holds two times as many rows as columns, at least
-/// 32 rows more than columns. No allocation in add().
+/// The same for a matrix whose rows arrive one after another and are too many to keep. It holds two
+/// times as many rows as columns, at least 32 rows more than columns. No allocation in add().
 class RowRoot {
  public:
   /// Begins anew, without rows.

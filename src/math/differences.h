@@ -12,17 +12,22 @@ namespace codesign {
 
 /// The largest difference between the entries of a Jacobian J and of its reference R.
 struct JacobianDifference {
-  double largest = 0.0;                ///< |J - R| / (1 + |R|); infinite if an entry is NaN, 1e300 if the sizes differ
-  Eigen::Index row = -1, column = -1;  ///< of that entry; -1 if all entries agree or the sizes differ
+  double largest =
+      0.0;  ///< |J - R| / (1 + |R|); infinite if an entry is NaN, 1e300 if the sizes differ
+  Eigen::Index row = -1,
+               column = -1;  ///< of that entry; -1 if all entries agree or the sizes differ
 };
 
 /// Compares a Jacobian with its reference of the same size, entry by entry.
-inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& reference) {
+inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian,
+                                            const Eigen::MatrixXd& reference) {
   JacobianDifference difference;
-  if (jacobian.rows() != reference.rows() || jacobian.cols() != reference.cols()) return {1e300, -1, -1};
+  if (jacobian.rows() != reference.rows() || jacobian.cols() != reference.cols())
+    return {1e300, -1, -1};
   for (Eigen::Index c = 0; c < reference.cols(); ++c) {
     for (Eigen::Index r = 0; r < reference.rows(); ++r) {
-      const double d = std::abs(jacobian(r, c) - reference(r, c)) / (1.0 + std::abs(reference(r, c)));
+      const double d =
+          std::abs(jacobian(r, c) - reference(r, c)) / (1.0 + std::abs(reference(r, c)));
       // Every comparison with NaN is false, so the test below would let it pass.
       if (std::isnan(d)) return {std::numeric_limits<double>::infinity(), r, c};
       if (d > difference.largest) difference = {d, r, c};
@@ -32,7 +37,8 @@ inline JacobianDifference compare_jacobians(const Eigen::MatrixXd& jacobian, con
 }
 
 /// Jacobian of f at x by the complex step, exact to rounding for an analytic f: R^n -> R^m.
-/// @param f callable on Eigen::VectorXcd (n), returning Eigen::VectorXcd (m). @return m x n; empty if n is 0.
+/// @param f callable on Eigen::VectorXcd (n), returning Eigen::VectorXcd (m). @return m x n; empty
+/// if n is 0.
 template <class Function>
 Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& x) {
   constexpr double kStep = 1e-30;
@@ -51,10 +57,13 @@ Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& 
 /// A derivative with an estimate of its absolute error.
 struct RiddersDerivative {
   double value = 0.0;
-  double error = std::numeric_limits<double>::infinity();  ///< the change by the last extrapolation; infinite if f was never finite
+  double error =
+      std::numeric_limits<double>::infinity();  ///< the change by the last extrapolation; infinite
+                                                ///< if f was never finite
 };
 
-/// Derivative of f at x by central differences extrapolated to step zero (Ridders, doc/theory.md [9]). Six steps, two calls of f each.
+/// Derivative of f at x by central differences extrapolated to step zero (Ridders, doc/theory.md
+/// [9]). Six steps, two calls of f each.
 /// @param step the first step; each further one is half as long.
 template <class Function>
 RiddersDerivative ridders_derivative(const Function& f, double x, double step) {
@@ -68,7 +77,8 @@ RiddersDerivative ridders_derivative(const Function& f, double x, double step) {
     double factor = kShrink * kShrink;
     for (std::size_t j = 1; j <= i; ++j, factor *= kShrink * kShrink) {
       table[j][i] = (factor * table[j - 1][i] - table[j - 1][i - 1]) / (factor - 1.0);
-      const double error = std::max(std::abs(table[j][i] - table[j - 1][i]), std::abs(table[j][i] - table[j - 1][i - 1]));
+      const double error = std::max(std::abs(table[j][i] - table[j - 1][i]),
+                                    std::abs(table[j][i] - table[j - 1][i - 1]));
       if (error <= best.error) best = {table[j][i], error};
     }
   }

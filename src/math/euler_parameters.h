@@ -7,10 +7,12 @@
 
 namespace codesign {
 
-// Euler parameters p = [e0, e] of a body-fixed frame, as in Haug (1989) and the paper; doc/theory.md (1)-(4). Every function of p below is
-// homogeneous in p, so that its derivatives also hold where |p| differs from 1, and second derivatives are constant matrices.
+// Euler parameters p = [e0, e] of a body-fixed frame, as in Haug (1989) and the paper;
+// doc/theory.md (1)-(4). Every function of p below is homogeneous in p, so that its derivatives
+// also hold where |p| differs from 1, and second derivatives are constant matrices.
 
-/// Rotation matrix A(p) = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~, body to ground; theory (1). Orthogonal only for |p| = 1.
+/// Rotation matrix A(p) = (e0^2 - e.e) I + 2 e e^T + 2 e0 e~, body to ground; theory (1).
+/// Orthogonal only for |p| = 1.
 template <class T>
 Matrix3<T> rotation(const Vector4<T>& p) {
   const T &e0 = p[0], &e1 = p[1], &e2 = p[2], &e3 = p[3];
@@ -28,8 +30,10 @@ Matrix3<T> rotation(const Vector4<T>& p) {
 template <class T>
 Matrix3<T> rotation_derivative(const Vector4<T>& p, const Vector4<T>& r) {
   const T d0 = p[0] * r[0], d1 = p[1] * r[1], d2 = p[2] * r[2], d3 = p[3] * r[3];
-  const T e12 = p[1] * r[2] + p[2] * r[1], e13 = p[1] * r[3] + p[3] * r[1], e23 = p[2] * r[3] + p[3] * r[2];
-  const T e01 = p[0] * r[1] + p[1] * r[0], e02 = p[0] * r[2] + p[2] * r[0], e03 = p[0] * r[3] + p[3] * r[0];
+  const T e12 = p[1] * r[2] + p[2] * r[1], e13 = p[1] * r[3] + p[3] * r[1],
+          e23 = p[2] * r[3] + p[3] * r[2];
+  const T e01 = p[0] * r[1] + p[1] * r[0], e02 = p[0] * r[2] + p[2] * r[0],
+          e03 = p[0] * r[3] + p[3] * r[0];
   Matrix3<T> D;
   D << d0 + d1 - d2 - d3, e12 - e03, e13 + e02,  //
       e12 + e03, d0 - d1 + d2 - d3, e23 - e01,   //
@@ -53,7 +57,8 @@ Matrix34<T> rotated_vector_jacobian(const Vector4<T>& p, const Vector3<T>& s) {
   return 2.0 * B;
 }
 
-/// K(W) with p^T K(b s^T) p = 2 b . A(p) s, so that B(p, s)^T b = K(b s^T) p; symmetric, linear in W = sum of b s^T; theory (3).
+/// K(W) with p^T K(b s^T) p = 2 b . A(p) s, so that B(p, s)^T b = K(b s^T) p; symmetric, linear in
+/// W = sum of b s^T; theory (3).
 template <class T>
 Matrix4<T> rotation_hessian(const Matrix3<T>& W) {
   const T trace = W(0, 0) + W(1, 1) + W(2, 2);
@@ -63,7 +68,8 @@ Matrix4<T> rotation_hessian(const Matrix3<T>& W) {
   K(0, 2) = K(2, 0) = 2.0 * (W(0, 2) - W(2, 0));
   K(0, 3) = K(3, 0) = 2.0 * (W(1, 0) - W(0, 1));
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) K(i + 1, j + 1) = 2.0 * (W(i, j) + W(j, i) - (i == j ? trace : T(0.0)));
+    for (int j = 0; j < 3; ++j)
+      K(i + 1, j + 1) = 2.0 * (W(i, j) + W(j, i) - (i == j ? trace : T(0.0)));
   return K;
 }
 
@@ -80,7 +86,8 @@ Vector4<T> rotation_hessian_product(const Matrix3<T>& W, const Vector4<T>& p) {
   return 2.0 * half;
 }
 
-/// G(p) = [-e, -e~ + e0 I], 3x4: the angular velocity in body axes is omega' = 2 G(p) dp/dt; theory (4). G(p) r = -G(r) p.
+/// G(p) = [-e, -e~ + e0 I], 3x4: the angular velocity in body axes is omega' = 2 G(p) dp/dt; theory
+/// (4). G(p) r = -G(r) p.
 template <class T>
 Matrix34<T> body_rate_matrix(const Vector4<T>& p) {
   Matrix34<T> G;
@@ -106,7 +113,8 @@ Vector4<T> body_rate_transposed(const Vector4<T>& p, const Vector3<T>& y) {
                     p[1] * y[1] - p[2] * y[0] + p[0] * y[2]);
 }
 
-/// E(p) = [-e, e~ + e0 I], 3x4: the angular velocity in ground axes is omega = 2 E(p) dp/dt; theory (4). E(p) r = -E(r) p.
+/// E(p) = [-e, e~ + e0 I], 3x4: the angular velocity in ground axes is omega = 2 E(p) dp/dt; theory
+/// (4). E(p) r = -E(r) p.
 template <class T>
 Matrix34<T> ground_rate_matrix(const Vector4<T>& p) {
   Matrix34<T> E;
@@ -138,12 +146,13 @@ Vector4<T> quaternion_product(const Vector4<T>& p, const Vector4<T>& r) {
   return c;
 }
 
-/// Euler parameters of a rotation matrix, by Shepperd's method: the largest component comes from the diagonal and is positive.
+/// Euler parameters of a rotation matrix, by Shepperd's method: the largest component comes from
+/// the diagonal and is positive.
 template <class T>
 Vector4<T> euler_parameters(const Matrix3<T>& A) {
   using std::sqrt;
-  const T squares[4] = {1.0 + A(0, 0) + A(1, 1) + A(2, 2), 1.0 + A(0, 0) - A(1, 1) - A(2, 2), 1.0 - A(0, 0) + A(1, 1) - A(2, 2),
-                        1.0 - A(0, 0) - A(1, 1) + A(2, 2)};
+  const T squares[4] = {1.0 + A(0, 0) + A(1, 1) + A(2, 2), 1.0 + A(0, 0) - A(1, 1) - A(2, 2),
+                        1.0 - A(0, 0) + A(1, 1) - A(2, 2), 1.0 - A(0, 0) - A(1, 1) + A(2, 2)};
   int largest = 0;
   for (int k = 1; k < 4; ++k)
     if (is_less(squares[largest], squares[k], false)) largest = k;
@@ -172,7 +181,8 @@ Vector4<T> euler_parameters(const Matrix3<T>& A) {
 /// Cross product that works for every scalar type.
 template <class T>
 Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
-  return Vector3<T>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+  return Vector3<T>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                    a[0] * b[1] - a[1] * b[0]);
 }
 
 /// Dot product without conjugation (Eigen's dot conjugates, which would break the complex step).

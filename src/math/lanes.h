@@ -7,15 +7,16 @@
 
 namespace codesign {
 
-// Every operation takes a few instructions, fewer than a call; there are so many operations that the compiler would not inline all of them
-// by itself.
+// Every operation takes a few instructions, fewer than a call; there are so many operations that
+// the compiler would not inline all of them by itself.
 #define CODESIGN_INLINE __attribute__((always_inline)) inline
 
-/// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic differentiation of N parameters in one
-/// pass.
+/// A value with N directional derivatives side by side in SIMD registers: forward-mode automatic
+/// differentiation of N parameters in one pass.
 ///
-/// Plain arithmetic on the compiler's vector type, all inlined; doc/decisions/0003-lanes.md explains why no library's dual number is used.
-/// Like a double, it is uninitialized after default construction. Comparisons compare the values.
+/// Plain arithmetic on the compiler's vector type, all inlined; doc/decisions/0003-lanes.md
+/// explains why no library's dual number is used. Like a double, it is uninitialized after default
+/// construction. Comparisons compare the values.
 template <int N>
 struct Lanes {
   static_assert(N % 4 == 0, "lanes come in fours");
@@ -24,12 +25,15 @@ struct Lanes {
   /// Four derivatives. Aligned as a double, so that containers need no special allocator.
   typedef double Four __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double))));
 
-  /// N derivatives in blocks of four, each in one register; a single vector type of N numbers would be kept in memory.
+  /// N derivatives in blocks of four, each in one register; a single vector type of N numbers would
+  /// be kept in memory.
   struct Vector {
     Four block[kBlocks];
 
     CODESIGN_INLINE double& operator[](int k) { return reinterpret_cast<double*>(block)[k]; }
-    CODESIGN_INLINE double operator[](int k) const { return reinterpret_cast<const double*>(block)[k]; }
+    CODESIGN_INLINE double operator[](int k) const {
+      return reinterpret_cast<const double*>(block)[k];
+    }
 
     CODESIGN_INLINE friend Vector operator-(const Vector& x) {
       Vector r;
@@ -61,14 +65,18 @@ struct Lanes {
   Vector v;  ///< derivatives
 
   Lanes() = default;
-  CODESIGN_INLINE Lanes(double value) : a(value), v{} {}  // NOLINT(google-explicit-constructor): numbers mix with lanes in every formula
+  CODESIGN_INLINE Lanes(double value)
+      : a(value),
+        v{} {}  // NOLINT(google-explicit-constructor): numbers mix with lanes in every formula
   CODESIGN_INLINE Lanes(double value, const Vector& derivatives) : a(value), v(derivatives) {}
 
   using Map = Eigen::Map<Eigen::Matrix<double, N, 1>>;
   using ConstMap = Eigen::Map<const Eigen::Matrix<double, N, 1>>;
   /// The derivatives as a vector.
   CODESIGN_INLINE Map directions() { return Map(reinterpret_cast<double*>(&v)); }
-  CODESIGN_INLINE ConstMap directions() const { return ConstMap(reinterpret_cast<const double*>(&v)); }
+  CODESIGN_INLINE ConstMap directions() const {
+    return ConstMap(reinterpret_cast<const double*>(&v));
+  }
 
   CODESIGN_INLINE Lanes& operator+=(const Lanes& y) {
     a += y.a;
@@ -89,9 +97,15 @@ struct Lanes {
 
   CODESIGN_INLINE friend Lanes operator+(const Lanes& x) { return x; }
   CODESIGN_INLINE friend Lanes operator-(const Lanes& x) { return {-x.a, -x.v}; }
-  CODESIGN_INLINE friend Lanes operator+(const Lanes& x, const Lanes& y) { return {x.a + y.a, x.v + y.v}; }
-  CODESIGN_INLINE friend Lanes operator-(const Lanes& x, const Lanes& y) { return {x.a - y.a, x.v - y.v}; }
-  CODESIGN_INLINE friend Lanes operator*(const Lanes& x, const Lanes& y) { return {x.a * y.a, x.v * y.a + x.a * y.v}; }
+  CODESIGN_INLINE friend Lanes operator+(const Lanes& x, const Lanes& y) {
+    return {x.a + y.a, x.v + y.v};
+  }
+  CODESIGN_INLINE friend Lanes operator-(const Lanes& x, const Lanes& y) {
+    return {x.a - y.a, x.v - y.v};
+  }
+  CODESIGN_INLINE friend Lanes operator*(const Lanes& x, const Lanes& y) {
+    return {x.a * y.a, x.v * y.a + x.a * y.v};
+  }
   CODESIGN_INLINE friend Lanes operator/(const Lanes& x, const Lanes& y) {
     const double inverse = 1.0 / y.a, quotient = x.a * inverse;
     return {quotient, (x.v - quotient * y.v) * inverse};
@@ -118,7 +132,9 @@ struct Lanes {
   CODESIGN_INLINE friend Lanes abs(const Lanes& x) { return x.a < 0.0 ? -x : x; }
   CODESIGN_INLINE friend Lanes sin(const Lanes& x) { return {std::sin(x.a), x.v * std::cos(x.a)}; }
   CODESIGN_INLINE friend Lanes cos(const Lanes& x) { return {std::cos(x.a), x.v * -std::sin(x.a)}; }
-  CODESIGN_INLINE friend Lanes asin(const Lanes& x) { return {std::asin(x.a), x.v / std::sqrt(1.0 - x.a * x.a)}; }
+  CODESIGN_INLINE friend Lanes asin(const Lanes& x) {
+    return {std::asin(x.a), x.v / std::sqrt(1.0 - x.a * x.a)};
+  }
   CODESIGN_INLINE friend Lanes tanh(const Lanes& x) {
     const double t = std::tanh(x.a);
     return {t, x.v * (1.0 - t * t)};
@@ -147,7 +163,15 @@ struct NumTraits<codesign::Lanes<N>> : GenericNumTraits<double> {
   using Nested = codesign::Lanes<N>;
   using Literal = codesign::Lanes<N>;
   static Real dummy_precision() { return Real(1e-12); }
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };
 
 template <int N, class Operation>

@@ -22,7 +22,8 @@ using Matrix34 = Eigen::Matrix<T, 3, 4>;
 template <class T>
 using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-/// The value without derivatives or imaginary part. Branches use it, since they must not depend on the derivatives.
+/// The value without derivatives or imaginary part. Branches use it, since they must not depend on
+/// the derivatives.
 inline double value_of(double x) { return x; }
 inline double value_of(const std::complex<double>& x) { return x.real(); }
 template <int N>
@@ -37,21 +38,27 @@ constexpr unsigned place_in_source(const char* file, unsigned line) {
   return hash;
 }
 
-/// Whether value_of(x) < value_of(y). Formulas branch by this function only, so that they can be recorded for compilation
-/// (codegen/traced.h).
-/// @param likely the outcome that the first recording follows where it depends on the state; other outcomes are recorded when they occur.
+/// Whether value_of(x) < value_of(y). Formulas branch by this function only, so that they can be
+/// recorded for compilation (codegen/traced.h).
+/// @param likely the outcome that the first recording follows where it depends on the state; other
+/// outcomes are recorded when they occur.
 template <class T>
-bool is_less(const T& x, const T& y, bool likely, unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
+bool is_less(const T& x, const T& y, bool likely,
+             unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
   static_cast<void>(likely), static_cast<void>(place);
   return value_of(x) < value_of(y);
 }
 
-// The derivatives that a vector of complex numbers (imaginary parts) or of lanes carries, as a real matrix: one row per component, one
-// column per direction. The derivatives of a solution of equations follow from a linear solve with this matrix on the right-hand side
-// (implicit function theorem).
+// The derivatives that a vector of complex numbers (imaginary parts) or of lanes carries, as a real
+// matrix: one row per component, one column per direction. The derivatives of a solution of
+// equations follow from a linear solve with this matrix on the right-hand side (implicit function
+// theorem).
 
-/// The derivatives of x: x.size() x 1 for complex numbers, x.size() x N for lanes. @param d resized and filled.
-inline void directions_of(const VectorX<std::complex<double>>& x, Eigen::MatrixXd* d) { *d = x.imag(); }
+/// The derivatives of x: x.size() x 1 for complex numbers, x.size() x N for lanes. @param d resized
+/// and filled.
+inline void directions_of(const VectorX<std::complex<double>>& x, Eigen::MatrixXd* d) {
+  *d = x.imag();
+}
 template <int N>
 void directions_of(const VectorX<Lanes<N>>& x, Eigen::MatrixXd* d) {
   d->resize(x.size(), N);
@@ -80,9 +87,11 @@ T smooth_abs(const T& x, const T& epsilon) {
   return sqrt(x * x + epsilon * epsilon);
 }
 
-/// atan2(y, x) [rad], in (-pi, pi]. For complex numbers and lanes the derivative is exact to first order.
+/// atan2(y, x) [rad], in (-pi, pi]. For complex numbers and lanes the derivative is exact to first
+/// order.
 inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
-inline std::complex<double> arc_tangent(const std::complex<double>& y, const std::complex<double>& x) {
+inline std::complex<double> arc_tangent(const std::complex<double>& y,
+                                        const std::complex<double>& x) {
   const double square = x.real() * x.real() + y.real() * y.real();
   return {std::atan2(y.real(), x.real()), (x.real() * y.imag() - y.real() * x.imag()) / square};
 }
@@ -91,21 +100,23 @@ Lanes<N> arc_tangent(const Lanes<N>& y, const Lanes<N>& x) {
   return atan2(y, x);
 }
 
-/// The nearest integer, without derivative. Ties round to an even number, as in compiled code (Operation::kRound).
+/// The nearest integer, without derivative. Ties round to an even number, as in compiled code
+/// (Operation::kRound).
 template <class T>
 T nearest_integer(const T& x) {
   return T(std::nearbyint(value_of(x)));
 }
 
-/// The whole turns, a multiple of 2 pi [rad], that bring `angle` nearest to `reference` when added to it. They have no derivative. Ties
-/// round to an even number of turns.
+/// The whole turns, a multiple of 2 pi [rad], that bring `angle` nearest to `reference` when added
+/// to it. They have no derivative. Ties round to an even number of turns.
 template <class T>
 T nearest_turns(double reference, const T& angle) {
   return T(2.0 * M_PI) * nearest_integer(T((T(reference) - angle) / T(2.0 * M_PI)));
 }
 
-/// tanh(sqrt x)/sqrt x for x >= 0: analytic in x, 1 at zero; theory (13a). Below x = 0.05 the series of the hyperbolic
-/// tangent is used, so that the relative errors of the value and of its derivative stay below 1e-14.
+/// tanh(sqrt x)/sqrt x for x >= 0: analytic in x, 1 at zero; theory (13a). Below x = 0.05 the
+/// series of the hyperbolic tangent is used, so that the relative errors of the value and of its
+/// derivative stay below 1e-14.
 template <class T>
 T tanh_ratio(const T& x) {
   using std::sqrt;

@@ -17,9 +17,11 @@ namespace codesign {
 namespace {
 
 template <class T>
-BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology, const Body& body, const std::vector<T>& parameters,
+BodyConstants<T> body_constants(const RobotDescription& robot, const Topology& topology,
+                                const Body& body, const std::vector<T>& parameters,
                                 MassWorkspace<T>* workspace) {
-  const MassProperties<T> m = merged_mass(robot, topology.link_base, topology.link_parent_joint, body.links, parameters, workspace);
+  const MassProperties<T> m = merged_mass(robot, topology.link_base, topology.link_parent_joint,
+                                          body.links, parameters, workspace);
   return {m.mass, m.inertia, m.centre};
 }
 
@@ -29,15 +31,19 @@ Vector3<T> centre_of(const Constants<T>& constants, int body) {
 }
 
 template <class T>
-SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const Topology& topology, const SpringDamperDescription& spring,
-                                          const Constants<T>& constants, const std::vector<T>& parameters) {
+SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const Topology& topology,
+                                          const SpringDamperDescription& spring,
+                                          const Constants<T>& constants,
+                                          const std::vector<T>& parameters) {
   SpringDamperConstants<T> result;
   const auto attach = [&](int link, const PoseDescription& origin, int* body, Vector3<T>* s) {
     *body = topology.link_body[to_index(link)];
     if (*body == Topology::kMassless)
       throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">",
-                        "a spring cannot pull on a link without <inertial>", robot.links[to_index(link)].name, ""});
-    *s = constants.links[to_index(link)].R * vector_at(origin.xyz, parameters) + constants.links[to_index(link)].s;
+                        "a spring cannot pull on a link without <inertial>",
+                        robot.links[to_index(link)].name, ""});
+    *s = constants.links[to_index(link)].R * vector_at(origin.xyz, parameters) +
+         constants.links[to_index(link)].s;
   };
   attach(spring.predecessor, spring.predecessor_origin, &result.body_i, &result.s_i);
   attach(spring.successor, spring.successor_origin, &result.body_j, &result.s_j);
@@ -48,20 +54,23 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
 }
 
 template <class T>
-void set_coupling(const Coupling& coupling, const std::vector<T>& parameters, CouplingConstants<T>* constants) {
+void set_coupling(const Coupling& coupling, const std::vector<T>& parameters,
+                  CouplingConstants<T>* constants) {
   constants->coefficients.clear();
-  for (const CouplingTerm& term : coupling.terms) constants->coefficients.push_back(T(term.sign) * term.factor.at(parameters));
+  for (const CouplingTerm& term : coupling.terms)
+    constants->coefficients.push_back(T(term.sign) * term.factor.at(parameters));
   constants->offset = coupling.offset.at(parameters);
 }
 
 /// Sets Constants::links and Constants::joint_frames; the bodies' centres must be set before.
 template <class T>
-void set_frames(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters, LinkPoses<T>* poses,
-                Constants<T>* constants) {
+void set_frames(const RobotDescription& robot, const Topology& topology,
+                const std::vector<T>& parameters, LinkPoses<T>* poses, Constants<T>* constants) {
   constants->links.resize(robot.links.size());
   for (std::size_t link = 0; link < robot.links.size(); ++link) {
     if (topology.link_body[link] == Topology::kMassless) continue;
-    const Pose<T>& X = poses->of(robot, topology.link_base, topology.link_parent_joint, static_cast<int>(link), parameters);
+    const Pose<T>& X = poses->of(robot, topology.link_base, topology.link_parent_joint,
+                                 static_cast<int>(link), parameters);
     constants->links[link] = {X.t - centre_of(*constants, topology.link_body[link]), X.R};
   }
   constants->joint_frames.clear();
@@ -82,50 +91,65 @@ MassFault body_fault(const BodyConstants<double>& body) {
   return find_mass_fault({body.mass, body.centre, body.J});
 }
 
-/// The fault of body k in this design; empty if the body has the same fault at the default parameters, of which check_bodies() warned.
-std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k, const Constants<double>& constants) {
+/// The fault of body k in this design; empty if the body has the same fault at the default
+/// parameters, of which check_bodies() warned.
+std::string body_fault(const RobotDescription& robot, const Topology& topology, std::size_t k,
+                       const Constants<double>& constants) {
   const MassFault fault = body_fault(constants.bodies[k]);
   if (fault.code.empty()) return "";
   MassWorkspace<double> workspace;
   workspace.poses.start(robot.links.size());
-  const MassFault known = body_fault(body_constants(robot, topology, topology.bodies[k], default_values(robot), &workspace));
+  const MassFault known = body_fault(
+      body_constants(robot, topology, topology.bodies[k], default_values(robot), &workspace));
   if (known.code == fault.code) return "";
-  return "body '" + topology.bodies[k].name + "': " + fault.message + (fault.value.empty() ? "" : " (" + fault.value + ")");
+  return "body '" + topology.bodies[k].name + "': " + fault.message +
+         (fault.value.empty() ? "" : " (" + fault.value + ")");
 }
 
 std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
   bool possible = f.mu_static >= f.mu_dynamic && f.mu_static_backward >= f.mu_dynamic_backward;
   const auto check = [&possible](const FrictionNumberRule& rule, const double& number) {
-    // A radius that is not given is zero; check_friction_geometry() asks for it where the law needs it.
-    const bool may_be_zero = rule.zero_allowed || (rule.missing == FrictionNumberRule::Missing::kStandard && rule.standard == 0.0) ||
-                             rule.missing == FrictionNumberRule::Missing::kPinRadius;
+    // A radius that is not given is zero; check_friction_geometry() asks for it where the law needs
+    // it.
+    const bool may_be_zero =
+        rule.zero_allowed ||
+        (rule.missing == FrictionNumberRule::Missing::kStandard && rule.standard == 0.0) ||
+        rule.missing == FrictionNumberRule::Missing::kPinRadius;
     possible = possible && (number > 0.0 || (may_be_zero && number == 0.0));
   };
   visit_friction_numbers(check, &f);
   return possible ? ""
                   : "friction geometry or coefficients of joint '" + pair.name +
-                        "' are out of range (allowed: mu_static >= mu_dynamic >= 0, pin_radius, preload and viscous >= 0, all others > 0)";
+                        "' are out of range (allowed: mu_static >= mu_dynamic >= 0, pin_radius, "
+                        "preload and viscous >= 0, all others > 0)";
 }
 
-std::string joint_fault(const RobotDescription& robot, const Pair& pair, const PairConstants<double>& constants) {
+std::string joint_fault(const RobotDescription& robot, const Pair& pair,
+                        const PairConstants<double>& constants) {
   for (std::size_t e = 0; e < pair.chain.size(); ++e) {
     const JointDescription& joint = robot.joints[to_index(pair.chain[e].joint)];
     const JointDynamicsConstants<double>& d = constants.dynamics[e];
     if (joint.limit && !(d.lower <= d.upper && d.effort >= 0.0))
-      return "a limit of joint '" + joint.name + "' is out of range (allowed: lower <= upper, effort >= 0)";
-    if (!(d.rotor_inertia >= 0.0) || !std::isfinite(d.rotor_inertia) || !std::isfinite(d.gear_ratio))
-      return "the rotor of joint '" + joint.name + "' is out of range (allowed: finite gear_ratio, finite rotor_inertia >= 0)";
+      return "a limit of joint '" + joint.name +
+             "' is out of range (allowed: lower <= upper, effort >= 0)";
+    if (!(d.rotor_inertia >= 0.0) || !std::isfinite(d.rotor_inertia) ||
+        !std::isfinite(d.gear_ratio))
+      return "the rotor of joint '" + joint.name +
+             "' is out of range (allowed: finite gear_ratio, finite rotor_inertia >= 0)";
   }
   return "";
 }
 
-const LinkDescription& link_of(const RobotDescription& robot, int link) { return robot.links[to_index(link)]; }
+const LinkDescription& link_of(const RobotDescription& robot, int link) {
+  return robot.links[to_index(link)];
+}
 
 /// The names of the links with an inertial, separated by commas.
 std::string names_of(const RobotDescription& robot, const std::vector<int>& links) {
   std::string names;
   for (int link : links)
-    if (link_of(robot, link).inertial) names += (names.empty() ? "" : ", ") + link_of(robot, link).name;
+    if (link_of(robot, link).inertial)
+      names += (names.empty() ? "" : ", ") + link_of(robot, link).name;
   return names;
 }
 
@@ -140,14 +164,18 @@ InputFault fault_at(const RobotDescription& robot, int base, const std::vector<i
   return fault;
 }
 
-void check_cancelled_mass(const RobotDescription& robot, const MassProperties<double>& body, int base, const std::vector<int>& links,
+void check_cancelled_mass(const RobotDescription& robot, const MassProperties<double>& body,
+                          int base, const std::vector<int>& links,
                           const std::vector<double>& values) {
   double sum = 0.0;
   for (int link : links)
-    if (link_of(robot, link).inertial) sum += std::abs(mass_properties(*link_of(robot, link).inertial, values).mass);
+    if (link_of(robot, link).inertial)
+      sum += std::abs(mass_properties(*link_of(robot, link).inertial, values).mass);
   if (std::abs(body.mass) > 1e-12 * sum || sum == 0.0) return;
   InputFault fault = fault_at(robot, base, links);
-  fault.message = "the masses of links that are fixed to each other cancel, so that the body has no centre of mass";
+  fault.message =
+      "the masses of links that are fixed to each other cancel, so that the body has no centre of "
+      "mass";
   fault.value = names_of(robot, links);
   fault.allowed = "a sum that is not zero";
   throw InputError(fault);
@@ -156,38 +184,46 @@ void check_cancelled_mass(const RobotDescription& robot, const MassProperties<do
 }  // namespace
 
 template <class T>
-void evaluate_constants(const RobotDescription& robot, const Topology& topology, const std::vector<T>& parameters,
-                        MassWorkspace<T>* workspace, Constants<T>* constants) {
+void evaluate_constants(const RobotDescription& robot, const Topology& topology,
+                        const std::vector<T>& parameters, MassWorkspace<T>* workspace,
+                        Constants<T>* constants) {
   workspace->poses.start(robot.links.size());
   constants->bodies.clear();
-  for (const Body& body : topology.bodies) constants->bodies.push_back(body_constants(robot, topology, body, parameters, workspace));
+  for (const Body& body : topology.bodies)
+    constants->bodies.push_back(body_constants(robot, topology, body, parameters, workspace));
   set_frames(robot, topology, parameters, &workspace->poses, constants);
   constants->pairs.resize(topology.pairs.size());
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     const Pair& pair = topology.pairs[k];
-    pair_constants(robot, topology, pair, centre_of(*constants, pair.body_i), centre_of(*constants, pair.body_j), parameters,
-                   &constants->pairs[k]);
+    pair_constants(robot, topology, pair, centre_of(*constants, pair.body_i),
+                   centre_of(*constants, pair.body_j), parameters, &constants->pairs[k]);
   }
   constants->springs.clear();
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     constants->springs.push_back(spring_constants(robot, topology, spring, *constants, parameters));
   constants->couplings.resize(topology.couplings.size());
-  for (std::size_t k = 0; k < topology.couplings.size(); ++k) set_coupling(topology.couplings[k], parameters, &constants->couplings[k]);
+  for (std::size_t k = 0; k < topology.couplings.size(); ++k)
+    set_coupling(topology.couplings[k], parameters, &constants->couplings[k]);
 }
 
-std::string find_impossible(const RobotDescription& robot, const Topology& topology, const Constants<double>& constants) {
+std::string find_impossible(const RobotDescription& robot, const Topology& topology,
+                            const Constants<double>& constants) {
   for (std::size_t k = 0; k < topology.bodies.size(); ++k)
     if (std::string fault = body_fault(robot, topology, k, constants); !fault.empty()) return fault;
   for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
     const PairConstants<double>& pair = constants.pairs[k];
-    if (std::string fault = joint_fault(robot, topology.pairs[k], pair); !fault.empty()) return fault;
-    if (!pair.s_i.allFinite() || !pair.s_j.allFinite() || !pair.C_i.allFinite() || !pair.C_j.allFinite())
+    if (std::string fault = joint_fault(robot, topology.pairs[k], pair); !fault.empty())
+      return fault;
+    if (!pair.s_i.allFinite() || !pair.s_j.allFinite() || !pair.C_i.allFinite() ||
+        !pair.C_j.allFinite())
       return "geometry of joint '" + topology.pairs[k].name + "' is not finite";
     if (topology.pairs[k].friction_joint < 0) continue;
-    if (std::string fault = friction_fault(topology.pairs[k], pair.friction); !fault.empty()) return fault;
+    if (std::string fault = friction_fault(topology.pairs[k], pair.friction); !fault.empty())
+      return fault;
   }
   for (std::size_t k = 0; k < robot.spring_dampers.size(); ++k)
-    if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping + constants.springs[k].free_length))
+    if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping +
+                       constants.springs[k].free_length))
       return "spring-damper '" + robot.spring_dampers[k].name + "' is not finite";
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     double sum = constants.couplings[k].offset;
@@ -197,8 +233,9 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
   return "";
 }
 
-#define CODESIGN_INSTANTIATE(T) \
-  template void evaluate_constants<T>(const RobotDescription&, const Topology&, const std::vector<T>&, MassWorkspace<T>*, Constants<T>*);
+#define CODESIGN_INSTANTIATE(T)                                                 \
+  template void evaluate_constants<T>(const RobotDescription&, const Topology&, \
+                                      const std::vector<T>&, MassWorkspace<T>*, Constants<T>*);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
@@ -206,12 +243,18 @@ MassFault find_mass_fault(const MassProperties<double>& body) {
   constexpr double kRounding = 1e-9, kTriangle = 1e-6;
   if (body.mass < 0.0) return {"negative_mass", "the mass is negative", to_decimal(body.mass)};
   const Vector3<double> moments = principal_moments(body.inertia);
-  const auto text = [&moments] { return "principal moments " + format_numbers({moments[0], moments[1], moments[2]}); };
-  // Moments below the moment of a radius of gyration of one micrometre (1e-12 m^2 times the mass) come from rounding in the file.
-  const double rounding = kRounding * std::max(std::abs(moments[0]), std::abs(moments[2])) + 1e-12 * body.mass;
-  if (moments[0] < -rounding) return {"inertia_not_positive", "the inertia has a negative principal moment", text()};
+  const auto text = [&moments] {
+    return "principal moments " + format_numbers({moments[0], moments[1], moments[2]});
+  };
+  // Moments below the moment of a radius of gyration of one micrometre (1e-12 m^2 times the mass)
+  // come from rounding in the file.
+  const double rounding =
+      kRounding * std::max(std::abs(moments[0]), std::abs(moments[2])) + 1e-12 * body.mass;
+  if (moments[0] < -rounding)
+    return {"inertia_not_positive", "the inertia has a negative principal moment", text()};
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + kTriangle) + rounding)
-    return {"triangle_inequality", "the inertia breaks the triangle inequality", text() + ", the largest at most the sum of the others"};
+    return {"triangle_inequality", "the inertia breaks the triangle inequality",
+            text() + ", the largest at most the sum of the others"};
   return {};
 }
 
@@ -220,18 +263,22 @@ void check_bodies(const RobotDescription& robot, Warnings* warnings) {
   const std::vector<double> values = default_values(robot);
   std::map<int, std::vector<int>> bodies;
   for (std::size_t link = 0; link < robot.links.size(); ++link)
-    if (groups.link_base[link] != groups.link_base[to_index(robot.root)]) bodies[groups.link_base[link]].push_back(static_cast<int>(link));
+    if (groups.link_base[link] != groups.link_base[to_index(robot.root)])
+      bodies[groups.link_base[link]].push_back(static_cast<int>(link));
   MassWorkspace<double> workspace;
   workspace.poses.start(robot.links.size());
   for (const auto& [base, links] : bodies) {
     const std::string names = names_of(robot, links);
     if (names.empty()) continue;
-    const MassProperties<double> body = merged_mass(robot, groups.link_base, groups.link_parent_joint, links, values, &workspace);
+    const MassProperties<double> body =
+        merged_mass(robot, groups.link_base, groups.link_parent_joint, links, values, &workspace);
     check_cancelled_mass(robot, body, base, links, values);
     const MassFault fault = find_mass_fault(body);
     if (fault.code.empty()) continue;
     InputFault place = fault_at(robot, base, links);
-    place.message = fault.message + "; it is used as it is written. Correct the numbers of the body's links to silence this";
+    place.message =
+        fault.message +
+        "; it is used as it is written. Correct the numbers of the body's links to silence this";
     place.value = fault.value + "; links: " + names;
     warnings->push_back(warn(fault.code, place));
   }

@@ -9,21 +9,26 @@
 namespace codesign {
 namespace {
 
-CouplingTerm term_of(const RobotDescription& robot, const Topology& topology, int joint, const Coupling& coupling) {
+CouplingTerm term_of(const RobotDescription& robot, const Topology& topology, int joint,
+                     const Coupling& coupling) {
   CouplingTerm term;
   term.joint = joint;
   term.pair = topology.joint_pair[to_index(joint)];
   if (term.pair < 0)
-    throw InputError({coupling.where, coupling.element(), "the joint moves only a link without <inertial>, so nothing can be coupled to it",
-                      robot.joints[to_index(joint)].name, "joints that move a mass"});
+    throw InputError(
+        {coupling.where, coupling.element(),
+         "the joint moves only a link without <inertial>, so nothing can be coupled to it",
+         robot.joints[to_index(joint)].name, "joints that move a mass"});
   const std::vector<ChainElement>& chain = topology.pairs[to_index(term.pair)].chain;
-  const auto found = std::find_if(chain.begin(), chain.end(), [joint](const ChainElement& e) { return e.joint == joint; });
+  const auto found = std::find_if(chain.begin(), chain.end(),
+                                  [joint](const ChainElement& e) { return e.joint == joint; });
   term.element = static_cast<int>(found - chain.begin());
   return term;
 }
 
 int joint_named(const RobotDescription& robot, const std::string& name) {
-  const auto found = std::find_if(robot.joints.begin(), robot.joints.end(), [&name](const JointDescription& j) { return j.name == name; });
+  const auto found = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                  [&name](const JointDescription& j) { return j.name == name; });
   return static_cast<int>(found - robot.joints.begin());
 }
 
@@ -36,7 +41,8 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
   coupling.offset = joint.mimic->offset;
   coupling.terms.push_back(term_of(robot, topology, follower, coupling));
   const int leader = joint_named(robot, joint.mimic->joint);
-  if (robot.joints[to_index(leader)].type == JointType::kFixed) return coupling;  // the fixed joint's coordinate is zero
+  if (robot.joints[to_index(leader)].type == JointType::kFixed)
+    return coupling;  // the fixed joint's coordinate is zero
   coupling.terms.push_back(term_of(robot, topology, leader, coupling));
   coupling.terms.back().sign = -1.0;
   coupling.terms.back().factor = joint.mimic->multiplier;
@@ -44,7 +50,8 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
 }
 
 /// The joints that are not fixed between a link and one of its ancestors, starting at the link.
-std::vector<int> moving_joints(const RobotDescription& robot, const Topology& topology, int link, int ancestor, const Coupling& coupling) {
+std::vector<int> moving_joints(const RobotDescription& robot, const Topology& topology, int link,
+                               int ancestor, const Coupling& coupling) {
   std::vector<int> joints;
   for (int at = link; at != ancestor;) {
     const int k = topology.link_parent_joint[to_index(at)];
@@ -52,24 +59,31 @@ std::vector<int> moving_joints(const RobotDescription& robot, const Topology& to
     at = joint.parent;
     if (joint.type == JointType::kFixed) continue;
     if (!has_one_coordinate(joint.type))
-      throw InputError({coupling.where, coupling.element(), "a joint between the coupled links has more than one coordinate", joint.name,
-                        "revolute, continuous, prismatic and fixed joints"});
+      throw InputError({coupling.where, coupling.element(),
+                        "a joint between the coupled links has more than one coordinate",
+                        joint.name, "revolute, continuous, prismatic and fixed joints"});
     joints.push_back(k);
   }
   return joints;
 }
 
-Coupling plus_coupling(const RobotDescription& robot, const Topology& topology, const CouplingDescription& description) {
+Coupling plus_coupling(const RobotDescription& robot, const Topology& topology,
+                       const CouplingDescription& description) {
   Coupling coupling;
   coupling.name = description.name;
   coupling.where = description.where;
-  const std::vector<int> above = links_above(robot, topology.link_parent_joint, description.predecessor);
-  const std::vector<int> below = links_above(robot, topology.link_parent_joint, description.successor);
+  const std::vector<int> above =
+      links_above(robot, topology.link_parent_joint, description.predecessor);
+  const std::vector<int> below =
+      links_above(robot, topology.link_parent_joint, description.successor);
   const int ancestor = *std::find_first_of(below.begin(), below.end(), above.begin(), above.end());
-  const std::vector<int> driven = moving_joints(robot, topology, description.successor, ancestor, coupling);
+  const std::vector<int> driven =
+      moving_joints(robot, topology, description.successor, ancestor, coupling);
   if (driven.empty())
-    throw InputError({coupling.where, coupling.element(), "no joint moves the successor relative to the links' nearest common ancestor",
-                      robot.links[to_index(description.successor)].name, "swap predecessor and successor, and invert the ratio"});
+    throw InputError({coupling.where, coupling.element(),
+                      "no joint moves the successor relative to the links' nearest common ancestor",
+                      robot.links[to_index(description.successor)].name,
+                      "swap predecessor and successor, and invert the ratio"});
   for (int joint : driven) coupling.terms.push_back(term_of(robot, topology, joint, coupling));
   for (int joint : moving_joints(robot, topology, description.predecessor, ancestor, coupling)) {
     coupling.terms.push_back(term_of(robot, topology, joint, coupling));
@@ -82,7 +96,10 @@ Coupling plus_coupling(const RobotDescription& robot, const Topology& topology, 
 class TreeBuilder {
  public:
   TreeBuilder(const Topology& topology, const SourceLocation& where, const std::string& element)
-      : topology_(topology), where_(where), element_(element), carrier_(topology.bodies.size(), -1) {
+      : topology_(topology),
+        where_(where),
+        element_(element),
+        carrier_(topology.bodies.size(), -1) {
     for (std::size_t k = 0; k < topology.pairs.size(); ++k) {
       if (topology.pairs[k].is_loop) continue;
       carrier_[to_index(child(topology.pairs[k]))] = static_cast<int>(k);
@@ -111,15 +128,19 @@ class TreeBuilder {
 
   const Pair& pair(int index) const { return topology_.pairs[to_index(index)]; }
 
-  [[noreturn]] void fail(const std::string& message, const std::string& value, const std::string& allowed) const {
+  [[noreturn]] void fail(const std::string& message, const std::string& value,
+                         const std::string& allowed) const {
     throw InputError({where_, element_, message, value, allowed});
   }
 
   void require_simple(int index) const {
-    const bool simple = pair(index).kind == PairKind::kRevolute || pair(index).kind == PairKind::kPrismatic;
+    const bool simple =
+        pair(index).kind == PairKind::kRevolute || pair(index).kind == PairKind::kPrismatic;
     if (simple && !pair(index).is_loop && !upwards(pair(index))) return;
-    fail("gravity compensation and computed torque cannot work through this joint", pair(index).name,
-         "revolute, continuous and prismatic joints of the tree, with links that have an <inertial> on both sides");
+    fail("gravity compensation and computed torque cannot work through this joint",
+         pair(index).name,
+         "revolute, continuous and prismatic joints of the tree, with links that have an "
+         "<inertial> on both sides");
   }
 
   int node_of(int body) const {
@@ -130,7 +151,8 @@ class TreeBuilder {
 
   void add_node(int index, bool moved) {
     const Pair& p = pair(index);
-    tree_.nodes.push_back({child(p), node_of(parent(p)), index, p.kind == PairKind::kPrismatic, moved, -1});
+    tree_.nodes.push_back(
+        {child(p), node_of(parent(p)), index, p.kind == PairKind::kPrismatic, moved, -1});
   }
 
   /// Adds the bodies that carry `body`, from the ground on, and `body` itself.
@@ -138,8 +160,10 @@ class TreeBuilder {
     if (body < 0) return;
     const int above = carrier_[to_index(body)];
     if (above < 0)
-      fail("a body that carries the driven joint is connected by a loop only, not by a joint of the tree",
-           topology_.bodies[to_index(body)].name, "");
+      fail(
+          "a body that carries the driven joint is connected by a loop only, not by a joint of the "
+          "tree",
+          topology_.bodies[to_index(body)].name, "");
     require_simple(above);
     add_path(pair(above).body_i);
     add_node(above, false);
@@ -150,7 +174,8 @@ class TreeBuilder {
     add_node(index, true);
     const int body = child(pair(index));
     for (std::size_t k = 0; k < topology_.pairs.size(); ++k)
-      if (!topology_.pairs[k].is_loop && parent(topology_.pairs[k]) == body) add_subtree(static_cast<int>(k), accelerations);
+      if (!topology_.pairs[k].is_loop && parent(topology_.pairs[k]) == body)
+        add_subtree(static_cast<int>(k), accelerations);
   }
 
   void refuse_ties() const {
@@ -161,7 +186,8 @@ class TreeBuilder {
     for (const Pair& loop : topology_.pairs)
       if (loop.is_loop && moved(loop.body_i) != moved(loop.body_j))
         fail(
-            "a loop connects bodies that the joint moves with bodies that it does not move, so that the tree alone does not determine its "
+            "a loop connects bodies that the joint moves with bodies that it does not move, so "
+            "that the tree alone does not determine its "
             "load",
             loop.name, "a joint that is not part of a loop");
   }
@@ -183,8 +209,10 @@ std::string Coupling::element() const {
 std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topology& topology) {
   std::vector<Coupling> couplings;
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (robot.joints[k].mimic && topology.joint_pair[k] >= 0) couplings.push_back(mimic_coupling(robot, topology, static_cast<int>(k)));
-  for (const CouplingDescription& description : robot.couplings) couplings.push_back(plus_coupling(robot, topology, description));
+    if (robot.joints[k].mimic && topology.joint_pair[k] >= 0)
+      couplings.push_back(mimic_coupling(robot, topology, static_cast<int>(k)));
+  for (const CouplingDescription& description : robot.couplings)
+    couplings.push_back(plus_coupling(robot, topology, description));
   return couplings;
 }
 
@@ -197,7 +225,8 @@ Coupling drive_of(const RobotDescription& robot, const Topology& topology, int j
   return coupling;
 }
 
-DrivenTree driven_tree(const Topology& topology, int pair, bool accelerations, const SourceLocation& where, const std::string& element) {
+DrivenTree driven_tree(const Topology& topology, int pair, bool accelerations,
+                       const SourceLocation& where, const std::string& element) {
   return TreeBuilder(topology, where, element).build(pair, accelerations);
 }
 

@@ -14,8 +14,9 @@ namespace codesign {
 namespace {
 
 using Vector = Vector3<double>;
-constexpr double kParallel = 1e-9;    // tolerance for unit axes to be parallel
-constexpr double kConcurrent = 1e-9;  // tolerance for axes to meet: absolute [m], and relative to the chain's size
+constexpr double kParallel = 1e-9;  // tolerance for unit axes to be parallel
+constexpr double kConcurrent =
+    1e-9;  // tolerance for axes to meet: absolute [m], and relative to the chain's size
 
 struct Axes {
   std::vector<Vector> turn, turn_point, slide;
@@ -28,7 +29,9 @@ bool meet(const Vector& p, const Vector& a, const Vector& q, const Vector& b) {
   return std::abs((q - p).dot(normal)) < kConcurrent * normal.norm();
 }
 
-bool on_line(const Vector& point, const Vector& origin, const Vector& axis) { return (point - origin).cross(axis).norm() < kConcurrent; }
+bool on_line(const Vector& point, const Vector& origin, const Vector& axis) {
+  return (point - origin).cross(axis).norm() < kConcurrent;
+}
 
 /// Whether all turning axes pass through one point.
 bool concurrent(const Axes& axes) {
@@ -53,27 +56,35 @@ std::optional<PairKind> fold_axes(const Axes& axes) {
   if (slides == 1 && turns == 0) return PairKind::kPrismatic;
   if (slides == 0 && turns == 2 && concurrent(axes)) return PairKind::kUniversal;
   if (slides == 0 && turns == 3 && concurrent(axes)) return PairKind::kSpherical;
-  if (slides == 1 && turns == 1 && parallel(axes.turn[0], axes.slide[0])) return PairKind::kCylindrical;
+  if (slides == 1 && turns == 1 && parallel(axes.turn[0], axes.slide[0]))
+    return PairKind::kCylindrical;
   if (slides == 2 && turns == 0 && independent(axes.slide)) return PairKind::kTable;
   if (slides == 3 && turns == 0 && independent(axes.slide)) return PairKind::kTranslational;
-  if (slides == 2 && turns == 1 && independent(axes.slide) && parallel(axes.turn[0], axes.slide[0].cross(axes.slide[1]).normalized()))
+  if (slides == 2 && turns == 1 && independent(axes.slide) &&
+      parallel(axes.turn[0], axes.slide[0].cross(axes.slide[1]).normalized()))
     return PairKind::kPlanar;
-  if (slides == 3 && turns == 3 && independent(axes.slide) && concurrent(axes)) return PairKind::kFree;
+  if (slides == 3 && turns == 3 && independent(axes.slide) && concurrent(axes))
+    return PairKind::kFree;
   return std::nullopt;
 }
 
 [[noreturn]] void refuse(const RobotDescription& robot, const std::vector<ChainElement>& chain) {
   std::string names;
-  for (const ChainElement& element : chain) names += (names.empty() ? "" : ", ") + robot.joints[to_index(element.joint)].name;
+  for (const ChainElement& element : chain)
+    names += (names.empty() ? "" : ", ") + robot.joints[to_index(element.joint)].name;
   const JointDescription& joint = robot.joints[to_index(chain.front().joint)];
-  throw InputError(
-      {joint.where, joint.element(), "a chain of links without <inertial> that cannot be folded into one joint", names,
-       "concurrent revolutes (universal, spherical), a coaxial revolute and prismatic, two or three prismatics, two prismatics with a "
-       "revolute normal to them; or give the links an <inertial>"});
+  throw InputError({joint.where, joint.element(),
+                    "a chain of links without <inertial> that cannot be folded into one joint",
+                    names,
+                    "concurrent revolutes (universal, spherical), a coaxial revolute and "
+                    "prismatic, two or three prismatics, two prismatics with a "
+                    "revolute normal to them; or give the links an <inertial>"});
 }
 
-std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
-  const ChainGeometry<double> geometry = chain_geometry(robot, topology, chain, default_values(robot));
+std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topology& topology,
+                                      const std::vector<ChainElement>& chain) {
+  const ChainGeometry<double> geometry =
+      chain_geometry(robot, topology, chain, default_values(robot));
   Axes axes;
   for (std::size_t k = 0; k < chain.size(); ++k) {
     const JointType type = robot.joints[to_index(chain[k].joint)].type;
@@ -91,11 +102,14 @@ std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topol
 
 bool needs_coordinate(const RobotDescription& robot, const Topology& topology, int k) {
   const JointDescription& joint = robot.joints[to_index(k)];
-  if (!joint.damping.is_zero() || !joint.dry_friction.is_zero() || joint.spring || joint.actuator || joint.mimic) return true;
+  if (!joint.damping.is_zero() || !joint.dry_friction.is_zero() || joint.spring || joint.actuator ||
+      joint.mimic)
+    return true;
   for (const JointDescription& other : robot.joints)
     if (other.mimic && other.mimic->joint == joint.name) return true;
   for (const CouplingDescription& coupling : robot.couplings) {
-    const std::vector<int> coupled = joints_between(robot, topology.link_parent_joint, coupling.predecessor, coupling.successor);
+    const std::vector<int> coupled =
+        joints_between(robot, topology.link_parent_joint, coupling.predecessor, coupling.successor);
     if (std::find(coupled.begin(), coupled.end(), k) != coupled.end()) return true;
   }
   return false;
@@ -103,22 +117,27 @@ bool needs_coordinate(const RobotDescription& robot, const Topology& topology, i
 
 }  // namespace
 
-PairKind fold_chain(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
-  const auto kind = chain.size() == 1 ? kind_of(robot.joints[to_index(chain[0].joint)]) : kind_of_chain(robot, topology, chain);
+PairKind fold_chain(const RobotDescription& robot, const Topology& topology,
+                    const std::vector<ChainElement>& chain) {
+  const auto kind = chain.size() == 1 ? kind_of(robot.joints[to_index(chain[0].joint)])
+                                      : kind_of_chain(robot, topology, chain);
   if (!kind) refuse(robot, chain);
   return *kind;
 }
 
-bool folds(const RobotDescription& robot, const Topology& topology, const std::vector<ChainElement>& chain) {
+bool folds(const RobotDescription& robot, const Topology& topology,
+           const std::vector<ChainElement>& chain) {
   const std::optional<PairKind> kind = kind_of_chain(robot, topology, chain);
   if (!kind) return false;
   Pair pair;
   pair.kind = *kind;
   pair.chain = chain;
   const Vector none = Vector::Zero();
-  const PairConstants<double> constants = pair_constants(robot, topology, pair, none, none, default_values(robot));
+  const PairConstants<double> constants =
+      pair_constants(robot, topology, pair, none, none, default_values(robot));
   for (std::size_t k = 0; k < chain.size(); ++k)
-    if (constants.coordinates[k].kind == CoordinateConstants<double>::Kind::kNone && needs_coordinate(robot, topology, chain[k].joint))
+    if (constants.coordinates[k].kind == CoordinateConstants<double>::Kind::kNone &&
+        needs_coordinate(robot, topology, chain[k].joint))
       return false;
   return true;
 }

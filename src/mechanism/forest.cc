@@ -9,16 +9,20 @@
 namespace codesign {
 namespace {
 
-/// Ball and floating joints have no scalar coordinates that hold in all positions; they keep the Euler parameters of their body.
+/// Ball and floating joints have no scalar coordinates that hold in all positions; they keep the
+/// Euler parameters of their body.
 bool has_scalar_coordinates(const Pair& pair) {
   const auto reversed = [](const ChainElement& element) { return element.reversed; };
-  return pair.kind->in_forest && !pair.is_loop && pair.body_j >= 0 && std::none_of(pair.chain.begin(), pair.chain.end(), reversed);
+  return pair.kind->in_forest && !pair.is_loop && pair.body_j >= 0 &&
+         std::none_of(pair.chain.begin(), pair.chain.end(), reversed);
 }
 
 }  // namespace
 
 int forest_coordinates(const Pair& pair) {
-  return pair.kind == PairKind::kPlanar && pair.chain.size() == 1 ? 3 : static_cast<int>(pair.chain.size());
+  return pair.kind == PairKind::kPlanar && pair.chain.size() == 1
+             ? 3
+             : static_cast<int>(pair.chain.size());
 }
 
 Forest tree_forest(const Topology& topology, const std::vector<bool>& cut) {
@@ -28,7 +32,8 @@ Forest tree_forest(const Topology& topology, const std::vector<bool>& cut) {
   forest.is_plane.assign(topology.pairs.size(), false);
   for (std::size_t p = 0; p < topology.pairs.size(); ++p) {
     const Pair& pair = topology.pairs[p];
-    if (cut[p] || !has_scalar_coordinates(pair) || forest.pair_above[to_index(pair.body_j)] >= 0) continue;
+    if (cut[p] || !has_scalar_coordinates(pair) || forest.pair_above[to_index(pair.body_j)] >= 0)
+      continue;
     forest.pair_above[to_index(pair.body_j)] = static_cast<int>(p);
     forest.body_below[p] = pair.body_j;
     forest.is_plane[p] = forest_coordinates(pair) != static_cast<int>(pair.chain.size());
@@ -42,7 +47,8 @@ Forest tree_forest(const Topology& topology, const std::vector<bool>& cut) {
     self(self, topology.pairs[to_index(forest.pair_above[to_index(body)])].body_i);
     forest.order.push_back(body);
   };
-  for (std::size_t body = 0; body < topology.bodies.size(); ++body) place(place, static_cast<int>(body));
+  for (std::size_t body = 0; body < topology.bodies.size(); ++body)
+    place(place, static_cast<int>(body));
   return forest.empty() ? Forest() : forest;
 }
 

@@ -12,7 +12,8 @@
 
 namespace codesign {
 
-/// Mass [kg], centre of mass [m, link frame] and inertia [kg m^2, about the centre, in the link's axes].
+/// Mass [kg], centre of mass [m, link frame] and inertia [kg m^2, about the centre, in the link's
+/// axes].
 template <class T>
 struct MassProperties {
   T mass{};
@@ -25,7 +26,8 @@ template <class T>
 Matrix3<T> rotation_from_rpy(const Vector3<T>& rpy) {
   using std::cos;
   using std::sin;
-  const T cr = cos(rpy[0]), sr = sin(rpy[0]), cp = cos(rpy[1]), sp = sin(rpy[1]), cy = cos(rpy[2]), sy = sin(rpy[2]);
+  const T cr = cos(rpy[0]), sr = sin(rpy[0]), cp = cos(rpy[1]), sp = sin(rpy[1]), cy = cos(rpy[2]),
+          sy = sin(rpy[2]);
   Matrix3<T> R;
   R << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,  //
       sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,   //
@@ -54,9 +56,11 @@ Matrix3<T> point_inertia(const T& mass, const Vector3<T>& d) {
   return mass * (square * Matrix3<T>::Identity() - d * d.transpose());
 }
 
-/// A homogeneous solid about its own centre, in its own axes. A mesh counts as a solid without volume.
+/// A homogeneous solid about its own centre, in its own axes. A mesh counts as a solid without
+/// volume.
 template <class T>
-MassProperties<T> solid(const ShapeDescription& shape, const T& density, const std::vector<T>& parameters) {
+MassProperties<T> solid(const ShapeDescription& shape, const T& density,
+                        const std::vector<T>& parameters) {
   const Vector3<T> size = values_at(shape.size, parameters);
   MassProperties<T> result;
   Vector3<T> J = Vector3<T>::Zero();
@@ -64,7 +68,8 @@ MassProperties<T> solid(const ShapeDescription& shape, const T& density, const s
     case ShapeDescription::Kind::kBox: {
       result.mass = density * size[0] * size[1] * size[2];
       const Vector3<T> square = size.cwiseProduct(size);
-      J = Vector3<T>(square[1] + square[2], square[2] + square[0], square[0] + square[1]) * (result.mass / 12.0);
+      J = Vector3<T>(square[1] + square[2], square[2] + square[0], square[0] + square[1]) *
+          (result.mass / 12.0);
       break;
     }
     case ShapeDescription::Kind::kCylinder: {
@@ -87,7 +92,8 @@ MassProperties<T> solid(const ShapeDescription& shape, const T& density, const s
   return result;
 }
 
-/// The sum of the solids, in the link's frame. Without mass, centre and inertia are zero. @param workspace overwritten.
+/// The sum of the solids, in the link's frame. Without mass, centre and inertia are zero. @param
+/// workspace overwritten.
 template <class T>
 MassProperties<T> from_shapes(const InertialDescription& inertial, const std::vector<T>& parameters,
                               std::vector<MassProperties<T>>* workspace) {
@@ -98,7 +104,8 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
   for (const ShapeDescription& shape : inertial.shapes) {
     MassProperties<T> part = solid(shape, density, parameters);
     part.centre = values_at(shape.origin.xyz, parameters);
-    part.inertia = turned(rotation_from_rpy<T>(values_at(shape.origin.rpy, parameters)), part.inertia);
+    part.inertia =
+        turned(rotation_from_rpy<T>(values_at(shape.origin.rpy, parameters)), part.inertia);
     total.mass += part.mass;
     total.centre += part.mass * part.centre;
     parts.push_back(part);
@@ -114,10 +121,12 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
 
 }  // namespace internal
 
-/// Mass properties of a link at `parameters`: the numbers given or, with a density, computed from its boxes, cylinders and spheres by the
-/// parallel-axis theorem; overlapping solids count twice. @param workspace overwritten.
+/// Mass properties of a link at `parameters`: the numbers given or, with a density, computed from
+/// its boxes, cylinders and spheres by the parallel-axis theorem; overlapping solids count twice.
+/// @param workspace overwritten.
 template <class T>
-MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters,
+MassProperties<T> mass_properties(const InertialDescription& inertial,
+                                  const std::vector<T>& parameters,
                                   std::vector<MassProperties<T>>* workspace) {
   if (inertial.density) return internal::from_shapes(inertial, parameters, workspace);
   MassProperties<T> result;
@@ -128,26 +137,32 @@ MassProperties<T> mass_properties(const InertialDescription& inertial, const std
   given << J(0), J(1), J(2),  //
       J(1), J(3), J(4),       //
       J(2), J(4), J(5);
-  result.inertia = internal::turned(rotation_from_rpy<T>(internal::values_at(inertial.origin.rpy, parameters)), given);
+  result.inertia = internal::turned(
+      rotation_from_rpy<T>(internal::values_at(inertial.origin.rpy, parameters)), given);
   return result;
 }
 template <class T>
-MassProperties<T> mass_properties(const InertialDescription& inertial, const std::vector<T>& parameters) {
+MassProperties<T> mass_properties(const InertialDescription& inertial,
+                                  const std::vector<T>& parameters) {
   std::vector<MassProperties<T>> workspace;
   return mass_properties(inertial, parameters, &workspace);
 }
 
 /// The names of the ten numbers below, which follow the name of the link: LINK_alpha and so on.
-inline constexpr std::array<const char*, 10> kLogCholeskyNames{"alpha", "d1", "d2", "d3", "s12", "s23", "s13", "t1", "t2", "t3"};
+inline constexpr std::array<const char*, 10> kLogCholeskyNames{"alpha", "d1",  "d2", "d3", "s12",
+                                                               "s23",   "s13", "t1", "t2", "t3"};
 /// Their units: alpha is half the logarithm of the mass in kg, d the logarithm of a length in m.
-inline constexpr std::array<const char*, 10> kLogCholeskyUnits{"", "", "", "", "m", "m", "m", "m", "m", "m"};
+inline constexpr std::array<const char*, 10> kLogCholeskyUnits{"",  "",  "",  "",  "m",
+                                                               "m", "m", "m", "m", "m"};
 
-/// The ten numbers of mass, centre and inertia by the logarithmic Cholesky factor of the pseudo-inertia (Rucker and Wensing [18]), theory
-/// (28e): for all values of the ten numbers there is a distribution of positive mass with these properties, and every such distribution has
-/// ten numbers.
+/// The ten numbers of mass, centre and inertia by the logarithmic Cholesky factor of the
+/// pseudo-inertia (Rucker and Wensing [18]), theory (28e): for all values of the ten numbers there
+/// is a distribution of positive mass with these properties, and every such distribution has ten
+/// numbers.
 /// @param properties in the link's axes.
-/// @returns in the order of kLogCholeskyNames; std::nullopt if mass or extent along some direction is not positive, as for points, rods and
-/// plates, or if a principal moment is not below the sum of the others.
+/// @returns in the order of kLogCholeskyNames; std::nullopt if mass or extent along some direction
+/// is not positive, as for points, rods and plates, or if a principal moment is not below the sum
+/// of the others.
 std::optional<std::array<double, 10>> log_cholesky(const MassProperties<double>& properties);
 /// The mass properties for any ten numbers; the inverse of log_cholesky().
 MassProperties<double> properties_of(const std::array<double, 10>& numbers);

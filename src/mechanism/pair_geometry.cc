@@ -13,8 +13,8 @@ namespace {
 template <class T>
 class PairBuilder {
  public:
-  PairBuilder(const RobotDescription& robot, const Topology& topology, const Pair& pair, const std::vector<T>& parameters,
-              PairConstants<T>* result)
+  PairBuilder(const RobotDescription& robot, const Topology& topology, const Pair& pair,
+              const std::vector<T>& parameters, PairConstants<T>* result)
       : robot_(robot),
         pair_(pair),
         parameters_(parameters),
@@ -43,7 +43,8 @@ class PairBuilder {
       result_.dynamics.push_back(dynamics(joint(k)));
       if (joint(k).actuator) place_rotor(k, X_ji.R);
     }
-    if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1) add_cylindrical_coordinates();
+    if (pair_.kind == PairKind::kCylindrical && pair_.chain.size() == 1)
+      add_cylindrical_coordinates();
     result_.R_ij = geometry_.X_ij.R;
     if (!pair_.is_loop && pair_.kind->in_forest) place_steps();
     if (pair_.friction_joint >= 0) result_.friction = friction();
@@ -54,7 +55,9 @@ class PairBuilder {
   using Coordinate = CoordinateConstants<T>;
   using Elements = ShortVector<std::size_t, ChainGeometry<T>::kFew>;
 
-  const JointDescription& joint(std::size_t k) const { return robot_.joints[to_index(pair_.chain[k].joint)]; }
+  const JointDescription& joint(std::size_t k) const {
+    return robot_.joints[to_index(pair_.chain[k].joint)];
+  }
   const Vector3<T>& axis(std::size_t k) const { return geometry_.axes[k]; }
   const Vector3<T>& origin(std::size_t k) const { return geometry_.frames[k].t; }
 
@@ -78,8 +81,8 @@ class PairBuilder {
     return sqrt(dot(x, x));
   }
 
-  // x'' is given in the joint frame of the element with the friction, else in the joint frame of the only turning element (else of the
-  // first element).
+  // x'' is given in the joint frame of the element with the friction, else in the joint frame of
+  // the only turning element (else of the first element).
   Matrix3<T> joint_axes() const {
     std::size_t frame = turns_.size() == 1 ? turns_[0] : 0;
     std::optional<std::array<double, 3>> preferred;
@@ -98,11 +101,14 @@ class PairBuilder {
     return C;
   }
 
-  // z of each side is its own axis. x is the other side's axis projected normal to z, so that both angles are zero at zero position.
+  // z of each side is its own axis. x is the other side's axis projected normal to z, so that both
+  // angles are zero at zero position.
   void place_universal(const Matrix3<T>& R_ji) {
     const Vector3<T> z_i = axis(0);
     const Vector3<T> z_j_in_i =
-        pair_.chain.size() == 2 ? axis(1) : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
+        pair_.chain.size() == 2
+            ? axis(1)
+            : Vector3<T>(geometry_.frames[0].R * axis_at(joint(0).second_axis, parameters_));
     result_.cosine = dot(z_i, z_j_in_i);
     const auto frame = [](const Vector3<T>& z, const Vector3<T>& other) {
       Matrix3<T> C;
@@ -148,7 +154,8 @@ class PairBuilder {
     result_.dynamics.resize(2);
   }
 
-  // d is the sum of the slides times their axes, so that each slide is the scalar product of d with a dual basis vector of the axes.
+  // d is the sum of the slides times their axes, so that each slide is the scalar product of d with
+  // a dual basis vector of the axes.
   Coordinate slide(std::size_t k, const Matrix3<T>& R_ji) const {
     Coordinate c;
     const bool before_turns = turns_.empty() || slides_.back() < turns_.front();
@@ -206,7 +213,8 @@ class PairBuilder {
     return normal(0, 1) && normal(1, 2) && normal(0, 2);
   }
 
-  // R_ij = R(z1) R(z2) R(z3) about axes normal to each other: the angles about z1 and z3 are arc tangents, the one about z2 an arc sine.
+  // R_ij = R(z1) R(z2) R(z3) about axes normal to each other: the angles about z1 and z3 are arc
+  // tangents, the one about z2 an arc sine.
   void tait_bryan_angle(std::size_t k, const Matrix3<T>& R_ji, Coordinate* c) const {
     const Vector3<T>&z1 = axis(turns_[0]), &z2 = axis(turns_[1]), &z3 = axis(turns_[2]);
     if (k == turns_[1]) {
@@ -225,10 +233,12 @@ class PairBuilder {
     c->d = R_ji * (first ? z3 : z1);
   }
 
-  // A plane slips along x'' and y'' of body i and turns about z''; a ball turns about the three ground axes.
+  // A plane slips along x'' and y'' of body i and turns about z''; a ball turns about the three
+  // ground axes.
   void place_slip() {
     SlipConstants<T>& slip = result_.slip;
-    const auto add = [&slip](typename Coordinate::Kind kind, const Vector3<T>& a, const T& arm, const T& viscous) {
+    const auto add = [&slip](typename Coordinate::Kind kind, const Vector3<T>& a, const T& arm,
+                             const T& viscous) {
       const std::size_t k = slip.coordinates.size();
       slip.coordinates.emplace_back();
       slip.coordinates[k].kind = kind;
@@ -238,11 +248,14 @@ class PairBuilder {
     };
     const FrictionConstants<T>& f = result_.friction;
     if (pair_.kind == PairKind::kTable || pair_.kind == PairKind::kPlanar)
-      for (int k = 0; k < 2; ++k) add(Coordinate::Kind::kSlide, result_.C_i.col(k), T(1.0), f.viscous);
+      for (int k = 0; k < 2; ++k)
+        add(Coordinate::Kind::kSlide, result_.C_i.col(k), T(1.0), f.viscous);
     if (pair_.kind == PairKind::kPlanar)
-      add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius, f.viscous * f.pin_radius * f.pin_radius);
+      add(Coordinate::Kind::kTurn, Vector3<T>::Zero(), f.pin_radius,
+          f.viscous * f.pin_radius * f.pin_radius);
     if (pair_.kind == PairKind::kSpherical)
-      for (int k = 0; k < 3; ++k) add(Coordinate::Kind::kSpin, Vector3<T>::Unit(k), f.pin_radius, f.viscous);
+      for (int k = 0; k < 3; ++k)
+        add(Coordinate::Kind::kSpin, Vector3<T>::Unit(k), f.pin_radius, f.viscous);
   }
 
   JointDynamicsConstants<T> dynamics(const JointDescription& joint) const {
@@ -297,30 +310,37 @@ class PairBuilder {
 }  // namespace
 
 template <class T>
-void pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair, const Vector3<T>& centre_i,
-                    const Vector3<T>& centre_j, const std::vector<T>& parameters, PairConstants<T>* constants) {
+void pair_constants(const RobotDescription& robot, const Topology& topology, const Pair& pair,
+                    const Vector3<T>& centre_i, const Vector3<T>& centre_j,
+                    const std::vector<T>& parameters, PairConstants<T>* constants) {
   PairBuilder<T>(robot, topology, pair, parameters, constants).build(centre_i, centre_j);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                \
-  template void pair_constants<T>(const RobotDescription&, const Topology&, const Pair&, const Vector3<T>&, const Vector3<T>&, \
-                                  const std::vector<T>&, PairConstants<T>*);
+#define CODESIGN_INSTANTIATE(T)                                                                \
+  template void pair_constants<T>(const RobotDescription&, const Topology&, const Pair&,       \
+                                  const Vector3<T>&, const Vector3<T>&, const std::vector<T>&, \
+                                  PairConstants<T>*);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
-void check_friction_geometry(const FrictionDescription& friction, PairKind kind, const std::string& element) {
+void check_friction_geometry(const FrictionDescription& friction, PairKind kind,
+                             const std::string& element) {
   const auto require = [&](const Quantity& dimension, const char* name) {
     if (dimension.is_zero())  // the reader accepts only positive dimensions
-      throw InputError({friction.where, element, std::string("the friction of this joint type needs the attribute ") + name, "", "> 0"});
+      throw InputError({friction.where, element,
+                        std::string("the friction of this joint type needs the attribute ") + name,
+                        "", "> 0"});
   };
   if (friction.is_directional && slips_isotropically(kind))
-    throw InputError(
-        {friction.where, element, "this joint slips in several directions, none of which is backward", "",
-         "mu_static_backward, mu_dynamic_backward and viscous_backward on revolute, continuous, prismatic and cylindrical joints"});
+    throw InputError({friction.where, element,
+                      "this joint slips in several directions, none of which is backward", "",
+                      "mu_static_backward, mu_dynamic_backward and viscous_backward on revolute, "
+                      "continuous, prismatic and cylindrical joints"});
   const BearingLaw& bearing = kind->bearing;
   if (!bearing.normal_force)
-    throw InputError({friction.where, element, "joints of this type have no friction law", "",
-                      "friction on revolute, continuous, prismatic, cylindrical, spherical and planar joints"});
+    throw InputError(
+        {friction.where, element, "joints of this type have no friction law", "",
+         "friction on revolute, continuous, prismatic, cylindrical, spherical and planar joints"});
   if (bearing.joint_length) require(friction.joint_length, "joint_length");
   if (bearing.joint_width) require(friction.joint_width, "joint_width");
   if (bearing.pin_radius) require(friction.pin_radius, "pin_radius");

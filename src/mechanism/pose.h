@@ -48,7 +48,8 @@ Vector3<T> axis_at(const QuantityVector& axis, const std::vector<T>& parameters)
 
 /// Pose of a link in the base link of its rigid group, through the fixed joints between them.
 template <class T>
-Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint, int link,
+Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link_base,
+                     const std::vector<int>& link_parent_joint, int link,
                      const std::vector<T>& parameters) {
   Pose<T> pose;
   while (link != link_base[to_index(link)]) {
@@ -59,10 +60,11 @@ Pose<T> link_in_base(const RobotDescription& robot, const std::vector<int>& link
   return pose;
 }
 
-/// The axis x'' normal to the unit vector z: the projection of the preferred direction or, without one, of the coordinate axis that follows
-/// the largest component of z in the order x, y, z, x.
+/// The axis x'' normal to the unit vector z: the projection of the preferred direction or, without
+/// one, of the coordinate axis that follows the largest component of z in the order x, y, z, x.
 template <class T>
-Vector3<T> transverse_axis(const Vector3<T>& z, const std::optional<std::array<double, 3>>& preferred) {
+Vector3<T> transverse_axis(const Vector3<T>& z,
+                           const std::optional<std::array<double, 3>>& preferred) {
   using std::sqrt;
   Vector3<T> x = Vector3<T>::Zero();
   if (preferred) {
@@ -89,11 +91,13 @@ PlaneAxes<T> plane_axes(const JointDescription& joint, const std::vector<T>& par
   return {x, cross(z, x)};
 }
 
-/// Calls visit(turns, axis) for each coordinate of a joint in turn: whether it turns about the unit vector `axis`, else it slides along
-/// it. Axes are those at zero position in the joint frame. Of joints of other types than revolute, continuous, prismatic, planar (two
-/// slides, then a turn) and floating (three slides, then turns about x, y and z) none.
+/// Calls visit(turns, axis) for each coordinate of a joint in turn: whether it turns about the unit
+/// vector `axis`, else it slides along it. Axes are those at zero position in the joint frame. Of
+/// joints of other types than revolute, continuous, prismatic, planar (two slides, then a turn) and
+/// floating (three slides, then turns about x, y and z) none.
 template <class T, class Visit>
-void visit_steps(const JointDescription& joint, const std::vector<T>& parameters, const Visit& visit) {
+void visit_steps(const JointDescription& joint, const std::vector<T>& parameters,
+                 const Visit& visit) {
   if (joint.type == JointType::kFloating) {
     for (bool turns : {false, true})
       for (int k = 0; k < 3; ++k) visit(turns, Vector3<T>(Vector3<T>::Unit(k)));

@@ -12,13 +12,15 @@ namespace codesign {
 /// Groups of links that are joined by fixed joints.
 struct RigidGroups {
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
-  std::vector<int> link_base;          ///< per link: the base link of its group, which is the nearest to the root
+  std::vector<int>
+      link_base;  ///< per link: the base link of its group, which is the nearest to the root
 
   explicit RigidGroups(const RobotDescription& robot);
 };
 
-/// Poses of links in the base links of their rigid groups at one design, each computed once. The same as link_in_base() to the last bit for
-/// up to kWalk fixed joints in a row; longer chains go on from a pose that is known, so that their cost grows with their length only.
+/// Poses of links in the base links of their rigid groups at one design, each computed once. The
+/// same as link_in_base() to the last bit for up to kWalk fixed joints in a row; longer chains go
+/// on from a pose that is known, so that their cost grows with their length only.
 template <class T>
 class LinkPoses {
  public:
@@ -27,7 +29,8 @@ class LinkPoses {
     known_.assign(links, false);
     poses_.resize(links);
   }
-  const Pose<T>& of(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint, int link,
+  const Pose<T>& of(const RobotDescription& robot, const std::vector<int>& link_base,
+                    const std::vector<int>& link_parent_joint, int link,
                     const std::vector<T>& parameters) {
     const auto place = to_index(link);
     if (known_[place]) return poses_[place];
@@ -58,11 +61,14 @@ struct MassWorkspace {
   LinkPoses<T> poses;  ///< at the parameters of the call; to be started by the caller
 };
 
-/// Mass, centre of mass and inertia about it of `links`, which form one group, in the frame of their base link. If the mass is zero, the
-/// centre is the origin of the base link. @param workspace overwritten but for its poses, which must belong to `parameters`.
+/// Mass, centre of mass and inertia about it of `links`, which form one group, in the frame of
+/// their base link. If the mass is zero, the centre is the origin of the base link. @param
+/// workspace overwritten but for its poses, which must belong to `parameters`.
 template <class T>
-MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<int>& link_base, const std::vector<int>& link_parent_joint,
-                              const std::vector<int>& links, const std::vector<T>& parameters, MassWorkspace<T>* workspace) {
+MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<int>& link_base,
+                              const std::vector<int>& link_parent_joint,
+                              const std::vector<int>& links, const std::vector<T>& parameters,
+                              MassWorkspace<T>* workspace) {
   MassProperties<T> result;
   std::vector<MassProperties<T>>& parts = workspace->links;
   parts.clear();
@@ -80,7 +86,8 @@ MassProperties<T> merged_mass(const RobotDescription& robot, const std::vector<i
   if (is_less(T(0.0), T(result.mass * result.mass), true)) result.centre /= result.mass;
   for (const MassProperties<T>& part : parts) {
     const Vector3<T> offset = part.centre - result.centre;
-    result.inertia += part.inertia + part.mass * (dot(offset, offset) * Matrix3<T>::Identity() - offset * offset.transpose());
+    result.inertia += part.inertia + part.mass * (dot(offset, offset) * Matrix3<T>::Identity() -
+                                                  offset * offset.transpose());
   }
   return result;
 }

@@ -11,10 +11,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-bool contains(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
-/// The quantities of everything that has the name of a signal's object. A link and a joint may have the same name; the quantity then tells
-/// them apart.
+/// The quantities of everything that has the name of a signal's object. A link and a joint may have
+/// the same name; the quantity then tells them apart.
 struct Offer {
   bool exists = false;
   Names scalars;        ///< of a joint, a controller or the mechanism
@@ -45,26 +47,31 @@ const Names& mechanism_quantities() {
 void add_joint(const JointDescription& joint, Offer* offer) {
   offer->exists = true;
   if (has_one_coordinate(joint.type))
-    offer->scalars = {"position", "velocity", "acceleration", "effort", "effort_rate", "actuator_power", "damping_power", "load_power"};
+    offer->scalars = {"position",    "velocity",       "acceleration",  "effort",
+                      "effort_rate", "actuator_power", "damping_power", "load_power"};
   if (has_friction(joint))
-    for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"}) offer->scalars.emplace_back(quantity);
+    for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"})
+      offer->scalars.emplace_back(quantity);
   offer->welded = joint.type == JointType::kFixed && !joint.is_loop;
   if (!offer->welded) offer->vectors = reactions();
 }
 
-Offer offer_of(const std::string& name, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+Offer offer_of(const std::string& name, const RobotDescription& robot,
+               const std::vector<ControllerDescription>& controllers) {
   Offer offer;
   for (const JointDescription& joint : robot.joints)
     if (joint.name == name) add_joint(joint, &offer);
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;
     offer.exists = true;
-    offer.scalars = controller.kind->has_error() ? Names{"error", "setpoint", "integral", "output"} : Names{"output"};
+    offer.scalars = controller.kind->has_error() ? Names{"error", "setpoint", "integral", "output"}
+                                                 : Names{"output"};
   }
   for (const LinkDescription& link : robot.links) {
     if (link.name != name) continue;
     offer.exists = true;
-    for (const char* quantity : {"position", "velocity", "angular_velocity"}) offer.vectors.emplace_back(quantity);
+    for (const char* quantity : {"position", "velocity", "angular_velocity"})
+      offer.vectors.emplace_back(quantity);
     offer.quaternions = {"orientation"};
   }
   if (name == kMechanism) {
@@ -75,7 +82,8 @@ Offer offer_of(const std::string& name, const RobotDescription& robot, const std
   return offer;
 }
 
-Names all_names(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+Names all_names(const RobotDescription& robot,
+                const std::vector<ControllerDescription>& controllers) {
   Names names;
   for (const JointDescription& joint : robot.joints) names.push_back(joint.name);
   for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
@@ -88,8 +96,10 @@ Names spelled(const std::string& object, const Offer& offer) {
   const std::string prefix = object + "/";
   Names spellings;
   for (const std::string& quantity : offer.scalars) spellings.push_back(prefix + quantity);
-  for (const std::string& quantity : offer.vectors) spellings.push_back(prefix + quantity + "/{x,y,z}");
-  for (const std::string& quantity : offer.quaternions) spellings.push_back(prefix + quantity + "/{w,x,y,z}");
+  for (const std::string& quantity : offer.vectors)
+    spellings.push_back(prefix + quantity + "/{x,y,z}");
+  for (const std::string& quantity : offer.quaternions)
+    spellings.push_back(prefix + quantity + "/{w,x,y,z}");
   return spellings;
 }
 
@@ -97,28 +107,41 @@ std::string spelling(const SignalTerm& term) {
   return term.object + "/" + term.quantity + (term.component.empty() ? "" : "/" + term.component);
 }
 
-void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation& where, const std::string& element) {
+void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation& where,
+                const std::string& element) {
   const bool as_scalar = contains(offer.scalars, term.quantity);
   const bool as_quaternion = contains(offer.quaternions, term.quantity);
   const bool as_vector = contains(offer.vectors, term.quantity) || as_quaternion;
-  const bool good_component =
-      term.component == "x" || term.component == "y" || term.component == "z" || (as_quaternion && term.component == "w");
+  const bool good_component = term.component == "x" || term.component == "y" ||
+                              term.component == "z" || (as_quaternion && term.component == "w");
   if (contains(offer.ambiguous, term.quantity))
-    throw InputError({where, element, "a joint is named mechanism, so that this could also be the power of the whole mechanism",
-                      spelling(term), "rename the joint"});
+    throw InputError(
+        {where, element,
+         "a joint is named mechanism, so that this could also be the power of the whole mechanism",
+         spelling(term), "rename the joint"});
   if (offer.welded && is_reaction(term))
-    throw InputError({where, element, "the links of a fixed joint form one body, so the reaction between them is not computed",
-                      spelling(term), "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed joint"});
+    throw InputError(
+        {where, element,
+         "the links of a fixed joint form one body, so the reaction between them is not computed",
+         spelling(term),
+         "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed "
+         "joint"});
   if (as_scalar && term.component.empty()) return;
   if (as_vector && good_component) return;
   const std::string allowed = list_names(spelled(term.object, offer));
   if (as_vector)
-    throw InputError({where, element, std::string("this signal needs the component ") + (as_quaternion ? "w, x, y or z" : "x, y or z"),
+    throw InputError({where, element,
+                      std::string("this signal needs the component ") +
+                          (as_quaternion ? "w, x, y or z" : "x, y or z"),
                       spelling(term), allowed});
-  if (as_scalar) throw InputError({where, element, "this signal has no components", spelling(term), allowed});
+  if (as_scalar)
+    throw InputError({where, element, "this signal has no components", spelling(term), allowed});
   Names known = offer.scalars;
-  for (const Names* more : {&offer.vectors, &offer.quaternions}) known.insert(known.end(), more->begin(), more->end());
-  InputFault fault = unknown_name(where, element, "quantity of \"" + term.object + "\"", term.quantity, known).fault();
+  for (const Names* more : {&offer.vectors, &offer.quaternions})
+    known.insert(known.end(), more->begin(), more->end());
+  InputFault fault =
+      unknown_name(where, element, "quantity of \"" + term.object + "\"", term.quantity, known)
+          .fault();
   fault.value = spelling(term);
   fault.allowed = allowed;
   throw InputError(fault);
@@ -127,23 +150,30 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
 }  // namespace
 
 bool is_of_mechanism(const SignalTerm& term) {
-  return term.object == kMechanism && term.component.empty() && contains(mechanism_quantities(), term.quantity);
+  return term.object == kMechanism && term.component.empty() &&
+         contains(mechanism_quantities(), term.quantity);
 }
 
 bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
 
-bool has_friction(const JointDescription& joint) { return joint.friction.has_value() || !joint.dry_friction.is_zero(); }
+bool has_friction(const JointDescription& joint) {
+  return joint.friction.has_value() || !joint.dry_friction.is_zero();
+}
 
-void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
+void check_signal(const SignalDescription& signal, const RobotDescription& robot,
+                  const std::vector<ControllerDescription>& controllers,
                   const std::string& element) {
   for (const SignalTerm& term : signal.terms) {
     const Offer offer = offer_of(term.object, robot, controllers);
-    if (!offer.exists) throw unknown_name(signal.where, element, "joint, link or controller", term.object, all_names(robot, controllers));
+    if (!offer.exists)
+      throw unknown_name(signal.where, element, "joint, link or controller", term.object,
+                         all_names(robot, controllers));
     check_term(term, offer, signal.where, element);
   }
 }
 
-std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers) {
+std::vector<std::string> default_signals(const RobotDescription& robot,
+                                         const std::vector<ControllerDescription>& controllers) {
   const std::vector<int> pairs = derive_topology(robot).joint_pair;
   Names signals;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
@@ -154,17 +184,22 @@ std::vector<std::string> default_signals(const RobotDescription& robot, const st
   }
   for (const JointDescription& joint : robot.joints) {
     if (!has_friction(joint)) continue;
-    for (const char* quantity : {"/friction", "/normal_force", "/sliding_velocity"}) signals.push_back(joint.name + quantity);
+    for (const char* quantity : {"/friction", "/normal_force", "/sliding_velocity"})
+      signals.push_back(joint.name + quantity);
   }
-  for (const ControllerDescription& controller : controllers) signals.push_back(controller.name + "/output");
+  for (const ControllerDescription& controller : controllers)
+    signals.push_back(controller.name + "/output");
   return signals;
 }
 
 std::vector<SignalDescription> signals_of(const MotionStudy& study) {
   std::vector<SignalDescription> signals;
   const auto add = [&signals](const SignalDescription& signal) {
-    const auto is_same = [&signal](const SignalDescription& other) { return other.text == signal.text; };
-    if (!signal.terms.empty() && std::none_of(signals.begin(), signals.end(), is_same)) signals.push_back(signal);
+    const auto is_same = [&signal](const SignalDescription& other) {
+      return other.text == signal.text;
+    };
+    if (!signal.terms.empty() && std::none_of(signals.begin(), signals.end(), is_same))
+      signals.push_back(signal);
   };
   for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
     for (const ObjectiveTerm& term : *terms) add(term.signal);

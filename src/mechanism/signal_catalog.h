@@ -12,22 +12,28 @@ namespace codesign {
 /// Whether a joint or loop has friction, from `<codesign:friction>` or `<dynamics friction>`.
 bool has_friction(const JointDescription& joint);
 
-/// Whether a term is a quantity of the whole mechanism, such as `mechanism/total_energy`. The quantity distinguishes it from a joint, link
-/// or controller named `mechanism`; check_signal() rejects the terms that stay ambiguous.
+/// Whether a term is a quantity of the whole mechanism, such as `mechanism/total_energy`. The
+/// quantity distinguishes it from a joint, link or controller named `mechanism`; check_signal()
+/// rejects the terms that stay ambiguous.
 bool is_of_mechanism(const SignalTerm& term);
-/// Whether a term is a reaction force or torque of a joint. The quantity distinguishes the joint from a link of the same name.
+/// Whether a term is a reaction force or torque of a joint. The quantity distinguishes the joint
+/// from a link of the same name.
 bool is_reaction(const SignalTerm& term);
 
 /// Checks that the object of each term exists and has the quantity and component.
 /// @throws InputError naming the term, the allowed ones and the nearest known name.
-void check_signal(const SignalDescription& signal, const RobotDescription& robot, const std::vector<ControllerDescription>& controllers,
+void check_signal(const SignalDescription& signal, const RobotDescription& robot,
+                  const std::vector<ControllerDescription>& controllers,
                   const std::string& element);
 
-/// The signals recorded by default: position and velocity of every joint that moves a mass; friction, normal force and sliding velocity of
-/// every joint with friction; the output of each controller.
-std::vector<std::string> default_signals(const RobotDescription& robot, const std::vector<ControllerDescription>& controllers);
+/// The signals recorded by default: position and velocity of every joint that moves a mass;
+/// friction, normal force and sliding velocity of every joint with friction; the output of each
+/// controller.
+std::vector<std::string> default_signals(const RobotDescription& robot,
+                                         const std::vector<ControllerDescription>& controllers);
 
-/// The signals that a study uses, each once: the signals of its objective and constraints, then the signals of its controllers.
+/// The signals that a study uses, each once: the signals of its objective and constraints, then the
+/// signals of its controllers.
 std::vector<SignalDescription> signals_of(const MotionStudy& study);
 
 }  // namespace codesign

@@ -12,7 +12,8 @@
 namespace codesign {
 namespace {
 
-/// The graph of the mechanism: its vertices are groups of rigidly joined links, its edges joints, loops, or chains of them.
+/// The graph of the mechanism: its vertices are groups of rigidly joined links, its edges joints,
+/// loops, or chains of them.
 struct Edge {
   int from = -1, to = -1;  // groups
   std::vector<ChainElement> chain;
@@ -59,7 +60,8 @@ class TopologyBuilder {
   // Bodies are numbered in the order of their base links in the file, which is the order of q.
   void number_bodies() {
     std::map<int, std::vector<int>> groups;
-    for (std::size_t link = 0; link < robot_.links.size(); ++link) groups[topology_.link_base[link]].push_back(static_cast<int>(link));
+    for (std::size_t link = 0; link < robot_.links.size(); ++link)
+      groups[topology_.link_base[link]].push_back(static_cast<int>(link));
     topology_.link_body.assign(robot_.links.size(), Topology::kMassless);
     for (auto& [base, links] : groups) {
       int body = Topology::kMassless;
@@ -67,7 +69,8 @@ class TopologyBuilder {
         body = Topology::kGround;
       } else if (!massless(base)) {
         body = static_cast<int>(topology_.bodies.size());
-        std::stable_partition(links.begin(), links.end(), [base = base](int link) { return link == base; });
+        std::stable_partition(links.begin(), links.end(),
+                              [base = base](int link) { return link == base; });
         topology_.bodies.push_back({robot_.links[index(base)].name, base, links});
       }
       for (int link : links) topology_.link_body[index(link)] = body;
@@ -80,14 +83,17 @@ class TopologyBuilder {
       if (joint.type == JointType::kFixed && !joint.is_loop) continue;
       edges_.push_back(single_edge(static_cast<int>(k)));
       if (edges_.back().from == edges_.back().to)
-        throw InputError(
-            {joint.where, joint.element(), "both ends lie on the same rigid body", robot_.links[index(joint.parent)].name, ""});
+        throw InputError({joint.where, joint.element(), "both ends lie on the same rigid body",
+                          robot_.links[index(joint.parent)].name, ""});
     }
   }
 
   Edge single_edge(int joint) const {
     const JointDescription& description = robot_.joints[index(joint)];
-    return {topology_.link_base[index(description.parent)], topology_.link_base[index(description.child)], {{joint, false}}, {}};
+    return {topology_.link_base[index(description.parent)],
+            topology_.link_base[index(description.child)],
+            {{joint, false}},
+            {}};
   }
 
   std::vector<std::size_t> edges_at(int group) const {
@@ -97,7 +103,8 @@ class TopologyBuilder {
     return result;
   }
 
-  // A massless link at the end of a chain, such as a sensor frame, has no dynamics: its joint keeps its position.
+  // A massless link at the end of a chain, such as a sensor frame, has no dynamics: its joint keeps
+  // its position.
   void drop_massless_ends() {
     for (bool changed = true; changed;) {
       changed = false;
@@ -112,12 +119,14 @@ class TopologyBuilder {
     }
   }
 
-  // Whether the joint of a massless end link must be kept: it has a rotor, other joints mimic it, or a coupling counts it.
+  // Whether the joint of a massless end link must be kept: it has a rotor, other joints mimic it,
+  // or a coupling counts it.
   bool carries_load(int joint) const {
     const JointDescription& description = robot_.joints[index(joint)];
     if (description.actuator) return true;
     for (const Edge& edge : edges_) {
-      const std::optional<MimicDescription>& mimic = robot_.joints[index(edge.chain[0].joint)].mimic;
+      const std::optional<MimicDescription>& mimic =
+          robot_.joints[index(edge.chain[0].joint)].mimic;
       if (mimic && mimic->joint == description.name) return true;
     }
     return in_coupling_[index(joint)];
@@ -126,12 +135,13 @@ class TopologyBuilder {
   void find_coupled() {
     in_coupling_.assign(robot_.joints.size(), false);
     for (const CouplingDescription& coupling : robot_.couplings)
-      for (int joint : joints_between(robot_, topology_.link_parent_joint, coupling.predecessor, coupling.successor))
+      for (int joint : joints_between(robot_, topology_.link_parent_joint, coupling.predecessor,
+                                      coupling.successor))
         in_coupling_[index(joint)] = true;
   }
 
-  // A massless group between two joints is folded. Any other massless group, with three joints or more or with a load, becomes a body
-  // without mass.
+  // A massless group between two joints is folded. Any other massless group, with three joints or
+  // more or with a load, becomes a body without mass.
   void contract_massless_chains() {
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       const int group = static_cast<int>(link);
@@ -146,12 +156,13 @@ class TopologyBuilder {
     }
   }
 
-  // The massless links of a chain that is not equivalent to one joint, or that returns to the body where it starts, become bodies without
-  // mass.
+  // The massless links of a chain that is not equivalent to one joint, or that returns to the body
+  // where it starts, become bodies without mass.
   void unfold_chains() {
     for (std::size_t k = 0; k < edges_.size();) {
       const Edge edge = edges_[k];
-      if (edge.chain.size() == 1 || (edge.from != edge.to && folds(robot_, topology_, edge.chain))) {
+      if (edge.chain.size() == 1 ||
+          (edge.from != edge.to && folds(robot_, topology_, edge.chain))) {
         ++k;
         continue;
       }
@@ -160,11 +171,14 @@ class TopologyBuilder {
       for (int group : edge.inside) is_body_[index(group)] = true;
       for (const ChainElement& element : edge.chain) edges_.push_back(single_edge(element.joint));
     }
-    std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return first_joint(a) < first_joint(b); });
+    std::stable_sort(edges_.begin(), edges_.end(),
+                     [](const Edge& a, const Edge& b) { return first_joint(a) < first_joint(b); });
   }
 
   static int first_joint(const Edge& edge) {
-    const auto by_number = [](const ChainElement& a, const ChainElement& b) { return a.joint < b.joint; };
+    const auto by_number = [](const ChainElement& a, const ChainElement& b) {
+      return a.joint < b.joint;
+    };
     return std::min_element(edge.chain.begin(), edge.chain.end(), by_number)->joint;
   }
 
@@ -211,7 +225,8 @@ class TopologyBuilder {
     const JointDescription& description = robot_.joints[index(joint)];
     if (!description.friction) return;
     if (pair->friction_joint >= 0)
-      throw InputError({description.friction->where, description.element(), "a second <codesign:friction> on one folded joint", pair->name,
+      throw InputError({description.friction->where, description.element(),
+                        "a second <codesign:friction> on one folded joint", pair->name,
                         "one for the whole chain of massless links"});
     pair->friction_joint = joint;
   }
@@ -224,7 +239,8 @@ class TopologyBuilder {
 
   const RobotDescription& robot_;
   Topology topology_;
-  std::vector<bool> is_body_;      // per base link of a group: it has mass, is the ground, or cannot be folded
+  std::vector<bool>
+      is_body_;  // per base link of a group: it has mass, is the ground, or cannot be folded
   std::vector<bool> in_coupling_;  // per joint: it is part of a coupling
   std::vector<Edge> edges_;
 };
@@ -239,13 +255,17 @@ Topology derive_topology(const RobotDescription& robot) {
 
 namespace {}  // namespace
 
-std::vector<int> links_above(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int link) {
+std::vector<int> links_above(const RobotDescription& robot,
+                             const std::vector<int>& link_parent_joint, int link) {
   std::vector<int> links = {link};
-  for (int joint; (joint = link_parent_joint[to_index(links.back())]) >= 0;) links.push_back(robot.joints[to_index(joint)].parent);
+  for (int joint; (joint = link_parent_joint[to_index(links.back())]) >= 0;)
+    links.push_back(robot.joints[to_index(joint)].parent);
   return links;
 }
 
-std::vector<int> joints_between(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int predecessor, int successor) {
+std::vector<int> joints_between(const RobotDescription& robot,
+                                const std::vector<int>& link_parent_joint, int predecessor,
+                                int successor) {
   const std::vector<int> above = links_above(robot, link_parent_joint, predecessor);
   const std::vector<int> below = links_above(robot, link_parent_joint, successor);
   const int ancestor = *std::find_first_of(below.begin(), below.end(), above.begin(), above.end());

@@ -16,13 +16,15 @@ struct Body {
   std::vector<int> links;  ///< indices of its links, the base link first
 };
 
-/// A joint or loop in the chain of a pair. `reversed`: the chain runs from the joint's child to its parent.
+/// A joint or loop in the chain of a pair. `reversed`: the chain runs from the joint's child to its
+/// parent.
 struct ChainElement {
   int joint = -1;
   bool reversed = false;
 };
 
-/// A kinematic pair: one joint or loop, or a chain of them across massless links that is folded into one joint.
+/// A kinematic pair: one joint or loop, or a chain of them across massless links that is folded
+/// into one joint.
 struct Pair {
   std::string name;
   PairKind kind = PairKind::kFree;
@@ -32,30 +34,37 @@ struct Pair {
   bool is_loop = false;             ///< the chain contains a loop
 };
 
-/// The bodies, pairs and couplings of a mechanism, derived from its description. It does not depend on the design.
+/// The bodies, pairs and couplings of a mechanism, derived from its description. It does not depend
+/// on the design.
 struct Topology {
-  static constexpr int kGround = -1;    ///< body index of links that are fixed to the root
-  static constexpr int kMassless = -2;  ///< body index of links without mass inside a folded chain or at its end
+  static constexpr int kGround = -1;  ///< body index of links that are fixed to the root
+  static constexpr int kMassless =
+      -2;  ///< body index of links without mass inside a folded chain or at its end
 
   std::vector<Body> bodies;
   std::vector<Pair> pairs;
   std::vector<int> link_body;          ///< per link: body index, kGround or kMassless
   std::vector<int> link_base;          ///< per link: base link of its rigid group
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
-  std::vector<int> joint_pair;         ///< per joint: its pair; -1 if it is fixed inside a body or moves only massless links
+  std::vector<int> joint_pair;  ///< per joint: its pair; -1 if it is fixed inside a body or moves
+                                ///< only massless links
   std::vector<Coupling> couplings;
 };
 
 /// Merges links joined by fixed joints into bodies and folds chains of massless links into pairs.
-/// @throws InputError for a chain that cannot be folded, for two friction annotations on one pair, for a loop within one body, and for
-/// couplings as derive_couplings() says.
+/// @throws InputError for a chain that cannot be folded, for two friction annotations on one pair,
+/// for a loop within one body, and for couplings as derive_couplings() says.
 Topology derive_topology(const RobotDescription& robot);
 
 /// The links from `link`, included, up to the root.
 /// @param link_parent_joint per link: the tree joint above it, -1 for the root.
-std::vector<int> links_above(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int link);
+std::vector<int> links_above(const RobotDescription& robot,
+                             const std::vector<int>& link_parent_joint, int link);
 
-/// The tree joints that are not fixed on the path between two links, which passes through their nearest common ancestor.
-std::vector<int> joints_between(const RobotDescription& robot, const std::vector<int>& link_parent_joint, int predecessor, int successor);
+/// The tree joints that are not fixed on the path between two links, which passes through their
+/// nearest common ancestor.
+std::vector<int> joints_between(const RobotDescription& robot,
+                                const std::vector<int>& link_parent_joint, int predecessor,
+                                int successor);
 
 }  // namespace codesign

@@ -6,14 +6,19 @@
 namespace codesign {
 namespace {
 
-/// The names of Open MPI, of PMIx (srun, Open MPI 5 under another launcher) and of PMI (Hydra, srun).
+/// The names of Open MPI, of PMIx (srun, Open MPI 5 under another launcher) and of PMI (Hydra,
+/// srun).
 struct Names {
   const char* rank;
   const char* ranks;
 };
-constexpr Names kLaunchers[] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMIX_RANK", "PMIX_SIZE"}, {"PMI_RANK", "PMI_SIZE"}};
+constexpr Names kLaunchers[] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+                                {"PMIX_RANK", "PMIX_SIZE"},
+                                {"PMI_RANK", "PMI_SIZE"}};
 
-int number(const char* text, int otherwise) { return text == nullptr ? otherwise : std::atoi(text); }
+int number(const char* text, int otherwise) {
+  return text == nullptr ? otherwise : std::atoi(text);
+}
 
 const char* of_process(const char* name) { return std::getenv(name); }
 
@@ -21,7 +26,8 @@ const char* of_process(const char* name) { return std::getenv(name); }
 
 std::optional<Launched> find_launcher(const char* (*value)(const char* name)) {
   for (const Names& names : kLaunchers)
-    if (const char* const rank = value(names.rank)) return Launched{number(rank, 0), number(value(names.ranks), 0)};
+    if (const char* const rank = value(names.rank))
+      return Launched{number(rank, 0), number(value(names.ranks), 0)};
   return std::nullopt;
 }
 

@@ -6,14 +6,15 @@
 
 namespace codesign {
 
-/// Environment variables of a launcher of MPI programs (mpirun, srun) about this process. They are set before MPI is initialized, and also
-/// in a build without MPI.
+/// Environment variables of a launcher of MPI programs (mpirun, srun) about this process. They are
+/// set before MPI is initialized, and also in a build without MPI.
 struct Launched {
   int rank = 0;
   int ranks = 0;  ///< 0 if the launcher does not set it
 };
 
-/// std::nullopt if no launcher has started this process. @param value of an environment variable by name; null: not set.
+/// std::nullopt if no launcher has started this process. @param value of an environment variable by
+/// name; null: not set.
 std::optional<Launched> find_launcher(const char* (*value)(const char* name));
 
 /// Reads the environment of this process.

@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// The ranks of MPI_COMM_WORLD. MPI is initialized by the constructor and finalized by finish(); there is one object per process.
+/// The ranks of MPI_COMM_WORLD. MPI is initialized by the constructor and finalized by finish();
+/// there is one object per process.
 class MpiTransport final : public Transport {
  public:
   /// @throws std::runtime_error if MPI cannot be initialized for calls from one thread at a time.

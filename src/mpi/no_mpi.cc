@@ -14,7 +14,9 @@ int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>&
   // Otherwise each process would run the same job and write the same files.
   if (launched->rank == 0)
     std::cerr << name << ": started as " << launched->ranks
-              << " processes, but built without MPI; install libopenmpi-dev and build again, or start it without mpirun" << std::endl;
+              << " processes, but built without MPI; install libopenmpi-dev and build again, or "
+                 "start it without mpirun"
+              << std::endl;
   return kBadInput;
 }
 

@@ -15,10 +15,12 @@ namespace {
 constexpr int kFailed = 1;
 constexpr auto kFlush = std::chrono::seconds(2);  // for the last messages
 
-// mpirun sends its signals to all ranks. The first signal is for rank 0, which keeps its results and then ends the other ranks.
+// mpirun sends its signals to all ranks. The first signal is for rank 0, which keeps its results
+// and then ends the other ranks.
 extern "C" void stay(int signal_number) { std::signal(signal_number, SIG_DFL); }
 
-/// Ends MPI. If not all ranks can end together, the remaining ranks end at once; otherwise they would wait for each other forever.
+/// Ends MPI. If not all ranks can end together, the remaining ranks end at once; otherwise they
+/// would wait for each other forever.
 int finish(MpiTransport* transport, bool in_order, int code) {
   if (!in_order || !transport->flush(kFlush)) transport->abort(code);
   transport->finish();
@@ -29,7 +31,8 @@ int serve(const std::string& name, MpiTransport* transport) {
   std::signal(SIGINT, stay);
   std::signal(SIGTERM, stay);
   const std::string fault = RankWorker(transport).run();
-  if (!fault.empty()) std::cerr << name << ": rank " << transport->rank() << " ends: " << fault << std::endl;
+  if (!fault.empty())
+    std::cerr << name << ": rank " << transport->rank() << " ends: " << fault << std::endl;
   return finish(transport, fault.empty(), fault.empty() ? 0 : kFailed);
 }
 
@@ -46,7 +49,9 @@ int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>&
   Dispatcher dispatcher(&transport);
   const int code = first(&dispatcher);
   const bool in_order = dispatcher.finish();
-  if (!in_order) std::cerr << name << ": not all ranks have ended in order; those that are left are ended now" << std::endl;
+  if (!in_order)
+    std::cerr << name << ": not all ranks have ended in order; those that are left are ended now"
+              << std::endl;
   std::cout.flush();
   return finish(&transport, in_order, code);
 }

@@ -11,9 +11,9 @@ namespace codesign {
 
 /// Mechanical energy [J].
 struct Energy {
-  double kinetic = 0.0;  ///< of bodies and rotors
-  double potential =
-      0.0;  ///< gravity (zero at the root's origin), torsion springs, spring-dampers, stops; without bristles of friction laws
+  double kinetic = 0.0;    ///< of bodies and rotors
+  double potential = 0.0;  ///< gravity (zero at the root's origin), torsion springs,
+                           ///< spring-dampers, stops; without bristles of friction laws
 
   double total() const { return kinetic + potential; }
 };
@@ -25,16 +25,19 @@ struct Power {
   double total() const { return friction + damping + actuators + loads; }
 };
 
-/// Energy of the loaded state, (14b). @param equations must have loaded a state with Equations::load(). No allocation once warm.
+/// Energy of the loaded state, (14b). @param equations must have loaded a state with
+/// Equations::load(). No allocation once warm.
 inline Energy mechanical_energy(const Equations<double>& equations) {
   return {equations.formulas().kinetic_energy(), equations.formulas().potential_energy()};
 }
 
-/// Power in the loaded state, (14c). Friction depends on the reactions, so that the state's multipliers must be consistent. No allocation
-/// once warm.
+/// Power in the loaded state, (14c). Friction depends on the reactions, so that the state's
+/// multipliers must be consistent. No allocation once warm.
 inline Power mechanical_power(Equations<double>* equations) {
-  return {equations->formulas().power(PowerKind::kFriction), equations->formulas().power(PowerKind::kDamping),
-          equations->formulas().power(PowerKind::kActuator), equations->formulas().power(PowerKind::kLoad)};
+  return {equations->formulas().power(PowerKind::kFriction),
+          equations->formulas().power(PowerKind::kDamping),
+          equations->formulas().power(PowerKind::kActuator),
+          equations->formulas().power(PowerKind::kLoad)};
 }
 
 }  // namespace codesign

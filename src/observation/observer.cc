@@ -8,16 +8,19 @@
 
 namespace codesign {
 
-Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals) : system_(system), tree_(system.robot()) {
+Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals)
+    : system_(system), tree_(system.robot()) {
   for (const SignalDescription& signal : signals) {
-    signals_.push_back(resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
+    signals_.push_back(
+        resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
     system.check_readable(signals_.back(), signal);
     names_.signals.push_back(signal.text);
   }
   name_joints();
   name_frictions();
   name_links();
-  for (const ControllerDescription& controller : system.study().controllers) names_.controllers.push_back(controller.name);
+  for (const ControllerDescription& controller : system.study().controllers)
+    names_.controllers.push_back(controller.name);
 }
 
 void Observer::name_joints() {
@@ -39,7 +42,9 @@ void Observer::name_joints() {
   for (JointSource& source : joints_) {
     const auto& mimic = robot.joints[to_index(source.joint)].mimic;
     if (source.pair >= 0 || !mimic) continue;
-    source.mimicked = static_cast<int>(std::find(names_.joints.begin(), names_.joints.end(), mimic->joint) - names_.joints.begin());
+    source.mimicked =
+        static_cast<int>(std::find(names_.joints.begin(), names_.joints.end(), mimic->joint) -
+                         names_.joints.begin());
   }
 }
 
@@ -49,10 +54,13 @@ void Observer::name_frictions() {
     if (!load.reaction_friction && !load.constant_friction) continue;
     const Pair& pair = topology.pairs[to_index(load.pair)];
     const int element = std::min(load.element, static_cast<int>(pair.chain.size()) - 1);
-    const JointDescription& joint = system_.robot().joints[to_index(pair.chain[to_index(element)].joint)];
+    const JointDescription& joint =
+        system_.robot().joints[to_index(pair.chain[to_index(element)].joint)];
     frictions_.push_back({load.pair, load.element});
     names_.frictions.push_back(joint.name);
-    names_.friction_is_torque.push_back(joint.type != JointType::kPrismatic && !(pair.kind == PairKind::kCylindrical && load.element == 1));
+    names_.friction_is_torque.push_back(
+        joint.type != JointType::kPrismatic &&
+        !(pair.kind == PairKind::kCylindrical && load.element == 1));
   }
   for (int contact : system_.contacts()) {
     const Pair& pair = topology.pairs[to_index(contact)];
@@ -72,7 +80,8 @@ void Observer::name_links() {
     if (!system_.topology().pairs[k].is_loop) continue;
     loops_.push_back(static_cast<int>(k));
     for (const ChainElement& element : system_.topology().pairs[k].chain)
-      if (robot.joints[to_index(element.joint)].is_loop) names_.loops.push_back(robot.joints[to_index(element.joint)].name);
+      if (robot.joints[to_index(element.joint)].is_loop)
+        names_.loops.push_back(robot.joints[to_index(element.joint)].name);
   }
 }
 
@@ -83,8 +92,8 @@ std::vector<std::size_t> link_parents(const RobotDescription& robot) {
   return parents;
 }
 
-void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations,
-                       Frame* frame) {
+void Observer::observe(const State<double>& state, double objective, const VectorX<double>& theta,
+                       Equations<double>* equations, Frame* frame) {
   frame->time = state.t;
   frame->objective = objective;
   observe_loops(state, equations, frame);
@@ -99,8 +108,10 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
       sample = {theta[c], 0.0, 0.0, 0.0};
       continue;
     }
-    const CoordinateMotion<double> motion = equations->formulas().coordinate(source.pair, source.element);
-    sample = {motion.position, motion.rate, motion.acceleration, equations->formulas().effort(source.pair, source.element)};
+    const CoordinateMotion<double> motion =
+        equations->formulas().coordinate(source.pair, source.element);
+    sample = {motion.position, motion.rate, motion.acceleration,
+              equations->formulas().effort(source.pair, source.element)};
     if (k < names_.tree_joints) positions[c] = motion.position;
   }
   follow_mimics(equations->parameters(), &positions, frame);
@@ -108,24 +119,28 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   observe_controllers(state, equations, frame);
   observe_links(positions, equations, frame);
   frame->signals.resize(signals_.size());
-  for (std::size_t k = 0; k < signals_.size(); ++k) frame->signals[k] = equations->formulas().signal(signals_[k], state);
+  for (std::size_t k = 0; k < signals_.size(); ++k)
+    frame->signals[k] = equations->formulas().signal(signals_[k], state);
 }
 
-// A joint below which nothing has mass has no row of motion; if it mimics another joint, its position follows from the position of that
-// joint.
-void Observer::follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const {
+// A joint below which nothing has mass has no row of motion; if it mimics another joint, its
+// position follows from the position of that joint.
+void Observer::follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions,
+                             Frame* frame) const {
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     double factor = 1.0, offset = 0.0;
     std::size_t target = k;
     while (joints_[target].mimicked >= 0) {
-      const MimicDescription& mimic = *system_.robot().joints[to_index(joints_[target].joint)].mimic;
+      const MimicDescription& mimic =
+          *system_.robot().joints[to_index(joints_[target].joint)].mimic;
       offset += factor * mimic.offset.at(parameters);
       factor *= mimic.multiplier.at(parameters);
       target = to_index(joints_[target].mimicked);
     }
     if (target == k) continue;
     const JointSample& source = frame->joints[target];
-    frame->joints[k] = {factor * source.position + offset, factor * source.velocity, factor * source.acceleration, 0.0};
+    frame->joints[k] = {factor * source.position + offset, factor * source.velocity,
+                        factor * source.acceleration, 0.0};
     (*positions)[tree_.offset[to_index(joints_[k].joint)]] = frame->joints[k].position;
   }
 }
@@ -138,12 +153,14 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
     const PairConstants<double>& c = equations->constants().pairs[to_index(source.pair)];
     FrictionSample& sample = frame->frictions[k];
     sample = {};
-    sample.position = equations->formulas().body(pair.body_j).r + equations->formulas().body(pair.body_j).A * c.s_j;
+    sample.position = equations->formulas().body(pair.body_j).r +
+                      equations->formulas().body(pair.body_j).A * c.s_j;
     if (source.element == kContact) {
       observe_contact(source.pair, equations, &sample);
       continue;
     }
-    const FrictionState<double> friction = equations->formulas().friction(source.pair, source.element);
+    const FrictionState<double> friction =
+        equations->formulas().friction(source.pair, source.element);
     const double sign = c.coordinates[to_index(source.element)].sign;
     const Eigen::Vector3d axis = equations->formulas().body(pair.body_i).A * c.C_i.col(2);
     sample.friction = -friction.load;
@@ -153,7 +170,8 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
   }
 }
 
-void Observer::observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const {
+void Observer::observe_contact(int index, Equations<double>* equations,
+                               FrictionSample* sample) const {
   const Pair& pair = system_.topology().pairs[to_index(index)];
   const PairConstants<double>& c = equations->constants().pairs[to_index(index)];
   const ContactFriction<double> contact = equations->formulas().contact(index);
@@ -161,8 +179,9 @@ void Observer::observe_contact(int index, Equations<double>* equations, Friction
   sample->normal_force = contact.normal;
   sample->sliding_velocity = contact.speed();
   // If the chain runs from the joint's child to its parent, body j is on the parent's side.
-  const bool reversed = std::any_of(pair.chain.begin(), pair.chain.end(),
-                                    [&](const ChainElement& e) { return e.joint == pair.friction_joint && e.reversed; });
+  const bool reversed = std::any_of(
+      pair.chain.begin(), pair.chain.end(),
+      [&](const ChainElement& e) { return e.joint == pair.friction_joint && e.reversed; });
   const Eigen::Vector3d on_child = (reversed ? 1.0 : -1.0) * contact.load;
   if (pair.kind == PairKind::kSpherical) {
     sample->torque = on_child;
@@ -173,7 +192,8 @@ void Observer::observe_contact(int index, Equations<double>* equations, Friction
   sample->torque = axes.col(2) * on_child[2];
 }
 
-void Observer::observe_controllers(const State<double>& state, Equations<double>* equations, Frame* frame) const {
+void Observer::observe_controllers(const State<double>& state, Equations<double>* equations,
+                                   Frame* frame) const {
   frame->controllers.resize(system_.controllers().size());
   for (std::size_t k = 0; k < frame->controllers.size(); ++k) {
     const int controller = static_cast<int>(k), s = system_.controllers()[k].state;
@@ -186,36 +206,42 @@ void Observer::observe_controllers(const State<double>& state, Equations<double>
   }
 }
 
-// Links with mass get their poses from the state. A massless link is placed relative to its parent by its joint's position; forward
-// kinematics from the root would be wrong, since theta has planar and floating joints at their start positions only.
-void Observer::observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const {
+// Links with mass get their poses from the state. A massless link is placed relative to its parent
+// by its joint's position; forward kinematics from the root would be wrong, since theta has planar
+// and floating joints at their start positions only.
+void Observer::observe_links(const VectorX<double>& theta, Equations<double>* equations,
+                             Frame* frame) const {
   const auto& links = equations->constants().links;
   frame->links.resize(links.size());
   for (std::size_t k = 0; k < links.size(); ++k) {
     const int body = system_.topology().link_body[k];
     if (body == Topology::kMassless) continue;
     const BodyKinematics<double>& b = equations->formulas().body(body);
-    frame->links[k] = {b.r + b.A * links[k].s, Eigen::Quaterniond(Eigen::Matrix3d(b.A * links[k].R)).normalized()};
+    frame->links[k] = {b.r + b.A * links[k].s,
+                       Eigen::Quaterniond(Eigen::Matrix3d(b.A * links[k].R)).normalized()};
   }
-  const std::vector<LinkMotion<double>> motions =
-      link_motions<double>(system_.robot(), tree_, equations->parameters(), theta, VectorX<double>::Zero(theta.size()));
+  const std::vector<LinkMotion<double>> motions = link_motions<double>(
+      system_.robot(), tree_, equations->parameters(), theta, VectorX<double>::Zero(theta.size()));
   for (int joint : tree_.joint_order) {
     const JointDescription& description = system_.robot().joints[to_index(joint)];
     const auto parent = to_index(description.parent), child = to_index(description.child);
     if (system_.topology().link_body[child] != Topology::kMassless) continue;
     const LinkSample& base = frame->links[parent];
     const Pose<double> X = motions[parent].X.inverse() * motions[child].X;
-    frame->links[child] = {base.position + base.orientation * X.t, (base.orientation * Eigen::Quaterniond(X.R)).normalized()};
+    frame->links[child] = {base.position + base.orientation * X.t,
+                           (base.orientation * Eigen::Quaterniond(X.R)).normalized()};
   }
 }
 
-void Observer::observe_loops(const State<double>& state, Equations<double>* equations, Frame* frame) {
+void Observer::observe_loops(const State<double>& state, Equations<double>* equations,
+                             Frame* frame) {
   equations->constraint_errors(state, &errors_, &rates_);
   frame->loop_errors.resize(loops_.size());
   for (std::size_t k = 0; k < loops_.size(); ++k) {
     const auto pair = to_index(loops_[k]);
     const int first = system_.layout().pair_row[pair], last = system_.layout().pair_end(loops_[k]);
-    frame->loop_errors[k] = last > first ? errors_.segment(first, last - first).cwiseAbs().maxCoeff() : 0.0;
+    frame->loop_errors[k] =
+        last > first ? errors_.segment(first, last - first).cwiseAbs().maxCoeff() : 0.0;
   }
 }
 

@@ -11,11 +11,12 @@ namespace codesign {
 
 class CompiledSystem;
 
-/// For each link the index of the link that it hangs on, in the order of FrameNames::links; the root hangs on itself.
+/// For each link the index of the link that it hangs on, in the order of FrameNames::links; the
+/// root hangs on itself.
 std::vector<std::size_t> link_parents(const RobotDescription& robot);
 
-/// Fills a Frame from a state: URDF joint positions (massless joints included), link poses, friction, controllers, loop errors, signals.
-/// Not thread-safe.
+/// Fills a Frame from a state: URDF joint positions (massless joints included), link poses,
+/// friction, controllers, loop errors, signals. Not thread-safe.
 class Observer {
  public:
   /// @param signals the signals of the frames, in order. @param system must outlive this.
@@ -24,17 +25,23 @@ class Observer {
 
   const FrameNames& names() const { return names_; }
 
-  /// @param state with accelerations and multipliers. @param objective integral of the integrand so far.
-  /// @param theta tree joint coordinates of the start; joints below which nothing has mass keep these positions.
+  /// @param state with accelerations and multipliers. @param objective integral of the integrand so
+  /// far.
+  /// @param theta tree joint coordinates of the start; joints below which nothing has mass keep
+  /// these positions.
   /// @param equations must hold the design; they load `state`.
-  void observe(const State<double>& state, double objective, const VectorX<double>& theta, Equations<double>* equations, Frame* frame);
+  void observe(const State<double>& state, double objective, const VectorX<double>& theta,
+               Equations<double>* equations, Frame* frame);
 
  private:
   struct JointSource {
-    int joint = -1, pair = -1, element = -1;  ///< pair is -1 for a joint below which nothing has mass
-    int mimicked = -1;                        ///< for a joint without a pair: index in joints_ of the joint that it mimics, or -1
+    int joint = -1, pair = -1,
+        element = -1;  ///< pair is -1 for a joint below which nothing has mass
+    int mimicked =
+        -1;  ///< for a joint without a pair: index in joints_ of the joint that it mimics, or -1
   };
-  static constexpr int kContact = -2;  ///< element of a FrictionSource: isotropic friction of the whole pair
+  static constexpr int kContact =
+      -2;  ///< element of a FrictionSource: isotropic friction of the whole pair
   struct FrictionSource {
     int pair = -1, element = -1;
   };
@@ -42,11 +49,14 @@ class Observer {
   void name_joints();
   void name_frictions();
   void name_links();
-  void follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions, Frame* frame) const;
+  void follow_mimics(const std::vector<double>& parameters, VectorX<double>* positions,
+                     Frame* frame) const;
   void observe_frictions(Equations<double>* equations, Frame* frame) const;
   void observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const;
-  void observe_controllers(const State<double>& state, Equations<double>* equations, Frame* frame) const;
-  void observe_links(const VectorX<double>& theta, Equations<double>* equations, Frame* frame) const;
+  void observe_controllers(const State<double>& state, Equations<double>* equations,
+                           Frame* frame) const;
+  void observe_links(const VectorX<double>& theta, Equations<double>* equations,
+                     Frame* frame) const;
   void observe_loops(const State<double>& state, Equations<double>* equations, Frame* frame);
 
   const CompiledSystem& system_;

@@ -11,7 +11,8 @@ namespace codesign {
 namespace {
 
 struct Algorithm {
-  std::optional<nlopt::algorithm> id;  ///< std::nullopt: Levenberg-Marquardt, which NLopt does not have, and `auto`
+  std::optional<nlopt::algorithm>
+      id;  ///< std::nullopt: Levenberg-Marquardt, which NLopt does not have, and `auto`
   bool takes_constraints, takes_equalities;
 };
 
@@ -20,12 +21,18 @@ constexpr const char* kAuto = "auto";
 
 const std::map<std::string, Algorithm>& algorithms() {
   static const std::map<std::string, Algorithm> table{
-      {"lbfgs", {nlopt::LD_LBFGS, false, false}},    {"var1", {nlopt::LD_VAR1, false, false}},
-      {"var2", {nlopt::LD_VAR2, false, false}},      {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
-      {"mma", {nlopt::LD_MMA, true, false}},         {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
-      {"slsqp", {nlopt::LD_SLSQP, true, true}},      {"cobyla", {nlopt::LN_COBYLA, true, true}},
-      {"bobyqa", {nlopt::LN_BOBYQA, false, false}},  {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}},
-      {kLeastSquares, {std::nullopt, false, false}}, {kAuto, {std::nullopt, true, true}}};
+      {"lbfgs", {nlopt::LD_LBFGS, false, false}},
+      {"var1", {nlopt::LD_VAR1, false, false}},
+      {"var2", {nlopt::LD_VAR2, false, false}},
+      {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
+      {"mma", {nlopt::LD_MMA, true, false}},
+      {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
+      {"slsqp", {nlopt::LD_SLSQP, true, true}},
+      {"cobyla", {nlopt::LN_COBYLA, true, true}},
+      {"bobyqa", {nlopt::LN_BOBYQA, false, false}},
+      {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}},
+      {kLeastSquares, {std::nullopt, false, false}},
+      {kAuto, {std::nullopt, true, true}}};
   return table;
 }
 
@@ -37,20 +44,32 @@ std::string names(const Predicate& is_listed) {
   return list;
 }
 
-/// Checks that the algorithm takes the constraints of the study. @param with_slack whether the robust measure adds constraints.
-void check_constraints(const Study& study, const Algorithm& algorithm, bool with_slack, InputFault fault) {
+/// Checks that the algorithm takes the constraints of the study. @param with_slack whether the
+/// robust measure adds constraints.
+void check_constraints(const Study& study, const Algorithm& algorithm, bool with_slack,
+                       InputFault fault) {
   const auto refuse = [&fault](const char* message, bool equalities) {
     fault.message = message;
-    fault.allowed = names([equalities](const Algorithm& other) { return equalities ? other.takes_equalities : other.takes_constraints; });
+    fault.allowed = names([equalities](const Algorithm& other) {
+      return equalities ? other.takes_equalities : other.takes_constraints;
+    });
     throw InputError(fault);
   };
   if (!algorithm.takes_constraints) {
-    if (!study.constraints.empty()) refuse("this algorithm takes no constraints on parameters", false);
+    if (!study.constraints.empty())
+      refuse("this algorithm takes no constraints on parameters", false);
     if (!study.watched.empty())
-      refuse("this algorithm takes no constraints, which path, final, objective.peak and peaks in constraints need", false);
-    if (with_slack) refuse("this algorithm takes no constraints, which robust.measure worst and cvar are solved by", false);
+      refuse(
+          "this algorithm takes no constraints, which path, final, objective.peak and peaks in "
+          "constraints need",
+          false);
+    if (with_slack)
+      refuse(
+          "this algorithm takes no constraints, which robust.measure worst and cvar are solved by",
+          false);
   }
-  if (!algorithm.takes_equalities && std::any_of(study.watched.begin(), study.watched.end(), is_equality))
+  if (!algorithm.takes_equalities &&
+      std::any_of(study.watched.begin(), study.watched.end(), is_equality))
     refuse("this algorithm takes no equality constraints, such as final with equal bounds", true);
 }
 
@@ -67,24 +86,29 @@ void check_algorithm(const Study& study, const OptimizerOptions& options, bool w
   const SourceLocation where = where_of(options, study);
   const InputFault fault{where, "optimizer.algorithm", "", options.algorithm, ""};
   if (found == algorithms().end())
-    throw InputError({fault.where, fault.element, "no such algorithm", fault.value, names([](const Algorithm&) { return true; })});
+    throw InputError({fault.where, fault.element, "no such algorithm", fault.value,
+                      names([](const Algorithm&) { return true; })});
   check_constraints(study, found->second, with_slack, fault);
-  // Checked here because the tolerance may also come from a request of a ROS client. Smaller ones are below rounding.
+  // Checked here because the tolerance may also come from a request of a ROS client. Smaller ones
+  // are below rounding.
   constexpr double kLeast = 1e-15;
   if (!(options.relative_tolerance >= kLeast && options.relative_tolerance < 1.0))
-    throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range", to_decimal(options.relative_tolerance),
-                      "from 1e-15 to less than 1"});
+    throw InputError({where, "optimizer.relative_tolerance", "tolerance out of range",
+                      to_decimal(options.relative_tolerance), "from 1e-15 to less than 1"});
 }
 
 void check_squares(const Study& study, const OptimizerOptions& options, RobustMeasure measure) {
   InputFault fault{where_of(options, study), "optimizer.algorithm", "", options.algorithm,
                    names([](const Algorithm& other) { return other.id.has_value(); })};
   if (measure == RobustMeasure::kMeanPlusDeviation) {
-    fault.message = "this algorithm takes sums of squares, which robust.measure mean_plus_deviation is not";
+    fault.message =
+        "this algorithm takes sums of squares, which robust.measure mean_plus_deviation is not";
     throw InputError(fault);
   }
   if (study.solver.gradient == GradientMethod::kAdjoint) {
-    fault.message = "this algorithm needs the sensitivities of all residuals, which solver.gradient: adjoint does not compute";
+    fault.message =
+        "this algorithm needs the sensitivities of all residuals, which solver.gradient: adjoint "
+        "does not compute";
     fault.allowed += ", or solver.gradient auto or direct";
     throw InputError(fault);
   }
@@ -92,14 +116,17 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
     for (const ObjectiveTerm& term : *terms)
       if (term.weight.is_constant() && term.weight.nominal() < 0.0)
         throw InputError({term.where, "objective",
-                          "optimizer.algorithm levenberg_marquardt takes sums of squares, without negative weights",
-                          to_decimal(term.weight.nominal()), "0 or more, or one of the algorithms " + fault.allowed});
+                          "optimizer.algorithm levenberg_marquardt takes sums of squares, without "
+                          "negative weights",
+                          to_decimal(term.weight.nominal()),
+                          "0 or more, or one of the algorithms " + fault.allowed});
 }
 
-std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options, RobustMeasure measure, bool with_slack) {
+std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options,
+                                        RobustMeasure measure, bool with_slack) {
   if (options.algorithm != kAuto) return {options.algorithm};
-  // Constraints among parameters are often inactive at the optimum. Where one is active, least squares without it do not end at a
-  // stationary point, and the next algorithm goes on.
+  // Constraints among parameters are often inactive at the optimum. Where one is active, least
+  // squares without it do not end at a stationary point, and the next algorithm goes on.
   Study without_constraints = study;
   without_constraints.constraints.clear();
   std::vector<std::string> list;
@@ -116,10 +143,14 @@ std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptio
   return list;
 }
 
-bool uses_gradients(const std::string& algorithm) { return algorithm != "cobyla" && algorithm != "bobyqa"; }
+bool uses_gradients(const std::string& algorithm) {
+  return algorithm != "cobyla" && algorithm != "bobyqa";
+}
 
 bool is_sum_of_squares(const Study& study) {
-  const auto is_negative = [](const ObjectiveTerm& term) { return term.weight.is_constant() && term.weight.nominal() < 0.0; };
+  const auto is_negative = [](const ObjectiveTerm& term) {
+    return term.weight.is_constant() && term.weight.nominal() < 0.0;
+  };
   return std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
          std::none_of(study.terminal.begin(), study.terminal.end(), is_negative);
 }
@@ -139,8 +170,8 @@ nlopt::opt make_optimizer(const OptimizerOptions& options, unsigned dimension) {
 }
 
 bool is_success(const std::string& termination) {
-  return termination == "success" || termination == "objective_tolerance_reached" || termination == "parameter_tolerance_reached" ||
-         termination == "roundoff_limited";
+  return termination == "success" || termination == "objective_tolerance_reached" ||
+         termination == "parameter_tolerance_reached" || termination == "roundoff_limited";
 }
 
 std::string termination_name(nlopt::result result) {

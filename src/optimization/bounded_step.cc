@@ -13,14 +13,15 @@ namespace {
 
 using Eigen::Index;
 constexpr double kLeastDamping = 1e-16;  // for columns of norm 1
-constexpr double kNull = 1e-9;           // relative to the largest singular value: smaller ones are rounding
-constexpr double kRounding = 1e-12;      // relative to the gradient: a component on a bound stays there if leaving it would gain less
+constexpr double kNull = 1e-9;  // relative to the largest singular value: smaller ones are rounding
+constexpr double kRounding = 1e-12;  // relative to the gradient: a component on a bound stays there
+                                     // if leaving it would gain less
 constexpr int kMostBisections = 60;
 
 }  // namespace
 
-BoundedStep::BoundedStep(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root, Eigen::VectorXd scale, Eigen::VectorXd lower,
-                         Eigen::VectorXd upper)
+BoundedStep::BoundedStep(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
+                         Eigen::VectorXd scale, Eigen::VectorXd lower, Eigen::VectorXd upper)
     : scale_(std::move(scale)),
       gradient_(gradient.cwiseQuotient(scale_)),
       root_(root * scale_.cwiseInverse().asDiagonal()),
@@ -31,13 +32,14 @@ BoundedStep::BoundedStep(const Eigen::VectorXd& gradient, const Eigen::MatrixXd&
   hold_null_directions();
 }
 
-// Singular values that are rounding are replaced by the largest one, and the gradient, which is zero along their directions but for
-// rounding, by its part across them.
+// Singular values that are rounding are replaced by the largest one, and the gradient, which is
+// zero along their directions but for rounding, by its part across them.
 void BoundedStep::hold_null_directions() {
   const SingularValues svd = singular_values(root_, SingularVectors::kRight);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(root_.cols());
   values.head(svd.values.size()) = svd.values;
-  if (values.size() == 0 || values[values.size() - 1] > kNull * values[0] || values[0] == 0.0) return;
+  if (values.size() == 0 || values[values.size() - 1] > kNull * values[0] || values[0] == 0.0)
+    return;
   for (Index k = 0; k < values.size(); ++k) {
     if (values[k] > kNull * values[0]) continue;
     values[k] = values[0];
@@ -55,7 +57,8 @@ Eigen::VectorXd BoundedStep::damped(double mu) const {
     if (lower_[i] == 0.0 && gradient_[i] > 0.0) places[k] = Place::kLower;
     if (upper_[i] == 0.0 && gradient_[i] < 0.0) places[k] = Place::kUpper;
   }
-  // Each set of free components is visited once at most, since the problem is strictly convex; rounding could break that.
+  // Each set of free components is visited once at most, since the problem is strictly convex;
+  // rounding could break that.
   for (std::size_t round = 0; round < 10 * size + 10; ++round) {
     std::vector<Index> free;
     for (std::size_t k = 0; k < size; ++k)
@@ -93,9 +96,10 @@ void BoundedStep::solve_free(double mu, const std::vector<Index>& free, Eigen::V
   for (Index k = 0; k < count; ++k) (*y)[free[to_index(k)]] = solution[k];
 }
 
-/// Moves y to the target, or to the first bound on the way, which then holds that component. True if the target was reached.
-bool BoundedStep::move_towards(const Eigen::VectorXd& target, const std::vector<Index>& free, std::vector<Place>* places,
-                               Eigen::VectorXd* y) const {
+/// Moves y to the target, or to the first bound on the way, which then holds that component. True
+/// if the target was reached.
+bool BoundedStep::move_towards(const Eigen::VectorXd& target, const std::vector<Index>& free,
+                               std::vector<Place>* places, Eigen::VectorXd* y) const {
   double fraction = 1.0;
   Index blocking = -1;
   for (const Index i : free) {
@@ -124,7 +128,9 @@ bool BoundedStep::release(double mu, const Eigen::VectorXd& y, std::vector<Place
   std::size_t best = places->size();
   for (std::size_t k = 0; k < places->size(); ++k) {
     const double by_inside = slope[static_cast<Index>(k)];
-    const double gain = (*places)[k] == Place::kLower ? -by_inside : (*places)[k] == Place::kUpper ? by_inside : 0.0;
+    const double gain = (*places)[k] == Place::kLower   ? -by_inside
+                        : (*places)[k] == Place::kUpper ? by_inside
+                                                        : 0.0;
     if (gain <= most) continue;
     most = gain;
     best = k;
@@ -134,7 +140,8 @@ bool BoundedStep::release(double mu, const Eigen::VectorXd& y, std::vector<Place
   return true;
 }
 
-Eigen::VectorXd BoundedStep::unscaled(const Eigen::VectorXd& y, const std::vector<Place>& places) const {
+Eigen::VectorXd BoundedStep::unscaled(const Eigen::VectorXd& y,
+                                      const std::vector<Place>& places) const {
   Eigen::VectorXd p = y.cwiseQuotient(scale_).cwiseMax(step_lower_).cwiseMin(step_upper_);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto i = static_cast<Index>(k);
@@ -144,7 +151,8 @@ Eigen::VectorXd BoundedStep::unscaled(const Eigen::VectorXd& y, const std::vecto
   return p;
 }
 
-// Bisection of the logarithm of mu, since the damping may be of any magnitude. |y| is at most |g| / (2 mu), and falls as mu grows.
+// Bisection of the logarithm of mu, since the damping may be of any magnitude. |y| is at most |g| /
+// (2 mu), and falls as mu grows.
 Eigen::VectorXd BoundedStep::within(double radius) const {
   Eigen::VectorXd p = damped(kLeastDamping);
   if (length(p) <= 1.1 * radius) return p;

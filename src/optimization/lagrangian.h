@@ -14,36 +14,46 @@
 
 namespace codesign {
 
-/// Writes the derivatives of a number by the optimizer's variables: the scaled parameters, then the slack variables.
+/// Writes the derivatives of a number by the optimizer's variables: the scaled parameters, then the
+/// slack variables.
 void spread(const SmoothProgram::Value& value, const Scaling& scaling, double* by_x);
 
 /// The optimality conditions of a design in the smooth form of the problem, doc/theory.md (24j).
 struct Optimality {
   double slope = 0.0;      ///< residual of the conditions, in the unit of psi; 0 at an optimum
-  Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the lower one, negative at the upper one
-  Eigen::MatrixXd active;  ///< gradients by the scaled parameters of the rows with a multiplier, one per column
+  Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the
+                           ///< lower one, negative at the upper one
+  Eigen::MatrixXd
+      active;  ///< gradients by the scaled parameters of the rows with a multiplier, one per column
   int factorizations = 0;  ///< of matrices of the variables, as a measure of the work
 };
 
-/// With the multipliers, of the sign that their rows require, which make the residual least. @param at the evaluation of the design.
-/// @param cancel ends the search for these multipliers, after which the slope is too large; may be null.
-Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho, const Scaling& scaling, const ParameterRows& parameters,
+/// With the multipliers, of the sign that their rows require, which make the residual least. @param
+/// at the evaluation of the design.
+/// @param cancel ends the search for these multipliers, after which the slope is too large; may be
+/// null.
+Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho,
+                      const Scaling& scaling, const ParameterRows& parameters,
                       SmoothProgram* program, const std::atomic<bool>* cancel = nullptr);
 
-/// The violation of a bound on a signal that a search aims at, in the unit of the signal: smaller ones do not make a point worse.
+/// The violation of a bound on a signal that a search aims at, in the unit of the signal: smaller
+/// ones do not make a point worse.
 constexpr double kMostViolation = 1e-8;
-/// The violation at which a bound counts as met at the end of a search, where the study gives no `tolerance`: this share of the largest
-/// magnitude of the signal, at the start and at the end of the search, and of its bounds; at least kMostViolation.
+/// The violation at which a bound counts as met at the end of a search, where the study gives no
+/// `tolerance`: this share of the largest magnitude of the signal, at the start and at the end of
+/// the search, and of its bounds; at least kMostViolation.
 constexpr double kShareOfRange = 1e-5;
 
-/// The default of WatchedResult::tolerance, from the values at the instants at which the signal is watched.
+/// The default of WatchedResult::tolerance, from the values at the instants at which the signal is
+/// watched.
 double tolerance_of_range(const WatchedResult& watched);
 
-/// Widens the default tolerances of `final`: it watches one instant, at which a signal that has to end at zero tells nothing of its
-/// range, so that the magnitude of the signal in a whole run of the scenario counts, too.
+/// Widens the default tolerances of `final`: it watches one instant, at which a signal that has to
+/// end at zero tells nothing of its range, so that the magnitude of the signal in a whole run of
+/// the scenario counts, too.
 /// @param cancel if set, the run ends early, and the range is that of the run so far.
-void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho, const std::atomic<bool>* cancel,
-                        std::vector<WatchedResult>* watched);
+void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho,
+                        const std::atomic<bool>* cancel, std::vector<WatchedResult>* watched);
 
 /// Whether the best point of a search meets all constraints, on parameters and on signals.
 bool meets_constraints(const OptimizationResult& result);

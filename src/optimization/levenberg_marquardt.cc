@@ -16,22 +16,27 @@ namespace {
 
 using Outcome = LeastSquaresModel::Outcome;
 
-constexpr double kLeastGain = 1e-4;                   // of the promise: a step that gains less is rejected
-constexpr double kPoorGain = 0.25, kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
-constexpr double kUnusable = 0.25;                    // factor of the radius after a point without a value
-constexpr double kLeastScale = 1e-8;                  // relative to the largest entry of D
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon(), kRoundingOfVariables = 4.0 * kEpsilon;
+constexpr double kLeastGain = 1e-4;  // of the promise: a step that gains less is rejected
+constexpr double kPoorGain = 0.25,
+                 kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
+constexpr double kUnusable = 0.25;  // factor of the radius after a point without a value
+constexpr double kLeastScale = 1e-8;  // relative to the largest entry of D
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon(),
+                 kRoundingOfVariables = 4.0 * kEpsilon;
 
 /// One search: the radius, the scales, and the best point so far.
 class SquaresSearch {
  public:
-  SquaresSearch(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
-                LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best)
+  SquaresSearch(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower,
+                const Eigen::VectorXd& upper, LeastSquaresModel* model, Eigen::VectorXd* x,
+                LeastSquaresPoint* best)
       : options_(options), lower_(lower), upper_(upper), model_(*model), x_(*x), best_(*best) {}
 
   LevenbergMarquardtEnd run() {
     const Outcome first = model_.evaluate(x_, &best_);
-    if (first != Outcome::kUsable) return first == Outcome::kStop ? LevenbergMarquardtEnd::kStopped : LevenbergMarquardtEnd::kStartFailed;
+    if (first != Outcome::kUsable)
+      return first == Outcome::kStop ? LevenbergMarquardtEnd::kStopped
+                                     : LevenbergMarquardtEnd::kStartFailed;
     norms_ = best_.root.colwise().norm().transpose();
     std::optional<LevenbergMarquardtEnd> end;
     while (!end) end = take_step();
@@ -64,10 +69,13 @@ class SquaresSearch {
     }
     const Eigen::VectorXd p = step.within(radius_);
     const double promise = step.promise(p) + best_.owed;
-    // A sum of squares that tends to zero has no relative accuracy: below the rounding error of its first value nothing is left to gain.
-    if (!(promise > kEpsilon * std::max(best_.value, first_value_))) return LevenbergMarquardtEnd::kOptimum;
+    // A sum of squares that tends to zero has no relative accuracy: below the rounding error of its
+    // first value nothing is left to gain.
+    if (!(promise > kEpsilon * std::max(best_.value, first_value_)))
+      return LevenbergMarquardtEnd::kOptimum;
     const bool stays = (p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all();
-    if (stays && best_.owed <= options_.relative_tolerance * best_.value) return LevenbergMarquardtEnd::kVariableTolerance;
+    if (stays && best_.owed <= options_.relative_tolerance * best_.value)
+      return LevenbergMarquardtEnd::kVariableTolerance;
     if (evaluations_ >= options_.max_evaluations) return LevenbergMarquardtEnd::kMaxEvaluations;
     Eigen::VectorXd trial = x_ + p;
     for (Eigen::Index k = 0; k < trial.size(); ++k) {
@@ -83,27 +91,30 @@ class SquaresSearch {
       end = judge(step, p, promise, trial);
     else
       radius_ = kUnusable * step.length(p);
-    // A promise of the model's own unknowns that was not kept although x stayed does not count again.
+    // A promise of the model's own unknowns that was not kept although x stayed does not count
+    // again.
     if (stays && !(best_.value < before)) best_.owed = 0.0;
     return end;
   }
 
   /// Compares the gain of the step with its promise.
-  std::optional<LevenbergMarquardtEnd> judge(const BoundedStep& step, const Eigen::VectorXd& p, double promise,
-                                             const Eigen::VectorXd& trial) {
+  std::optional<LevenbergMarquardtEnd> judge(const BoundedStep& step, const Eigen::VectorXd& p,
+                                             double promise, const Eigen::VectorXd& trial) {
     const double gain = best_.value - tried_.value, ratio = gain / promise, length = step.length(p);
     const double small = options_.relative_tolerance * best_.value;
     const bool is_limited = length >= 0.9 * radius_;
     if (ratio < kPoorGain) {
       // The minimum along p of the parabola through both values and the slope.
-      const double slope = step.slope(p) - 2.0 * best_.owed, parabola = slope / (2.0 * (slope + gain));
+      const double slope = step.slope(p) - 2.0 * best_.owed,
+                   parabola = slope / (2.0 * (slope + gain));
       radius_ = std::min(0.5, std::max(0.1, slope + gain < 0.0 ? parabola : 0.5)) * length;
     } else if (ratio > kGoodGain) {
       radius_ = std::max(radius_, 2.0 * length);
     }
     // If the model is right and only the radius limits the step, the next step gains more.
     const bool holds_back = is_limited && ratio > kGoodGain;
-    const bool has_converged = std::abs(gain) <= small && promise <= small && ratio <= 2.0 && !holds_back;
+    const bool has_converged =
+        std::abs(gain) <= small && promise <= small && ratio <= 2.0 && !holds_back;
     if (ratio > kLeastGain) {
       x_ = trial;
       std::swap(best_, tried_);
@@ -127,11 +138,13 @@ class SquaresSearch {
 /// The objective of an ensemble by the scaled variables of (24).
 class EnsembleSquares final : public LeastSquaresModel {
  public:
-  EnsembleSquares(SearchTrials* trials, const Scaling& scaling) : trials_(*trials), scaling_(scaling) {}
+  EnsembleSquares(SearchTrials* trials, const Scaling& scaling)
+      : trials_(*trials), scaling_(scaling) {}
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
     const Eigen::VectorXd rho = scaling_.from_scaled({x.begin(), x.end()});
-    const bool is_known = trials_.last_rho().size() == rho.size() && trials_.last_rho() == rho && trials_.last().total.status.ok() &&
+    const bool is_known = trials_.last_rho().size() == rho.size() && trials_.last_rho() == rho &&
+                          trials_.last().total.status.ok() &&
                           trials_.last().total.jacobian_root.size() > 0;
     if (!is_known && !trials_.evaluate(rho, Derivatives::kGaussNewton)) return Outcome::kStop;
     const Evaluation& evaluation = trials_.last().total;
@@ -173,12 +186,15 @@ const char* name_of(LevenbergMarquardtEnd end) {
   return "";
 }
 
-LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
-                                       LeastSquaresModel* model, Eigen::VectorXd* x, LeastSquaresPoint* best) {
+LevenbergMarquardtEnd minimize_squares(const LevenbergMarquardtOptions& options,
+                                       const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                       LeastSquaresModel* model, Eigen::VectorXd* x,
+                                       LeastSquaresPoint* best) {
   return SquaresSearch(options, lower, upper, model, x, best).run();
 }
 
-void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& start, const Scaling& scaling, SearchTrials* trials) {
+void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& start,
+                    const Scaling& scaling, SearchTrials* trials) {
   EnsembleSquares squares(trials, scaling);
   const Eigen::VectorXd lower = as_vector(scaling.lower()), upper = as_vector(scaling.upper());
   Eigen::VectorXd x = as_vector(scaling.to_scaled(start)).cwiseMax(lower).cwiseMin(upper);
@@ -186,7 +202,8 @@ void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& star
   LevenbergMarquardtOptions search;
   search.max_evaluations = options.max_evaluations - trials->result().evaluations;
   search.relative_tolerance = options.relative_tolerance;
-  trials->result().termination = name_of(minimize_squares(search, lower, upper, &squares, &x, &best));
+  trials->result().termination =
+      name_of(minimize_squares(search, lower, upper, &squares, &x, &best));
 }
 
 }  // namespace codesign

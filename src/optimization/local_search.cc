@@ -17,21 +17,26 @@
 namespace codesign {
 namespace {
 
-constexpr double kRowTolerance = 1e-9;  // violation of a constraint row that NLopt accepts, in the unit of the row
+constexpr double kRowTolerance =
+    1e-9;  // violation of a constraint row that NLopt accepts, in the unit of the row
 constexpr int kMostRestarts = 8;
 constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
 constexpr int kMostAttempts = 12;
-constexpr double kLeastTolerance = 1e-15, kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
-constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient fell below this fraction of the first one
+constexpr double kLeastTolerance = 1e-15,
+                 kTighten = 1e-3;    // the tolerance of a restart over that of the attempt before
+constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient
+                                     // fell below this fraction of the first one
 
 /// One attempt of a search by an algorithm of NLopt: the state that its callbacks share.
 class Minimization {
  public:
   /// @param options its limit counts all evaluations of `trials`.
-  Minimization(const Study& study, const OptimizerOptions& options, const Scaling& scaling, SmoothProgram* program, SearchTrials* trials)
+  Minimization(const Study& study, const OptimizerOptions& options, const Scaling& scaling,
+               SmoothProgram* program, SearchTrials* trials)
       : study_(study), options_(options), scaling_(scaling), program_(*program), trials_(*trials) {
-    for (const ParameterRows::Row& row : trials_.parameter_rows().rows()) constraints_.push_back({this, row});
+    for (const ParameterRows::Row& row : trials_.parameter_rows().rows())
+      constraints_.push_back({this, row});
   }
 
   /// Sets the termination. @returns why the algorithm failed, if it did.
@@ -61,16 +66,22 @@ class Minimization {
     optimizer->set_upper_bounds(upper);
     optimizer->set_min_objective(&Minimization::objective_callback, this);
     optimizer->set_ftol_rel(options_.relative_tolerance);
-    // NLopt counts calls, and asks for some points several times: evaluate() keeps to the limit of evaluations, and this one ends an
-    // algorithm that asks for the same points only.
-    optimizer->set_maxeval(static_cast<int>(std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
+    // NLopt counts calls, and asks for some points several times: evaluate() keeps to the limit of
+    // evaluations, and this one ends an algorithm that asks for the same points only.
+    optimizer->set_maxeval(static_cast<int>(
+        std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
     for (Constraint& constraint : constraints_)
-      optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint, kRowTolerance);
-    const auto tolerances = [](int rows) { return std::vector<double>(to_index(rows), kRowTolerance); };
+      optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint,
+                                           kRowTolerance);
+    const auto tolerances = [](int rows) {
+      return std::vector<double>(to_index(rows), kRowTolerance);
+    };
     if (program_.inequalities() > 0)
-      optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this, tolerances(program_.inequalities()));
+      optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this,
+                                            tolerances(program_.inequalities()));
     if (program_.equalities() > 0)
-      optimizer->add_equality_mconstraint(&Minimization::equality_callback, this, tolerances(program_.equalities()));
+      optimizer->add_equality_mconstraint(&Minimization::equality_callback, this,
+                                          tolerances(program_.equalities()));
   }
 
   /// Appends the slack variables at the start.
@@ -82,12 +93,15 @@ class Minimization {
     x->insert(x->end(), y.begin(), y.end());
   }
 
-  /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP may stop by the objective's tolerance
-  /// while it is still outside.
+  /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP
+  /// may stop by the objective's tolerance while it is still outside.
   bool should_restart() {
-    const bool ended_outside = program_.has_signals() && trials_.have_best() && !trials_.interrupted() && !trials_.best_keeps_bounds();
-    const bool has_progressed = trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
-    return ended_outside && has_progressed && restarts_ < kMostRestarts && result_.evaluations < options_.max_evaluations;
+    const bool ended_outside = program_.has_signals() && trials_.have_best() &&
+                               !trials_.interrupted() && !trials_.best_keeps_bounds();
+    const bool has_progressed =
+        trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
+    return ended_outside && has_progressed && restarts_ < kMostRestarts &&
+           result_.evaluations < options_.max_evaluations;
   }
 
   void restart(nlopt::opt* optimizer) {
@@ -97,8 +111,9 @@ class Minimization {
     run_from(result_.rho, optimizer);
   }
 
-  /// Looks for a feasible point by the method of moving asymptotes, which finds one from far away, but converges slowly: from the start of
-  /// the search, since the best point may lie in a valley of the violation, later from the best point.
+  /// Looks for a feasible point by the method of moving asymptotes, which finds one from far away,
+  /// but converges slowly: from the start of the search, since the best point may lie in a valley
+  /// of the violation, later from the best point.
   void move_inside() {
     OptimizerOptions options = options_;
     options.algorithm = kInsideFinder;
@@ -115,45 +130,57 @@ class Minimization {
     minimize(optimizer, &x);
   }
 
-  unsigned dimension() const { return static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(program_.slacks()); }
+  unsigned dimension() const {
+    return static_cast<unsigned>(study_.tuned.size()) + static_cast<unsigned>(program_.slacks());
+  }
 
   void minimize(nlopt::opt* optimizer, std::vector<double>* x) {
     double value = 0.0;
     try {
       add_slack(x);
       result_.termination = termination_name(optimizer->optimize(*x, value));
-      if (result_.termination == "max_evaluations_reached") result_.termination = "roundoff_limited";
+      if (result_.termination == "max_evaluations_reached")
+        result_.termination = "roundoff_limited";
     } catch (const nlopt::forced_stop&) {
     } catch (const nlopt::roundoff_limited&) {
       // SLSQP ends like this also where the gradients of the constraints depend on each other.
       result_.termination = program_.has_signals() ? "algorithm_failed" : "roundoff_limited";
-      failure_ = "its linear systems are singular to working precision, as with constraints that depend on each other";
+      failure_ =
+          "its linear systems are singular to working precision, as with constraints that depend "
+          "on each other";
     } catch (const std::exception& error) {
       result_.termination = "algorithm_failed";
       failure_ = error.what();
     }
     // Some algorithms of NLopt call a forced stop a failure.
     if (is_at_limit_) result_.termination = "max_evaluations_reached";
-    if (result_.termination == "algorithm_failed" && trials_.have_best() && has_converged()) result_.termination = "roundoff_limited";
+    if (result_.termination == "algorithm_failed" && trials_.have_best() && has_converged())
+      result_.termination = "roundoff_limited";
   }
 
-  /// Whether a failed line search ended at an optimum: its points are equal within the relative tolerance, and the slope is small.
+  /// Whether a failed line search ended at an optimum: its points are equal within the relative
+  /// tolerance, and the slope is small.
   bool has_converged() {
     const double difference = std::abs(last_.total.objective - result_.objective);
-    if (!last_.total.status.ok() || difference > options_.relative_tolerance * std::abs(result_.objective)) return false;
+    if (!last_.total.status.ok() ||
+        difference > options_.relative_tolerance * std::abs(result_.objective))
+      return false;
     return trials_.best_keeps_bounds() && trials_.slope_left() <= kSlopeLeft;
   }
 
-  static double objective_callback(const std::vector<double>& x, std::vector<double>& gradient, void* self) {
+  static double objective_callback(const std::vector<double>& x, std::vector<double>& gradient,
+                                   void* self) {
     return static_cast<Minimization*>(self)->objective(x, &gradient);
   }
 
   // -margin(rho) <= 0.
-  static double constraint_callback(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
+  static double constraint_callback(const std::vector<double>& x, std::vector<double>& gradient,
+                                    void* data) {
     const auto& constraint = *static_cast<Constraint*>(data);
     const Minimization& owner = *constraint.owner;
     Eigen::VectorXd by_rho;
-    const double margin = owner.trials_.parameter_rows().margin(constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
+    const double margin = owner.trials_.parameter_rows().margin(
+        constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
     if (!std::isfinite(margin)) return owner.step_back_from_constraint(x, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
     for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
@@ -161,24 +188,32 @@ class Minimization {
     return -margin;
   }
 
-  // A constraint that is not finite counts as violated, with a value that grows with the distance from the best point.
-  double step_back_from_constraint(const std::vector<double>& x, std::vector<double>* gradient) const {
+  // A constraint that is not finite counts as violated, with a value that grows with the distance
+  // from the best point.
+  double step_back_from_constraint(const std::vector<double>& x,
+                                   std::vector<double>* gradient) const {
     return 1.0 + distance_from_best(x, 1.0, gradient);
   }
 
-  static void inequality_callback(unsigned count, double* values, unsigned size, const double* x, double* gradient, void* self) {
+  static void inequality_callback(unsigned count, double* values, unsigned size, const double* x,
+                                  double* gradient, void* self) {
     auto* owner = static_cast<Minimization*>(self);
     const std::vector<double> at(x, x + size);
-    owner->fill_rows(count, values, at, gradient, [&](int row) { return owner->program_.inequality(row, owner->slack(at)); });
+    owner->fill_rows(count, values, at, gradient,
+                     [&](int row) { return owner->program_.inequality(row, owner->slack(at)); });
   }
-  static void equality_callback(unsigned count, double* values, unsigned size, const double* x, double* gradient, void* self) {
+  static void equality_callback(unsigned count, double* values, unsigned size, const double* x,
+                                double* gradient, void* self) {
     auto* owner = static_cast<Minimization*>(self);
-    owner->fill_rows(count, values, {x, x + size}, gradient, [&](int row) { return owner->program_.equality(row); });
+    owner->fill_rows(count, values, {x, x + size}, gradient,
+                     [&](int row) { return owner->program_.equality(row); });
   }
 
-  /// Values and gradients of constraint rows by NLopt's variables. At a point that cannot be evaluated all are violated, (24).
+  /// Values and gradients of constraint rows by NLopt's variables. At a point that cannot be
+  /// evaluated all are violated, (24).
   template <class RowOf>
-  void fill_rows(unsigned count, double* values, const std::vector<double>& x, double* gradient, const RowOf& row_of) {
+  void fill_rows(unsigned count, double* values, const std::vector<double>& x, double* gradient,
+                 const RowOf& row_of) {
     evaluate_at(x);
     const bool usable = last_.total.status.ok();
     std::vector<double> back(gradient ? x.size() : 0, 0.0);
@@ -225,7 +260,8 @@ class Minimization {
     // Some line searches of NLopt continue to call after a forced stop.
     if (trials_.interrupted()) throw nlopt::forced_stop();
     const Eigen::VectorXd rho = design(x);
-    // An algorithm at its bounds may ask for the same point again, and constraints are asked for after the objective.
+    // An algorithm at its bounds may ask for the same point again, and constraints are asked for
+    // after the objective.
     if (rho.size() != trials_.last_rho().size() || rho != trials_.last_rho()) evaluate(rho);
   }
 
@@ -237,21 +273,25 @@ class Minimization {
     if (result_.evaluations == 1) take_unit();
   }
 
-  // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at most 1 in scaled variables, (24).
+  // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at
+  // most 1 in scaled variables, (24).
   void take_unit() {
-    if (trials_.have_best()) unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial_gradient));
+    if (trials_.have_best())
+      unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial_gradient));
   }
 
-  // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger with growing distance from the best point,
-  // so that a line search turns back.
+  // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger
+  // with growing distance from the best point, so that a line search turns back.
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
     if (!trials_.have_best()) throw std::runtime_error("the start could not be evaluated");
     const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
     return (worst_ + weight * (1.0 + distance_from_best(x, weight / unit_, gradient))) / unit_;
   }
 
-  /// Squared distance from the best point in scaled variables. @param gradient if not empty, set to `weight` times its derivative.
-  double distance_from_best(const std::vector<double>& x, double weight, std::vector<double>* gradient) const {
+  /// Squared distance from the best point in scaled variables. @param gradient if not empty, set to
+  /// `weight` times its derivative.
+  double distance_from_best(const std::vector<double>& x, double weight,
+                            std::vector<double>* gradient) const {
     const std::vector<double> best = scaling_.to_scaled(result_.rho);
     double distance = 0.0;
     for (std::size_t k = 0; k < best.size(); ++k) {
@@ -271,9 +311,10 @@ class Minimization {
   OptimizationResult& result_ = trials_.result();
   std::vector<Constraint> constraints_;
   std::string failure_;
-  double worst_ = 0.0, unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
+  double worst_ = 0.0,
+         unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
   bool moves_inside_ = false;
-  bool is_at_limit_ = false;       ///< whether the search asked for more evaluations than it may have
+  bool is_at_limit_ = false;  ///< whether the search asked for more evaluations than it may have
   double violation_before_ = 0.0;  ///< best_violation() when the search was last restarted
   int restarts_ = 0;
 };
@@ -282,20 +323,24 @@ RobustMeasure measure_of(const Ensemble& ensemble) {
   return ensemble.scenarios().size() > 1 ? ensemble.options().measure : RobustMeasure::kMean;
 }
 
-bool has_slack(RobustMeasure measure) { return measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar; }
+bool has_slack(RobustMeasure measure) {
+  return measure == RobustMeasure::kWorst || measure == RobustMeasure::kCvar;
+}
 
-/// A search from its start to a stop that can be trusted: where an algorithm stops on a slope, it begins anew from there, with fresh memory
-/// and a tighter tolerance; where that gains nothing, the next algorithm goes on; doc/theory.md (24j).
+/// A search from its start to a stop that can be trusted: where an algorithm stops on a slope, it
+/// begins anew from there, with fresh memory and a tighter tolerance; where that gains nothing, the
+/// next algorithm goes on; doc/theory.md (24j).
 class Search {
  public:
-  Search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
-         const std::atomic<bool>* cancel)
+  Search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble,
+         const TrialObserver& observer, const std::atomic<bool>* cancel)
       : study_(study),
         options_(options),
         scaling_(study),
         program_(ensemble),
         trials_(study, options, ensemble, observer, cancel, scaling_, &program_),
-        algorithms_(algorithms_for(study, options, measure_of(ensemble), has_slack(measure_of(ensemble)))) {}
+        algorithms_(algorithms_for(study, options, measure_of(ensemble),
+                                   has_slack(measure_of(ensemble)))) {}
 
   OptimizationResult run(const Eigen::VectorXd& start) {
     trials_.start(start);
@@ -306,23 +351,29 @@ class Search {
       const bool had_best = trials_.have_best();
       try_from(had_best ? result_.rho : start, algorithms_[algorithm], &attempt);
       if (!goes_on()) break;
-      const bool has_gained = had_best && (before - result_.objective > options_.relative_tolerance * std::abs(result_.objective) ||
-                                           trials_.best_violation() < 0.9 * outside);
-      // Least squares do not know the constraints: begun again at the best point, they would leave them again.
+      const bool has_gained =
+          had_best &&
+          (before - result_.objective > options_.relative_tolerance * std::abs(result_.objective) ||
+           trials_.best_violation() < 0.9 * outside);
+      // Least squares do not know the constraints: begun again at the best point, they would leave
+      // them again.
       const bool leaves_constraints = is_least_squares(last_) && !study_.constraints.empty();
       const bool begins_anew = trials_.have_best() && !leaves_constraints && (k == 0 || has_gained);
       if (!begins_anew && ++algorithm == algorithms_.size()) break;
       attempt.relative_tolerance =
-          begins_anew ? std::max(kLeastTolerance, kTighten * attempt.relative_tolerance) : options_.relative_tolerance;
+          begins_anew ? std::max(kLeastTolerance, kTighten * attempt.relative_tolerance)
+                      : options_.relative_tolerance;
     }
     trials_.conclude(failure_);
     return std::move(result_);
   }
 
  private:
-  void try_from(const Eigen::VectorXd& rho, const std::string& algorithm, OptimizerOptions* attempt) {
+  void try_from(const Eigen::VectorXd& rho, const std::string& algorithm,
+                OptimizerOptions* attempt) {
     attempt->algorithm = algorithm;
-    if (last_ != algorithm) result_.algorithm += (result_.algorithm.empty() ? "" : ", ") + algorithm;
+    if (last_ != algorithm)
+      result_.algorithm += (result_.algorithm.empty() ? "" : ", ") + algorithm;
     last_ = algorithm;
     failure_.clear();
     if (is_least_squares(algorithm))
@@ -359,8 +410,9 @@ void check_search(const Study& study, const OptimizerOptions& options, const Ens
   if (is_least_squares(options.algorithm)) check_squares(study, options, measure);
 }
 
-OptimizationResult search_locally(const Study& study, const OptimizerOptions& options, const Eigen::VectorXd& start,
-                                  const Ensemble& ensemble, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+OptimizationResult search_locally(const Study& study, const OptimizerOptions& options,
+                                  const Eigen::VectorXd& start, const Ensemble& ensemble,
+                                  const TrialObserver& observer, const std::atomic<bool>* cancel) {
   check_search(study, options, ensemble);
   return Search(study, options, ensemble, observer, cancel).run(start);
 }

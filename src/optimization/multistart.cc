@@ -22,8 +22,10 @@
 namespace codesign {
 namespace {
 
-constexpr std::uint32_t kRounds = 10;  // of screening, after which unusable points are no longer replaced
-constexpr int kPart = 1024;            // points that are in memory at the same time while screening, and at least 16 per worker
+constexpr std::uint32_t kRounds =
+    10;  // of screening, after which unusable points are no longer replaced
+constexpr int kPart =
+    1024;  // points that are in memory at the same time while screening, and at least 16 per worker
 
 /// A point that may become the start of a search.
 struct Candidate {
@@ -34,7 +36,8 @@ struct Candidate {
 /// One search over starts: the state that its stages share.
 class Multistart {
  public:
-  Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks, const std::atomic<bool>* cancel)
+  Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
+             const std::atomic<bool>* cancel)
       : problem_(problem),
         study_(problem.study()),
         asked_(study_.ensemble.multistart),
@@ -60,7 +63,8 @@ class Multistart {
       result.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
       result.termination = "cancelled";
     }
-    // mpirun ends the job of a killed rank with the signal that a user's interrupt sends, too; the status must name the killed rank.
+    // mpirun ends the job of a killed rank with the signal that a user's interrupt sends, too; the
+    // status must name the killed rank.
     if (lost_.code == StatusCode::kWorkerLost) {
       result.status = lost_;
       result.termination = name_of(lost_.code);
@@ -69,19 +73,23 @@ class Multistart {
   }
 
  private:
-  /// Draws points until `screen` of them are usable: each round replaces the unusable points of the round before.
+  /// Draws points until `screen` of them are usable: each round replaces the unusable points of the
+  /// round before.
   void screen() {
-    const int dimension = static_cast<int>(study_.tuned.size()), part = std::max(kPart, 16 * ensemble_.engine().workers());
+    const int dimension = static_cast<int>(study_.tuned.size()),
+              part = std::max(kPart, 16 * ensemble_.engine().workers());
     meter_.begin(SearchStage::kScreening, asked_.screen, ensemble_.scenarios().size());
     for (std::uint32_t round = 0; round < kRounds && missing() > 0 && goes_on(); ++round) {
       const int count = missing();
-      const PointSequence fill = point_sequence(asked_.sampler, count, dimension, asked_.seed + round);
+      const PointSequence fill =
+          point_sequence(asked_.sampler, count, dimension, asked_.seed + round);
       for (int drawn = 0; drawn < count && goes_on(); drawn += part) {
         Eigen::MatrixXd unit(std::min(part, count - drawn), dimension);
         fill(&unit);
         std::vector<Eigen::VectorXd> points;
         for (Eigen::Index k = 0; k < unit.rows(); ++k)
-          points.push_back(k + drawn == 0 && round == 0 ? problem_.start() : at(unit.row(k).transpose()));
+          points.push_back(k + drawn == 0 && round == 0 ? problem_.start()
+                                                        : at(unit.row(k).transpose()));
         evaluate(points);
       }
     }
@@ -100,7 +108,8 @@ class Multistart {
     return rho;
   }
 
-  /// Evaluates points, counts the usable ones and keeps the best of all so far, of equal ones those drawn first.
+  /// Evaluates points, counts the usable ones and keeps the best of all so far, of equal ones those
+  /// drawn first.
   void evaluate(const std::vector<Eigen::VectorXd>& round) {
     std::vector<EnsembleEvaluation> results(round.size());
     side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
@@ -108,7 +117,8 @@ class Multistart {
         results[k].total.status.code = StatusCode::kCancelled;
         return;
       }
-      if (all_met(parameter_rows_.margins(round[k]))) results[k] = ensemble_.evaluate(round[k], false, cancel_);
+      if (all_met(parameter_rows_.margins(round[k])))
+        results[k] = ensemble_.evaluate(round[k], false, cancel_);
       if (results[k].values.size() > 0) meter_.count_point();
     });
     for (std::size_t k = 0; k < round.size(); ++k) {
@@ -124,16 +134,20 @@ class Multistart {
       ++usable_;
       starts_.push_back({round[k], total.objective});
     }
-    std::stable_sort(starts_.begin(), starts_.end(), [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
+    std::stable_sort(starts_.begin(), starts_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.objective < b.objective;
+    });
     if (starts_.size() > to_index(asked_.starts)) starts_.resize(to_index(asked_.starts));
   }
 
   std::vector<OptimizationResult> search() {
     std::vector<OptimizationResult> found(starts_.size());
-    meter_.begin(SearchStage::kSearching, static_cast<std::int64_t>(starts_.size()), ensemble_.scenarios().size());
+    meter_.begin(SearchStage::kSearching, static_cast<std::int64_t>(starts_.size()),
+                 ensemble_.scenarios().size());
     side_by_side(starts_.size(), ensemble_.engine().workers(), [&](std::size_t k) {
       if (is_set(cancel_) || observer_.is_stopped()) return;
-      found[k] = search_locally(study_, options_, starts_[k].rho, ensemble_, observer_.of(static_cast<int>(k) + 1), cancel_);
+      found[k] = search_locally(study_, options_, starts_[k].rho, ensemble_,
+                                observer_.of(static_cast<int>(k) + 1), cancel_);
       meter_.end_search(found[k].evaluations);
     });
     for (const OptimizationResult& one : found)
@@ -159,9 +173,17 @@ class Multistart {
     return best;
   }
 
-  static StartResult describe(const Eigen::VectorXd& start, double objective, const OptimizationResult& result) {
+  static StartResult describe(const Eigen::VectorXd& start, double objective,
+                              const OptimizationResult& result) {
     if (result.evaluations == 0)
-      return {start, start, objective, objective, {StatusCode::kCancelled, 0.0, "cancelled before it began"}, "not_started", 0, -1};
+      return {start,
+              start,
+              objective,
+              objective,
+              {StatusCode::kCancelled, 0.0, "cancelled before it began"},
+              "not_started",
+              0,
+              -1};
     const bool has_point = result.gradient.size() > 0;
     return {start,
             has_point ? result.rho : start,
@@ -178,12 +200,15 @@ class Multistart {
     for (const OptimizationResult& result : *found) {
       if (result.gradient.size() == 0) continue;
       const bool met = meets_constraints(result), best_met = best && meets_constraints(*best);
-      if (!best || (met && !best_met) || (met == best_met && result.objective < best->objective)) best = &result;
+      if (!best || (met && !best_met) || (met == best_met && result.objective < best->objective))
+        best = &result;
     }
     if (best) return *best;
     OptimizationResult none;
-    none.status = first_failure_.ok() ? Status{StatusCode::kInfeasible, 0.0, "no point that meets the constraints could be evaluated"}
-                                      : first_failure_;
+    none.status = first_failure_.ok()
+                      ? Status{StatusCode::kInfeasible, 0.0,
+                               "no point that meets the constraints could be evaluated"}
+                      : first_failure_;
     none.termination = "start_failed";
     none.initial_rho = none.rho = problem_.start();
     if (!starts_.empty()) {
@@ -206,7 +231,8 @@ class Multistart {
     }
   }
 
-  /// The initial values in the result are the values at the study's start, if that can be evaluated.
+  /// The initial values in the result are the values at the study's start, if that can be
+  /// evaluated.
   void take_study_start(OptimizationResult* best) const {
     if (best->gradient.size() == 0 || is_set(cancel_)) return;
     const EnsembleEvaluation start = ensemble_.evaluate(problem_.start(), true, cancel_);
@@ -239,16 +265,19 @@ class Multistart {
 
 }  // namespace
 
-OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
+OptimizationResult search_from_many_starts(const Problem& problem, const OptimizerOptions& options,
+                                           const SearchHooks& hooks,
                                            const std::atomic<bool>* cancel) {
   return Multistart(problem, options, hooks, cancel).run();
 }
 
-std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scaled, double distance, std::vector<StartResult>* starts) {
+std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scaled, double distance,
+                                    std::vector<StartResult>* starts) {
   std::vector<std::size_t> order(starts->size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [starts](std::size_t a, std::size_t b) { return (*starts)[a].objective < (*starts)[b].objective; });
+  std::stable_sort(order.begin(), order.end(), [starts](std::size_t a, std::size_t b) {
+    return (*starts)[a].objective < (*starts)[b].objective;
+  });
   std::vector<Optimum> optima;
   std::vector<std::size_t> representatives;
   for (std::size_t k : order) {
@@ -256,7 +285,8 @@ std::vector<Optimum> cluster_optima(const std::vector<std::vector<double>>& scal
     if (!start.status.ok()) continue;
     const auto is_near = [&](std::size_t other) {
       double largest = 0.0;
-      for (std::size_t c = 0; c < scaled[k].size(); ++c) largest = std::max(largest, std::abs(scaled[k][c] - scaled[other][c]));
+      for (std::size_t c = 0; c < scaled[k].size(); ++c)
+        largest = std::max(largest, std::abs(scaled[k][c] - scaled[other][c]));
       return largest <= distance;
     };
     const auto known = std::find_if(representatives.begin(), representatives.end(), is_near);

@@ -15,12 +15,13 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kNear = 1e-6;        // of the length of a direction
-constexpr Index kMostNear = 10;       // near inequalities per variable; more count as kNear away
-constexpr int kMostRounds = 100;      // of Newton's method, which takes about ten
-constexpr int kMostHalvings = 30;     // of its steps
-constexpr int kRefinements = 2;       // of the multipliers of far rows: each reduces their error by the rounding of r over kNear squared
-constexpr double kLeastShare = 1e-4;  // of the slope that a step must gain
+constexpr double kNear = 1e-6;     // of the length of a direction
+constexpr Index kMostNear = 10;    // near inequalities per variable; more count as kNear away
+constexpr int kMostRounds = 100;   // of Newton's method, which takes about ten
+constexpr int kMostHalvings = 30;  // of its steps
+constexpr int kRefinements = 2;  // of the multipliers of far rows: each reduces their error by the
+                                 // rounding of r over kNear squared
+constexpr double kLeastShare = 1e-4;        // of the slope that a step must gain
 constexpr double kRoundingOfValue = 1e-24;  // of |g|^2
 
 double length_of(const Holder& holder) {
@@ -63,10 +64,12 @@ Places places_of(const std::vector<Holder>& holders, Index variables) {
 
 /// Newton's method for the sum of squares as a function of r,
 ///   F(r) = r^T r - 2 g^T r + sum over far rows of max(0, w_k^T r)^2 + that of near rows,
-/// which is convex and, but for near rows, quadratic between the planes w_k^T r = 0. Its minimum is -s^2.
+/// which is convex and, but for near rows, quadratic between the planes w_k^T r = 0. Its minimum is
+/// -s^2.
 class NewtonSearch {
  public:
-  NewtonSearch(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const std::atomic<bool>* cancel)
+  NewtonSearch(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders,
+               const std::atomic<bool>* cancel)
       : NewtonSearch(gradient, holders, places_of(holders, gradient.size()), cancel) {}
 
   Multipliers run() {
@@ -88,13 +91,15 @@ class NewtonSearch {
   }
 
  private:
-  NewtonSearch(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const Places& places, const std::atomic<bool>* cancel)
+  NewtonSearch(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders,
+               const Places& places, const std::atomic<bool>* cancel)
       : gradient_(gradient),
         holders_(holders),
         cancel_(cancel),
         nearest_(places.near),
         far_(gradient.size(), holders, places.far,
-             Eigen::Map<const Eigen::VectorXd>(places.far_distances.data(), static_cast<Index>(places.far_distances.size()))),
+             Eigen::Map<const Eigen::VectorXd>(places.far_distances.data(),
+                                               static_cast<Index>(places.far_distances.size()))),
         near_(gradient, holders, nearest_, cancel) {}
 
   bool is_cancelled() const { return cancel_ && *cancel_; }
@@ -106,9 +111,11 @@ class NewtonSearch {
     const Eigen::VectorXd p = near_.rest() - r_, change = far_.along(near_.rest()) - along_;
     const double near_change = near_.products() - products_;
     const auto value = [&](double t) {
-      return t * (p.dot(2.0 * (r_ - gradient_) + t * p) + near_change) + square(along_ + t * change) - square(along_);
+      return t * (p.dot(2.0 * (r_ - gradient_) + t * p) + near_change) +
+             square(along_ + t * change) - square(along_);
     };
-    const double slope = 2.0 * (p.dot(r_ - gradient_) + along_.cwiseMax(0.0).dot(change)) + near_change;
+    const double slope =
+        2.0 * (p.dot(r_ - gradient_) + along_.cwiseMax(0.0).dot(change)) + near_change;
     if (!(slope < -kRoundingOfValue * gradient_.squaredNorm())) return false;
     double t = 1.0;
     for (int k = 0; k < kMostHalvings && !(value(t) <= kLeastShare * t * slope); ++k) t *= 0.5;
@@ -119,7 +126,8 @@ class NewtonSearch {
     return true;
   }
 
-  /// The multipliers of far rows for the r of near ones, and their rounding corrected by the r that they leave.
+  /// The multipliers of far rows for the r of near ones, and their rounding corrected by the r that
+  /// they leave.
   void refine(const std::vector<bool>& active) {
     r_ = near_.rest();
     rest_ = gradient_ - near_.held();
@@ -128,7 +136,8 @@ class NewtonSearch {
     for (int k = 0; k <= kRefinements; ++k) {
       const Eigen::VectorXd along = far_.along(r_);
       for (std::size_t i = 0; i < active.size(); ++i)
-        if (const auto row = static_cast<Index>(i); active[i]) weights_[row] = std::max(0.0, weights_[row] + along[row]);
+        if (const auto row = static_cast<Index>(i); active[i])
+          weights_[row] = std::max(0.0, weights_[row] + along[row]);
       const Eigen::VectorXd without_near = gradient_ - far_.sum(weights_);
       near_.balance_bounds(without_near);
       rest_ = without_near - near_.held();
@@ -147,10 +156,12 @@ class NewtonSearch {
       result.near[nearest_[k]] = true;
     }
     for (std::size_t k = 0; k < far_.size(); ++k)
-      result.values[static_cast<Index>(far_.holder(k))] = weights_[static_cast<Index>(k)] / far_.distance(k);
+      result.values[static_cast<Index>(far_.holder(k))] =
+          weights_[static_cast<Index>(k)] / far_.distance(k);
     result.rest = rest_;
     double sum = rest_.squaredNorm();
-    for (std::size_t k = 0; k < holders_.size(); ++k) sum += std::pow(result.values[static_cast<Index>(k)] * holders_[k].distance, 2);
+    for (std::size_t k = 0; k < holders_.size(); ++k)
+      sum += std::pow(result.values[static_cast<Index>(k)] * holders_[k].distance, 2);
     result.residual = std::sqrt(sum);
     result.factorizations = near_.factorizations();
     return result;
@@ -170,18 +181,24 @@ class NewtonSearch {
 
 using Eigen::Index;
 
-constexpr double kNoGain = 1e-12;  // a multiplier that would reduce the residual by less is left out
+constexpr double kNoGain =
+    1e-12;  // a multiplier that would reduce the residual by less is left out
 
 }  // namespace
 
-Multipliers least_multipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const std::atomic<bool>* cancel) {
+Multipliers least_multipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders,
+                              const std::atomic<bool>* cancel) {
   return NewtonSearch(gradient, holders, cancel).run();
 }
 
 using Eigen::Index;
 
-FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vector<std::size_t> far, Eigen::VectorXd distances)
-    : variables_(variables), holders_(holders), far_(std::move(far)), distances_(std::move(distances)) {
+FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vector<std::size_t> far,
+                 Eigen::VectorXd distances)
+    : variables_(variables),
+      holders_(holders),
+      far_(std::move(far)),
+      distances_(std::move(distances)) {
   Index leading = 0;
   for (const std::size_t k : far_) leading = std::max(leading, holders_[k].leading.size());
   leading_.setZero(leading, distances_.size());
@@ -201,7 +218,8 @@ FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vecto
 Eigen::VectorXd FarRows::along(const Eigen::VectorXd& x) const {
   Eigen::VectorXd products = leading_.transpose() * x.head(leading_.rows());
   for (Index row = 0; row < products.size(); ++row)
-    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others) products[row] += entry / distances_[row] * x[variable];
+    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others)
+      products[row] += entry / distances_[row] * x[variable];
   return products;
 }
 
@@ -210,7 +228,8 @@ Eigen::VectorXd FarRows::sum(const Eigen::VectorXd& p) const {
   x.head(leading_.rows()) = leading_ * p;
   for (Index row = 0; row < p.size(); ++row) {
     if (p[row] == 0.0) continue;
-    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others) x[variable] += entry / distances_[row] * p[row];
+    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others)
+      x[variable] += entry / distances_[row] * p[row];
   }
   return x;
 }
@@ -218,36 +237,45 @@ Eigen::VectorXd FarRows::sum(const Eigen::VectorXd& p) const {
 Eigen::MatrixXd FarRows::metric(const std::vector<bool>& active) const {
   Eigen::VectorXd squares = Eigen::VectorXd::Ones(variables_);
   for (std::size_t k = 0; k < far_.size(); ++k)
-    if (active[k] && holders_[far_[k]].is_bound) squares[holders_[far_[k]].others[0].first] += std::pow(distance(k), -2);
+    if (active[k] && holders_[far_[k]].is_bound)
+      squares[holders_[far_[k]].others[0].first] += std::pow(distance(k), -2);
   Eigen::MatrixXd rows = squares.cwiseSqrt().asDiagonal();
   for (const std::vector<Index>& group : groups_) append(group, active, &rows);
   return rows;
 }
 
-/// Appends the active rows of a group, as a triangle if they are more than the variables that they read.
-void FarRows::append(const std::vector<Index>& group, const std::vector<bool>& active, Eigen::MatrixXd* rows) const {
+/// Appends the active rows of a group, as a triangle if they are more than the variables that they
+/// read.
+void FarRows::append(const std::vector<Index>& group, const std::vector<bool>& active,
+                     Eigen::MatrixXd* rows) const {
   std::vector<Index> chosen;
   for (const Index row : group)
     if (active[to_index(row)]) chosen.push_back(row);
   if (chosen.empty()) return;
-  const auto others_of = [&](Index row) -> const auto& { return holders_[far_[to_index(row)]].others; };
+  const auto others_of = [&](Index row) -> const auto& {
+    return holders_[far_[to_index(row)]].others;
+  };
   const auto& pattern = others_of(chosen[0]);
   const Index leading = leading_.rows(), columns = leading + static_cast<Index>(pattern.size());
   Eigen::MatrixXd block(static_cast<Index>(chosen.size()), columns);
   for (Index k = 0; k < block.rows(); ++k) {
     const Index row = chosen[to_index(k)];
     block.row(k).head(leading) = leading_.col(row).transpose();
-    for (std::size_t i = 0; i < pattern.size(); ++i) block(k, leading + static_cast<Index>(i)) = others_of(row)[i].second / distances_[row];
+    for (std::size_t i = 0; i < pattern.size(); ++i)
+      block(k, leading + static_cast<Index>(i)) = others_of(row)[i].second / distances_[row];
   }
   if (block.rows() > columns) block = upper_factor(block);
   rows->conservativeResize(rows->rows() + block.rows(), Eigen::NoChange);
   auto added = rows->bottomRows(block.rows());
   added.setZero();
   added.leftCols(leading) = block.leftCols(leading);
-  for (std::size_t i = 0; i < pattern.size(); ++i) added.col(pattern[i].first) = block.col(leading + static_cast<Index>(i));
+  for (std::size_t i = 0; i < pattern.size(); ++i)
+    added.col(pattern[i].first) = block.col(leading + static_cast<Index>(i));
 }
 
-NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders, const std::vector<std::size_t>& near,
+NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient,
+                                 const std::vector<Holder>& holders,
+                                 const std::vector<std::size_t>& near,
                                  const std::atomic<bool>* cancel)
     : gradient_(gradient), holders_(holders), near_(near), cancel_(cancel), rest_(gradient) {
   const auto count = static_cast<Index>(near_.size());
@@ -260,7 +288,8 @@ NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient, const std::vec
     directions_.col(k).head(one.leading.size()) = one.leading;
     for (const auto& [variable, entry] : one.others) directions_(variable, k) = entry;
     distances_[k] = one.distance;
-    used_[to_index(k)] = one.any_sign || (one.is_on_bound() && directions_.col(k).dot(gradient_) > 0.0);
+    used_[to_index(k)] =
+        one.any_sign || (one.is_on_bound() && directions_.col(k).dot(gradient_) > 0.0);
   }
 }
 
@@ -282,7 +311,8 @@ Eigen::VectorXd NearMultipliers::solve(const Eigen::VectorXd& x) const {
 void NearMultipliers::balance_bounds(const Eigen::VectorXd& x) {
   const Eigen::VectorXd rest = x - held();
   for (Index k = 0; k < c_.size(); ++k)
-    if (used_[to_index(k)] && holder(k).is_on_bound()) c_[k] = std::max(0.0, c_[k] + directions_.col(k).dot(rest));
+    if (used_[to_index(k)] && holder(k).is_on_bound())
+      c_[k] = std::max(0.0, c_[k] + directions_.col(k).dot(rest));
 }
 
 /// Adds the unused multiplier that reduces the residual fastest. False if there is none.
@@ -303,17 +333,20 @@ bool NearMultipliers::add_best() {
   return true;
 }
 
-/// Moves the used multipliers towards their least-squares values, dropping those that reach zero on the way.
+/// Moves the used multipliers towards their least-squares values, dropping those that reach zero on
+/// the way.
 void NearMultipliers::settle(const Eigen::MatrixXd& metric) {
   for (std::size_t round = 0; round <= near_.size(); ++round) {
     const Eigen::VectorXd target = this->target(metric);
     double fraction = 1.0;
     for (Index k = 0; k < c_.size(); ++k)
-      if (may_block(k) && target[k] < 0.0) fraction = std::min(fraction, c_[k] / (c_[k] - target[k]));
+      if (may_block(k) && target[k] < 0.0)
+        fraction = std::min(fraction, c_[k] / (c_[k] - target[k]));
     c_ += fraction * (target - c_);
     bool dropped = false;
     for (Index k = 0; k < c_.size(); ++k) {
-      if (!may_block(k) || !(target[k] < 0.0) || c_[k] > kNoGain * (1.0 + std::abs(target[k]))) continue;
+      if (!may_block(k) || !(target[k] < 0.0) || c_[k] > kNoGain * (1.0 + std::abs(target[k])))
+        continue;
       c_[k] = 0.0;
       used_[to_index(k)] = false;
       dropped = true;
@@ -328,7 +361,8 @@ bool NearMultipliers::may_block(Index k) const { return used_[to_index(k)] && !h
 void NearMultipliers::factor(const Eigen::MatrixXd& metric) {
   std::vector<bool> held(to_index(gradient_.size()), false);
   for (Index k = 0; k < c_.size(); ++k)
-    if (used_[to_index(k)] && holder(k).is_on_bound()) held[to_index(holder(k).others[0].first)] = true;
+    if (used_[to_index(k)] && holder(k).is_on_bound())
+      held[to_index(holder(k).others[0].first)] = true;
   std::vector<int> free;
   for (std::size_t i = 0; i < held.size(); ++i)
     if (!held[i]) free.push_back(static_cast<int>(i));
@@ -350,7 +384,8 @@ Eigen::VectorXd NearMultipliers::target(const Eigen::MatrixXd& metric) {
     Eigen::MatrixXd top(size, count + 1);
     top << directions_(free_, columns), gradient_(free_);
     factor_.triangularView<Eigen::Upper>().transpose().solveInPlace(top);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size + count, count), right = Eigen::MatrixXd::Zero(size + count, 1);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size + count, count),
+                    right = Eigen::MatrixXd::Zero(size + count, 1);
     A.topRows(size) = top.leftCols(count);
     A.bottomRows(count) = Eigen::VectorXd(distances_(columns)).asDiagonal();
     right.topRows(size) = top.rightCols(1);

@@ -11,44 +11,48 @@
 
 namespace codesign {
 
-OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system, const OptimizerOptions& options,
-                            const TrialObserver& observer, const std::atomic<bool>* cancel) {
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
+                            const OptimizerOptions& options, const TrialObserver& observer,
+                            const std::atomic<bool>* cancel) {
   const Study& study = system->whole_study();
   require_tuned(study);
   const Ensemble ensemble(system);
   return search_locally(study, options, start_of(study), ensemble, observer, cancel);
 }
 
-OptimizationResult optimize(const Problem& problem, const TrialObserver& observer, const std::atomic<bool>* cancel) {
+OptimizationResult optimize(const Problem& problem, const TrialObserver& observer,
+                            const std::atomic<bool>* cancel) {
   return optimize(problem, problem.optimizer_options(), observer, cancel);
 }
 
-OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options, const TrialObserver& observer,
-                            const std::atomic<bool>* cancel) {
+OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options,
+                            const TrialObserver& observer, const std::atomic<bool>* cancel) {
   return run_search(problem, options, {observer, nullptr, nullptr}, cancel);
 }
 
 namespace {
 
-OptimizationResult search_once(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
-                               const std::atomic<bool>* cancel) {
+OptimizationResult search_once(const Problem& problem, const OptimizerOptions& options,
+                               const SearchHooks& hooks, const std::atomic<bool>* cancel) {
   ProgressMeter own_meter(options.max_evaluations, hooks.progress);
   ProgressMeter* const meter = hooks.meter ? hooks.meter : &own_meter;
   const Ensemble ensemble(problem, 1, records_of(hooks, meter));
   meter->begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
   const TrialObserver observer = counted_trials(hooks, meter);
-  OptimizationResult result = search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
+  OptimizationResult result =
+      search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
   describe_scenarios(problem, ensemble, cancel, meter, &result);
   return result;
 }
 
 }  // namespace
 
-OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
-                              const std::atomic<bool>* cancel) {
+OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options,
+                              const SearchHooks& hooks, const std::atomic<bool>* cancel) {
   require_tuned(problem.study());
-  OptimizationResult result = problem.study().ensemble.multistart.starts > 0 ? search_from_many_starts(problem, options, hooks, cancel)
-                                                                             : search_once(problem, options, hooks, cancel);
+  OptimizationResult result = problem.study().ensemble.multistart.starts > 0
+                                  ? search_from_many_starts(problem, options, hooks, cancel)
+                                  : search_once(problem, options, hooks, cancel);
   if (result.status.code != StatusCode::kCancelled || hooks.ranks == nullptr) return result;
   // mpirun interrupts the job also when one of its ranks was killed, perhaps an idle one.
   const Status missed = hooks.ranks->call_roll();

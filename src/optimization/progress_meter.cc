@@ -6,8 +6,13 @@
 
 namespace codesign {
 
-ProgressMeter::ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer, Clock::duration period)
-    : most_evaluations_(most_evaluations), observer_(std::move(observer)), period_(period), began_(Clock::now()), told_(began_) {}
+ProgressMeter::ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer,
+                             Clock::duration period)
+    : most_evaluations_(most_evaluations),
+      observer_(std::move(observer)),
+      period_(period),
+      began_(Clock::now()),
+      told_(began_) {}
 
 void ProgressMeter::begin(SearchStage stage, std::int64_t of, std::size_t scenarios) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -49,12 +54,13 @@ Progress ProgressMeter::now() const {
   return measure();
 }
 
-/// Runs until the end of the stage. A running search is expected to take as many trials as the finished searches on average, or up to its
-/// limit if no search has finished.
+/// Runs until the end of the stage. A running search is expected to take as many trials as the
+/// finished searches on average, or up to its limit if no search has finished.
 std::int64_t ProgressMeter::runs_left() const {
   if (stage_ == SearchStage::kScreening) return (of_ - done_) * scenarios_;
   if (stage_ == SearchStage::kValidating) return of_ * scenarios_ - (runs_ - runs_before_);
-  const std::int64_t expected = done_ > 0 ? ended_trials_ * of_ / done_ : std::max<std::int64_t>(1, of_) * most_evaluations_;
+  const std::int64_t expected =
+      done_ > 0 ? ended_trials_ * of_ / done_ : std::max<std::int64_t>(1, of_) * most_evaluations_;
   return (expected - trials_) * scenarios_;
 }
 
@@ -80,7 +86,8 @@ Progress ProgressMeter::measure() const {
   const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
   if (computed_ == 0 || seconds <= 0.0) return progress;
   progress.runs_per_second = static_cast<double>(computed_) / seconds;
-  progress.seconds_left = static_cast<double>(std::max<std::int64_t>(0, runs_left())) / progress.runs_per_second;
+  progress.seconds_left =
+      static_cast<double>(std::max<std::int64_t>(0, runs_left())) / progress.runs_per_second;
   return progress;
 }
 

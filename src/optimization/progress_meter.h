@@ -15,30 +15,37 @@ enum class SearchStage { kScreening, kSearching, kValidating };
 /// The progress of a job.
 struct Progress {
   SearchStage stage = SearchStage::kSearching;
-  /// Finished and total number of points while screening, of searches in a job with several searches, of evaluations in a single search
-  /// (the total is their limit), or of runs while validating.
+  /// Finished and total number of points while screening, of searches in a job with several
+  /// searches, of evaluations in a single search (the total is their limit), or of runs while
+  /// validating.
   std::int64_t done = 0, of = 0;
-  std::int64_t starts = 0;       ///< number of searches; 0: a single search from the study's start
-  std::int64_t runs = 0;         ///< finished runs at one design, including runs remembered from an earlier process
-  std::int64_t remembered = 0;   ///< runs that were remembered instead of computed
-  double runs_per_second = 0.0;  ///< rate of computed runs since the stage began; 0 before the first one
+  std::int64_t starts = 0;  ///< number of searches; 0: a single search from the study's start
+  std::int64_t runs =
+      0;  ///< finished runs at one design, including runs remembered from an earlier process
+  std::int64_t remembered = 0;  ///< runs that were remembered instead of computed
+  double runs_per_second =
+      0.0;  ///< rate of computed runs since the stage began; 0 before the first one
   /// Time until the end of the stage [s]; empty before the first run has been computed.
   std::optional<double> seconds_left;
-  bool is_bound = false;  ///< whether seconds_left is an upper limit, since a search may end before its last evaluation
+  bool is_bound = false;  ///< whether seconds_left is an upper limit, since a search may end before
+                          ///< its last evaluation
 };
 
 /// Called from any thread, by one thread at a time.
 using ProgressObserver = std::function<void(const Progress&)>;
 
-/// Counts the finished work of a job and calls an observer, at most once per `period` and at the end of screening. Thread-safe.
+/// Counts the finished work of a job and calls an observer, at most once per `period` and at the
+/// end of screening. Thread-safe.
 class ProgressMeter {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// @param most_evaluations limit of evaluations of one search. @param observer may be empty.
-  ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer, Clock::duration period = std::chrono::seconds(1));
+  ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer,
+                Clock::duration period = std::chrono::seconds(1));
 
-  /// @param of number of points, of searches (0: one search), or of designs to validate. @param scenarios runs per evaluation.
+  /// @param of number of points, of searches (0: one search), or of designs to validate. @param
+  /// scenarios runs per evaluation.
   void begin(SearchStage stage, std::int64_t of, std::size_t scenarios);
   /// Counts a finished run. @param computed false: it was remembered.
   void count_run(bool computed);
@@ -59,8 +66,8 @@ class ProgressMeter {
   const Clock::duration period_;
   mutable std::mutex mutex_;  // guards all members below
   SearchStage stage_ = SearchStage::kSearching;
-  std::int64_t scenarios_ = 1, done_ = 0, of_ = 0, runs_ = 0, remembered_ = 0, runs_before_ = 0, computed_ = 0, trials_ = 0,
-               ended_trials_ = 0;
+  std::int64_t scenarios_ = 1, done_ = 0, of_ = 0, runs_ = 0, remembered_ = 0, runs_before_ = 0,
+               computed_ = 0, trials_ = 0, ended_trials_ = 0;
   Clock::time_point began_, told_;
 };
 

@@ -47,13 +47,16 @@ double Scaling::gradient_norm(const Eigen::VectorXd& gradient) const {
   return std::sqrt(sum);
 }
 
-double Scaling::free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::VectorXd& gradient) const {
+double Scaling::free_gradient_norm(const Eigen::VectorXd& rho,
+                                   const Eigen::VectorXd& gradient) const {
   constexpr double kOnBound = 1e-9;
   const std::vector<double> x = to_scaled(rho);
   Eigen::VectorXd free = gradient;
   for (std::size_t k = 0; k < x.size(); ++k) {
     double& component = free[to_signed(k)];
-    if ((x[k] - lower_[k] <= kOnBound && component > 0.0) || (upper_[k] - x[k] <= kOnBound && component < 0.0)) component = 0.0;
+    if ((x[k] - lower_[k] <= kOnBound && component > 0.0) ||
+        (upper_[k] - x[k] <= kOnBound && component < 0.0))
+      component = 0.0;
   }
   return gradient_norm(free);
 }

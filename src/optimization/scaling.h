@@ -8,11 +8,12 @@
 
 namespace codesign {
 
-/// Scaled variables of the optimizer, doc/theory.md (24): x = (rho - lower) / (upper - lower), or rho over the magnitude of its start value
-/// where a bound is missing.
+/// Scaled variables of the optimizer, doc/theory.md (24): x = (rho - lower) / (upper - lower), or
+/// rho over the magnitude of its start value where a bound is missing.
 ///
-/// Parameters differ by orders of magnitude (a length in metres beside a gain). Quasi-Newton methods start from a unit Hessian and would
-/// fail without scaling. All vectors have p entries in the order of Study::tuned.
+/// Parameters differ by orders of magnitude (a length in metres beside a gain). Quasi-Newton
+/// methods start from a unit Hessian and would fail without scaling. All vectors have p entries in
+/// the order of Study::tuned.
 class Scaling {
  public:
   explicit Scaling(const Study& study);

@@ -14,14 +14,18 @@ namespace codesign {
 
 /// Optional connections of a job, besides its problem; each may be empty.
 struct SearchHooks {
-  TrialObserver trial;                       ///< as in optimize()
-  ProgressObserver progress = nullptr;       ///< called about once a second, also while screening and validating
-  std::shared_ptr<EvaluationMemory> memory;  ///< has the evaluations of an earlier process, and keeps the evaluations of this process
+  TrialObserver trial;  ///< as in optimize()
+  ProgressObserver progress =
+      nullptr;  ///< called about once a second, also while screening and validating
+  std::shared_ptr<EvaluationMemory> memory;  ///< has the evaluations of an earlier process, and
+                                             ///< keeps the evaluations of this process
   Dispatcher* ranks = nullptr;               ///< the processes of the job, as in require_engine()
-  ProgressMeter* meter = nullptr;            ///< meter of a caller that polls the progress; its observer replaces `progress`
+  ProgressMeter* meter =
+      nullptr;  ///< meter of a caller that polls the progress; its observer replaces `progress`
 };
 
-/// The records for the engine of a job: its memory, and the count of runs for the meter, which must outlive the engine.
+/// The records for the engine of a job: its memory, and the count of runs for the meter, which must
+/// outlive the engine.
 inline EngineRecords records_of(const SearchHooks& hooks, ProgressMeter* meter) {
   return {hooks.memory, [meter](bool computed) { meter->count_run(computed); }, hooks.ranks};
 }
@@ -34,12 +38,13 @@ inline TrialObserver counted_trials(const SearchHooks& hooks, ProgressMeter* met
   };
 }
 
-/// optimize() with hooks. With a memory the result is the same to the last bit, except for processor times.
-OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
-                              const std::atomic<bool>* cancel);
+/// optimize() with hooks. With a memory the result is the same to the last bit, except for
+/// processor times.
+OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options,
+                              const SearchHooks& hooks, const std::atomic<bool>* cancel);
 
-/// Passes the trials of searches in several threads to one observer: one trial at a time, numbered consecutively over all searches, with
-/// the best objective of all searches.
+/// Passes the trials of searches in several threads to one observer: one trial at a time, numbered
+/// consecutively over all searches, with the best objective of all searches.
 class SharedObserver {
  public:
   explicit SharedObserver(const TrialObserver& observer) : observer_(observer) {}
@@ -75,7 +80,8 @@ class SharedObserver {
   const TrialObserver& observer_;
   std::mutex mutex_;
   int evaluations_ = 0, iterations_ = 0;
-  std::pair<double, double> best_;  ///< violation of the constraints and objective of the best point
+  std::pair<double, double>
+      best_;  ///< violation of the constraints and objective of the best point
   bool has_best_ = false, stopped_ = false;
 };
 

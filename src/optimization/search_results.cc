@@ -18,28 +18,38 @@
 namespace codesign {
 namespace {
 
-ScenarioResult describe(const Study& study, const Scenario& scenario, double initial, double final) {
-  ScenarioResult result{scenario.run, scenario.sample, scenario.weight, {}, initial, final, scenario.friction_law};
-  for (const auto& [index, value] : scenario.values) result.values.emplace_back(study.parameters[to_index(index)].name, value);
+ScenarioResult describe(const Study& study, const Scenario& scenario, double initial,
+                        double final) {
+  ScenarioResult result{scenario.run, scenario.sample, scenario.weight,      {},
+                        initial,      final,           scenario.friction_law};
+  for (const auto& [index, value] : scenario.values)
+    result.values.emplace_back(study.parameters[to_index(index)].name, value);
   return result;
 }
 
-/// The weight of the values up to `bound`; failed scenarios are not among the values and count as larger than `bound`.
-double share_within(double bound, const std::vector<double>& values, const std::vector<double>& weights) {
+/// The weight of the values up to `bound`; failed scenarios are not among the values and count as
+/// larger than `bound`.
+double share_within(double bound, const std::vector<double>& values,
+                    const std::vector<double>& weights) {
   double share = 0.0;
   for (std::size_t k = 0; k < values.size(); ++k)
     if (values[k] <= bound) share += weights[k];
   return share;
 }
 
-/// Evaluates the design on fresh samples. Unlike in the search, a failed sample does not make the design fail; it is only counted.
-/// @returns std::nullopt if the validation was interrupted, or if its measure overflows. @param failure receives the status of that.
-std::optional<Validation> validate(const Problem& problem, const Ensemble& ensemble, const OptimizationResult& design,
-                                   const std::atomic<bool>* cancel, ProgressMeter* meter, Status* failure) {
+/// Evaluates the design on fresh samples. Unlike in the search, a failed sample does not make the
+/// design fail; it is only counted.
+/// @returns std::nullopt if the validation was interrupted, or if its measure overflows. @param
+/// failure receives the status of that.
+std::optional<Validation> validate(const Problem& problem, const Ensemble& ensemble,
+                                   const OptimizationResult& design,
+                                   const std::atomic<bool>* cancel, ProgressMeter* meter,
+                                   Status* failure) {
   const RobustOptions& options = ensemble.options();
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   meter->begin(SearchStage::kValidating, 1, scenarios.size());
-  const std::vector<Evaluation> members = ensemble.engine().evaluate(tasks_at(scenarios, design.rho, Derivatives::kNone), cancel);
+  const std::vector<Evaluation> members =
+      ensemble.engine().evaluate(tasks_at(scenarios, design.rho, Derivatives::kNone), cancel);
   Validation validation;
   validation.samples = options.validate;
   validation.promised = design.objective;
@@ -62,7 +72,8 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   w /= w.sum();
   const Measured measured = measure(options, psi, w);
   if (!std::isfinite(measured.value)) {
-    *failure = {StatusCode::kNonFinite, problem.study().duration, "the measure over the fresh samples of robust.validate is not finite"};
+    *failure = {StatusCode::kNonFinite, problem.study().duration,
+                "the measure over the fresh samples of robust.validate is not finite"};
     return std::nullopt;
   }
   validation.objective = measured.value;
@@ -80,48 +91,59 @@ constexpr double kOnBound = 1e-6;
 constexpr double kWidening = 0.01;  // of the range, for the worth of a bound
 constexpr Eigen::Index kMostListed = 5;
 
-void add_evaluations_warning(const Study& study, const OptimizerOptions& options, const OptimizationResult& result, Warnings* warnings) {
+void add_evaluations_warning(const Study& study, const OptimizerOptions& options,
+                             const OptimizationResult& result, Warnings* warnings) {
   if (result.termination != "max_evaluations_reached") return;
   warnings->push_back(
-      warn("max_evaluations_reached",
-           {where_of(options, study), "optimizer.max_evaluations",
-            "the search stopped at the limit of evaluations before it converged; the best point so far is returned; allow more "
-            "evaluations or a larger optimizer.relative_tolerance",
-            std::to_string(options.max_evaluations), ""}));
+      warn("max_evaluations_reached", {where_of(options, study), "optimizer.max_evaluations",
+                                       "the search stopped at the limit of evaluations before it "
+                                       "converged; the best point so far is returned; allow more "
+                                       "evaluations or a larger optimizer.relative_tolerance",
+                                       std::to_string(options.max_evaluations), ""}));
 }
 
 bool is_on(double value, double bound, const Parameter& parameter) {
   if (!std::isfinite(bound)) return false;
-  const double range = parameter.upper - parameter.lower, scale = std::isfinite(range) ? range : std::max(std::abs(bound), 1.0);
+  const double range = parameter.upper - parameter.lower,
+               scale = std::isfinite(range) ? range : std::max(std::abs(bound), 1.0);
   return std::abs(value - bound) <= kOnBound * scale;
 }
 
-// Warns only if the objective falls beyond the bound while all constraints are kept, so that the bound determines the value.
-void add_bound_warning(const Parameter& parameter, double value, double multiplier, double objective, Warnings* warnings) {
+// Warns only if the objective falls beyond the bound while all constraints are kept, so that the
+// bound determines the value.
+void add_bound_warning(const Parameter& parameter, double value, double multiplier,
+                       double objective, Warnings* warnings) {
   const bool at_lower = is_on(value, parameter.lower, parameter) && multiplier > 0.0;
   const bool at_upper = is_on(value, parameter.upper, parameter) && multiplier < 0.0;
-  const double worth = kWidening * std::abs(multiplier), share = objective != 0.0 ? worth / std::abs(objective) : 1.0;
+  const double worth = kWidening * std::abs(multiplier),
+               share = objective != 0.0 ? worth / std::abs(objective) : 1.0;
   if (!at_lower && !at_upper) return;
-  warnings->push_back(
-      warn("parameter_on_bound", {parameter.where, parameter.name,
-                                  std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
-                                      " bound; to widen the bound by 1 % of the range would lower the objective by about " +
-                                      readable(worth, 2) + " (" + readable(100.0 * share, 2) + " %); widen it if it was a guess",
-                                  to_decimal(value), "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
+  warnings->push_back(warn(
+      "parameter_on_bound",
+      {parameter.where, parameter.name,
+       std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
+           " bound; to widen the bound by 1 % of the range would lower the objective by about " +
+           readable(worth, 2) + " (" + readable(100.0 * share, 2) +
+           " %); widen it if it was a guess",
+       to_decimal(value),
+       "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
 }
 
-void add_stop_warning(const Study& study, const OptimizerOptions& options, const OptimizationResult& result, Warnings* warnings) {
+void add_stop_warning(const Study& study, const OptimizerOptions& options,
+                      const OptimizationResult& result, Warnings* warnings) {
   if (result.termination != "stopped_early") return;
-  warnings->push_back(
-      warn("not_stationary",
-           {where_of(options, study), "optimizer",
-            stop_sentence(result) +
-                "; no algorithm gains from there, so that it may not be an optimum; try another start or another algorithm, a smaller "
-                "solver.relative_tolerance if the objective is rough, or narrower bounds",
-            "", "a stationarity of at most " + readable(std::sqrt(options.relative_tolerance), 2)}));
+  warnings->push_back(warn(
+      "not_stationary",
+      {where_of(options, study), "optimizer",
+       stop_sentence(result) +
+           "; no algorithm gains from there, so that it may not be an optimum; try another start "
+           "or another algorithm, a smaller "
+           "solver.relative_tolerance if the objective is rough, or narrower bounds",
+       "", "a stationarity of at most " + readable(std::sqrt(options.relative_tolerance), 2)}));
 }
 
-void add_flat_warning(const Study& study, const OptimizerOptions& options, const OptimizationResult& result, Warnings* warnings) {
+void add_flat_warning(const Study& study, const OptimizerOptions& options,
+                      const OptimizationResult& result, Warnings* warnings) {
   const Eigen::Index count = result.flat_directions.cols();
   if (count == 0) return;
   std::string list;
@@ -131,18 +153,21 @@ void add_flat_warning(const Study& study, const OptimizerOptions& options, const
       const double by = result.flat_directions(k, d);
       if (by == 0.0) continue;
       const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
-      direction += (direction.empty() ? "" : ", ") + parameter.name + (by > 0.0 ? " +" : " ") + readable(by, 3);
+      direction += (direction.empty() ? "" : ", ") + parameter.name + (by > 0.0 ? " +" : " ") +
+                   readable(by, 3);
     }
     list += (d == 0 ? "" : "; ") + direction;
   }
   if (count > kMostListed) list += "; ...";
   warnings->push_back(
-      warn("flat_direction", {where_of(options, study), "parameters",
-                              "the optimum is not one point: the objective does not change along " +
-                                  (count == 1 ? std::string("a direction") : std::to_string(count) + " directions") +
-                                  " of the parameters, so that other values are as good (" + list +
-                                  "); fix one parameter of each direction, or add a term to the objective that prefers a value",
-                              "", ""}));
+      warn("flat_direction",
+           {where_of(options, study), "parameters",
+            "the optimum is not one point: the objective does not change along " +
+                (count == 1 ? std::string("a direction") : std::to_string(count) + " directions") +
+                " of the parameters, so that other values are as good (" + list +
+                "); fix one parameter of each direction, or add a term to the objective that "
+                "prefers a value",
+            "", ""}));
 }
 
 using Eigen::Index;
@@ -164,19 +189,23 @@ void reduce(Eigen::MatrixXd* rows) {
 
 }  // namespace
 
-void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, ProgressMeter* meter,
+void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
+                        const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
-  const bool known = result->values.size() == to_signed(scenarios.size()) && result->initial_values.size() == result->values.size();
+  const bool known = result->values.size() == to_signed(scenarios.size()) &&
+                     result->initial_values.size() == result->values.size();
   if (!problem.study().ensemble.is_ensemble() || !known) return;
   for (std::size_t k = 0; k < scenarios.size(); ++k) {
     const auto i = to_signed(k);
-    result->scenarios.push_back(describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
+    result->scenarios.push_back(
+        describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
   }
   for (int k : result->initial_failed) result->scenarios[to_index(k)].initial_failed = true;
   for (int k : result->failed) result->scenarios[to_index(k)].failed = true;
   if (ensemble.options().measure == RobustMeasure::kCvar)
-    result->value_at_risk = measure(ensemble.options(), result->values, ensemble.weights()).threshold;
+    result->value_at_risk =
+        measure(ensemble.options(), result->values, ensemble.weights()).threshold;
   if (ensemble.options().validate == 0 || is_set(cancel)) return;
   Status failure;
   result->validation = validate(problem, ensemble, *result, cancel, meter, &failure);
@@ -190,31 +219,36 @@ std::string stop_sentence(const OptimizationResult& result) {
   if (is_success(result.termination)) return "stationary to " + readable(result.stationarity, 2);
   // A start at which nothing has an effect on the objective has no slope.
   const std::string slope =
-      result.initial_slope > 0.0 ? "the slope is " + readable(result.slope / result.initial_slope, 2) + " of the start's, " : "";
+      result.initial_slope > 0.0
+          ? "the slope is " + readable(result.slope / result.initial_slope, 2) + " of the start's, "
+          : "";
   return "stopped early: " + slope + "stationary to " + readable(result.stationarity, 2) + " only";
 }
 
-Warnings search_warnings(const Study& study, const OptimizerOptions& options, const OptimizationResult& result) {
+Warnings search_warnings(const Study& study, const OptimizerOptions& options,
+                         const OptimizationResult& result) {
   Warnings warnings;
   add_evaluations_warning(study, options, result, &warnings);
   add_stop_warning(study, options, result, &warnings);
   for (std::size_t k = 0; k < study.tuned.size(); ++k) {
     const Parameter& parameter = study.parameters[to_index(study.tuned[k])];
     const auto i = to_signed(k);
-    add_bound_warning(parameter, result.rho[i], result.bound_multipliers[i], result.objective, &warnings);
+    add_bound_warning(parameter, result.rho[i], result.bound_multipliers[i], result.objective,
+                      &warnings);
     if (!result.influences[k])
-      warnings.push_back(
-          warn("parameter_without_influence",
-               {parameter.where, parameter.name,
-                "the objective did not change with this parameter at any trial point, so its value is not tuned; remove it from the "
-                "study's parameters, or give {tune: false}",
-                to_decimal(result.rho[i]), ""}));
+      warnings.push_back(warn("parameter_without_influence",
+                              {parameter.where, parameter.name,
+                               "the objective did not change with this parameter at any trial "
+                               "point, so its value is not tuned; remove it from the "
+                               "study's parameters, or give {tune: false}",
+                               to_decimal(result.rho[i]), ""}));
   }
   add_flat_warning(study, options, result, &warnings);
   return warnings;
 }
 
-Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active, const std::vector<bool>& held) {
+Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
+                                const std::vector<bool>& held) {
   std::vector<Index> moving;
   for (Index k = 0; k < root.cols(); ++k)
     if (!held[to_index(k)]) moving.push_back(k);

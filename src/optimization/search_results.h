@@ -11,25 +11,33 @@
 
 namespace codesign {
 
-/// Completes the result of a study with runs or uncertain parameters: names its scenarios, and validates its best point on fresh samples if
-/// `robust.validate` asks for it. Does nothing for other studies, and for a result without a point.
-/// @param ensemble of the search; its engine runs the validation. @param meter counts the runs of the validation.
-void describe_scenarios(const Problem& problem, const Ensemble& ensemble, const std::atomic<bool>* cancel, ProgressMeter* meter,
+/// Completes the result of a study with runs or uncertain parameters: names its scenarios, and
+/// validates its best point on fresh samples if `robust.validate` asks for it. Does nothing for
+/// other studies, and for a result without a point.
+/// @param ensemble of the search; its engine runs the validation. @param meter counts the runs of
+/// the validation.
+void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
+                        const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result);
 
-/// Warnings about a finished search: `max_evaluations_reached`, `not_stationary`, `parameter_on_bound`, `parameter_without_influence`,
-/// `flat_direction`.
-Warnings search_warnings(const Study& study, const OptimizerOptions& options, const OptimizationResult& result);
+/// Warnings about a finished search: `max_evaluations_reached`, `not_stationary`,
+/// `parameter_on_bound`, `parameter_without_influence`, `flat_direction`.
+Warnings search_warnings(const Study& study, const OptimizerOptions& options,
+                         const OptimizationResult& result);
 
-/// How the search ended, for people: "stationary to 3e-06", "stopped early: the slope is 0.4 of the start's"; empty without a point.
+/// How the search ended, for people: "stationary to 3e-06", "stopped early: the slope is 0.4 of the
+/// start's"; empty without a point.
 std::string stop_sentence(const OptimizationResult& result);
 
-/// The directions in which the objective is flat at a design: eigenvectors of the Gauss-Newton matrix with eigenvalues below 1e-8 of the
-/// largest one, doc/theory.md (24i). Each parameter that gives such a direction its name stands alone in it (entry 1), beside the
-/// parameters by which it is balanced.
-/// @param root R by the scaled parameters, R^T R the Gauss-Newton matrix. @param active gradients of active constraints by the scaled
-/// parameters, one per column: a flat direction does not change them. @param held parameters that do not move, such as those on a bound.
+/// The directions in which the objective is flat at a design: eigenvectors of the Gauss-Newton
+/// matrix with eigenvalues below 1e-8 of the largest one, doc/theory.md (24i). Each parameter that
+/// gives such a direction its name stands alone in it (entry 1), beside the parameters by which it
+/// is balanced.
+/// @param root R by the scaled parameters, R^T R the Gauss-Newton matrix. @param active gradients
+/// of active constraints by the scaled parameters, one per column: a flat direction does not change
+/// them. @param held parameters that do not move, such as those on a bound.
 /// @returns one direction per column, by the scaled parameters; no columns without any.
-Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active, const std::vector<bool>& held);
+Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
+                                const std::vector<bool>& held);
 
 }  // namespace codesign

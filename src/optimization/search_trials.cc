@@ -16,15 +16,19 @@
 namespace codesign {
 namespace {
 
-constexpr Eigen::Index kMostRootColumns = 40;  // computed for flat directions alone, where gradients go backward
-constexpr double kStartCounts = 1e-3;          // the share of the slope at the start in the scale of (24j)
-constexpr double kMostSlope = 1e-3;            // beyond which a loose tolerance does not let a search end
-constexpr double kLeastMultiplier = 1e-4;      // of that scale, so that to widen a bound by 1 % is worth a millionth
+constexpr Eigen::Index kMostRootColumns =
+    40;  // computed for flat directions alone, where gradients go backward
+constexpr double kStartCounts = 1e-3;  // the share of the slope at the start in the scale of (24j)
+constexpr double kMostSlope = 1e-3;    // beyond which a loose tolerance does not let a search end
+constexpr double kLeastMultiplier =
+    1e-4;  // of that scale, so that to widen a bound by 1 % is worth a millionth
 
 }  // namespace
 
-SearchTrials::SearchTrials(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
-                           const std::atomic<bool>* cancel, const Scaling& scaling, SmoothProgram* program)
+SearchTrials::SearchTrials(const Study& study, const OptimizerOptions& options,
+                           const Ensemble& ensemble, const TrialObserver& observer,
+                           const std::atomic<bool>* cancel, const Scaling& scaling,
+                           SmoothProgram* program)
     : study_(study),
       options_(options),
       ensemble_(ensemble),
@@ -88,19 +92,25 @@ bool SearchTrials::best_keeps_bounds() {
   return !best.watched.empty() && meets_constraints(best);
 }
 
-// If no point meets the constraints, rounding decides in which way an algorithm ends. The status is then kInfeasible even if the algorithm
-// failed. Only an algorithm that gave up at its start, for example at equalities that depend on each other, has tried nothing and gets
-// kAlgorithmFailed.
+// If no point meets the constraints, rounding decides in which way an algorithm ends. The status is
+// then kInfeasible even if the algorithm failed. Only an algorithm that gave up at its start, for
+// example at equalities that depend on each other, has tried nothing and gets kAlgorithmFailed.
 void SearchTrials::judge_end(const std::string& failure) {
-  const bool has_failed = result_.termination == "algorithm_failed", is_outside = !best_keeps_bounds();
+  const bool has_failed = result_.termination == "algorithm_failed",
+             is_outside = !best_keeps_bounds();
   std::string cause;
-  if (is_outside) cause = all_met(result_.margins) ? describe_violated(result_.watched) : describe_unmet(study_, result_.margins);
+  if (is_outside)
+    cause = all_met(result_.margins) ? describe_violated(result_.watched)
+                                     : describe_unmet(study_, result_.margins);
   if (has_failed)
-    cause += (cause.empty() ? "" : "; ") + ("the algorithm \"" + result_.algorithm + "\" failed (" + failure) +
+    cause += (cause.empty() ? "" : "; ") +
+             ("the algorithm \"" + result_.algorithm + "\" failed (" + failure) +
              "); the best point so far is kept; try another algorithm or another start";
   if (cause.empty()) return;
   const bool has_tried = !has_failed || result_.evaluations > 1;
-  result_.status = {is_outside && has_tried ? StatusCode::kInfeasible : StatusCode::kAlgorithmFailed, study_.duration, cause};
+  result_.status = {
+      is_outside && has_tried ? StatusCode::kInfeasible : StatusCode::kAlgorithmFailed,
+      study_.duration, cause};
 }
 
 Optimality SearchTrials::optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
@@ -125,12 +135,17 @@ double SearchTrials::stationarity() {
   return slope > 0.0 ? slope / scale() : 0.0;
 }
 
-double SearchTrials::scale() const { return std::max(std::abs(result_.objective), kStartCounts * result_.initial_slope); }
+double SearchTrials::scale() const {
+  return std::max(std::abs(result_.objective), kStartCounts * result_.initial_slope);
+}
 
 // Near an optimum the objective falls with the square of the slope.
-double SearchTrials::most_slope() const { return std::min(kMostSlope, std::sqrt(options_.relative_tolerance)); }
+double SearchTrials::most_slope() const {
+  return std::min(kMostSlope, std::sqrt(options_.relative_tolerance));
+}
 
-/// Describes the best point as an optimum, or takes the word of success from a search that ended elsewhere.
+/// Describes the best point as an optimum, or takes the word of success from a search that ended
+/// elsewhere.
 void SearchTrials::judge_stop() {
   const Optimality& at_best = best_optimality();
   if (cancel_ && *cancel_) {
@@ -142,9 +157,11 @@ void SearchTrials::judge_stop() {
   result_.slope = at_best.slope;
   result_.stationarity = stationarity();
   // A multiplier far below the objective is what rounding leaves.
-  result_.bound_multipliers = (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
+  result_.bound_multipliers =
+      (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
   if (interrupted()) return;
-  if (is_success(result_.termination) && best_keeps_bounds() && !is_stationary()) result_.termination = "stopped_early";
+  if (is_success(result_.termination) && best_keeps_bounds() && !is_stationary())
+    result_.termination = "stopped_early";
   if (is_stationary()) find_flat_directions();
 }
 
@@ -155,7 +172,8 @@ void SearchTrials::find_flat_directions() {
   if (root.size() == 0) {
     // The Jacobian of so many parameters costs too much.
     if (size > kMostRootColumns && prefers_adjoint(*ensemble_.scenarios().front().system)) return;
-    const EnsembleEvaluation again = ensemble_.evaluate(result_.rho, Derivatives::kGaussNewton, cancel_);
+    const EnsembleEvaluation again =
+        ensemble_.evaluate(result_.rho, Derivatives::kGaussNewton, cancel_);
     result_.statistics += again.total.statistics;
     if (!again.total.status.ok()) return;
     root = again.total.jacobian_root;
@@ -167,7 +185,8 @@ void SearchTrials::find_flat_directions() {
     held[k] = !result_.influences[k] || result_.bound_multipliers[i] != 0.0;
   }
   result_.flat_directions = flat_directions(root, best_optimality().active, held);
-  for (Eigen::Index k = 0; k < size; ++k) result_.flat_directions.row(k) *= scaling_.range(to_index(k));
+  for (Eigen::Index k = 0; k < size; ++k)
+    result_.flat_directions.row(k) *= scaling_.range(to_index(k));
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
@@ -207,7 +226,9 @@ double SearchTrials::violation(const EnsembleEvaluation& all, const Eigen::Vecto
   double largest = program_.violation(all.extremes, rho);
   if (largest <= kMostViolation) largest = 0.0;
   for (const double margin : parameter_rows_.margins(rho))
-    if (!(margin >= kMet)) largest = std::max(largest, std::isnan(margin) ? std::numeric_limits<double>::infinity() : -margin);
+    if (!(margin >= kMet))
+      largest =
+          std::max(largest, std::isnan(margin) ? std::numeric_limits<double>::infinity() : -margin);
   return largest;
 }
 
@@ -223,7 +244,8 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
     result_.initial_gradient = evaluation.gradient;
     result_.initial_slope = optimality_at(all, rho).slope;
   }
-  const bool better = first || outside < best_violation_ || (outside == best_violation_ && evaluation.objective < result_.objective);
+  const bool better = first || outside < best_violation_ ||
+                      (outside == best_violation_ && evaluation.objective < result_.objective);
   if (!better) return;
   if (!first) ++result_.iterations;
   have_best_ = true;

@@ -19,20 +19,23 @@ inline Status with_best_kept(const Status& interruption) {
   return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
 }
 
-/// The trial points of one local search with any algorithm. Evaluates each point, calls the observer, keeps the best point, and determines
-/// at the end how the search ended. Of two points that violate constraints, the point with the smaller violation is better.
+/// The trial points of one local search with any algorithm. Evaluates each point, calls the
+/// observer, keeps the best point, and determines at the end how the search ended. Of two points
+/// that violate constraints, the point with the smaller violation is better.
 class SearchTrials {
  public:
   /// All arguments but `start` must outlive this.
-  SearchTrials(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble, const TrialObserver& observer,
-               const std::atomic<bool>* cancel, const Scaling& scaling, SmoothProgram* program);
+  SearchTrials(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble,
+               const TrialObserver& observer, const std::atomic<bool>* cancel,
+               const Scaling& scaling, SmoothProgram* program);
 
   /// @throws InputError for a start at which a number of the study or a constraint is not finite.
   void start(const Eigen::VectorXd& rho);
-  /// Evaluates a trial point; last() is then this point. False if the search was interrupted and must end.
+  /// Evaluates a trial point; last() is then this point. False if the search was interrupted and
+  /// must end.
   bool evaluate(const Eigen::VectorXd& rho, Derivatives derivatives);
-  /// Sets the status and the termination, with the margins and warnings of the best point. @param failure why the algorithm gave up, if
-  /// result().termination says that it did.
+  /// Sets the status and the termination, with the margins and warnings of the best point. @param
+  /// failure why the algorithm gave up, if result().termination says that it did.
   void conclude(const std::string& failure);
 
   const EnsembleEvaluation& last() const { return last_; }
@@ -41,12 +44,15 @@ class SearchTrials {
   bool have_best() const { return have_best_; }
   /// Why the first trial point could not be evaluated, if none could.
   const Status& first_failure() const { return first_failure_; }
-  /// The residual of the optimality conditions at the best point over the same at the start, and over the scale of (24j).
+  /// The residual of the optimality conditions at the best point over the same at the start, and
+  /// over the scale of (24j).
   double slope_left();
   double stationarity();
-  /// Whether the search may end here: stationarity() is at most the root of the relative tolerance of the objective, and at most 0.001.
+  /// Whether the search may end here: stationarity() is at most the root of the relative tolerance
+  /// of the objective, and at most 0.001.
   bool is_stationary() { return stationarity() <= most_slope(); }
-  /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all constraints are met.
+  /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all
+  /// constraints are met.
   double best_violation() const { return best_violation_; }
   /// Whether the best point keeps all constraints, each within its tolerance.
   bool best_keeps_bounds();
@@ -85,7 +91,8 @@ class SearchTrials {
   std::vector<Extremes> initial_extremes_;
   OptimizationResult result_;
   Warnings lost_branches_;  ///< the first `branch_lost` of all trial points
-  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"}, interruption_;
+  Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"},
+      interruption_;
   bool have_best_ = false;
   double best_violation_ = 0.0;
 };

@@ -19,7 +19,9 @@ int SlackForm::variables() const {
   return measure_ == RobustMeasure::kCvar ? 1 + static_cast<int>(weights_.size()) : 0;
 }
 
-double SlackForm::lower(int k) const { return k == 0 ? -std::numeric_limits<double>::infinity() : 0.0; }
+double SlackForm::lower(int k) const {
+  return k == 0 ? -std::numeric_limits<double>::infinity() : 0.0;
+}
 
 Eigen::VectorXd SlackForm::start(const Eigen::VectorXd& psi, double threshold) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(variables());
@@ -35,7 +37,9 @@ Eigen::VectorXd SlackForm::gradient() const {
   return gradient;
 }
 
-double SlackForm::constraint(int i, double psi, const Eigen::VectorXd& y) const { return psi - y[0] - (y.size() > 1 ? y[i + 1] : 0.0); }
+double SlackForm::constraint(int i, double psi, const Eigen::VectorXd& y) const {
+  return psi - y[0] - (y.size() > 1 ? y[i + 1] : 0.0);
+}
 
 SignalRows::SignalRows(const MotionStudy& study) : study_(study), layout_(study) {
   for (std::size_t k = 0; k < study.watched.size(); ++k) {
@@ -54,13 +58,16 @@ SignalRows::SignalRows(const MotionStudy& study) : study_(study), layout_(study)
   }
 }
 
-/// Rows for every instant and window of a signal. The extreme value between two instants has its own row beside the rows of the instants,
-/// so that each row stays smooth when the extremum moves from one place to another.
+/// Rows for every instant and window of a signal. The extreme value between two instants has its
+/// own row beside the rows of the instants, so that each row stays smooth when the extremum moves
+/// from one place to another.
 void SignalRows::add(std::size_t watched, double sign, int peak) {
   const WatchLayout::Entry& entry = layout_.entries()[watched];
-  for (int k = 0; k < static_cast<int>(entry.instants.size()); ++k) inequalities_.push_back({watched, entry.at_instant(k), sign, peak});
+  for (int k = 0; k < static_cast<int>(entry.instants.size()); ++k)
+    inequalities_.push_back({watched, entry.at_instant(k), sign, peak});
   for (int k = 0; k < entry.windows(); ++k)
-    inequalities_.push_back({watched, sign > 0.0 ? entry.largest(k) : entry.smallest(k), sign, peak});
+    inequalities_.push_back(
+        {watched, sign > 0.0 ? entry.largest(k) : entry.smallest(k), sign, peak});
 }
 
 const Quantity& SignalRows::bound(const SignalRow& row) const {
@@ -68,23 +75,28 @@ const Quantity& SignalRows::bound(const SignalRow& row) const {
   return row.sign > 0.0 ? *watched.upper : *watched.lower;
 }
 
-double SignalRows::value(const SignalRow& row, const Extremes& extremes, const std::vector<double>& parameters) const {
+double SignalRows::value(const SignalRow& row, const Extremes& extremes,
+                         const std::vector<double>& parameters) const {
   const double x = row.sign * extremes.values[row.place];
   return row.peak >= 0 ? x : x - row.sign * bound(row).at(parameters);
 }
 
-double SignalRows::derivative(const SignalRow& row, std::size_t k, const Extremes& extremes, const std::vector<double>& parameters) const {
+double SignalRows::derivative(const SignalRow& row, std::size_t k, const Extremes& extremes,
+                              const std::vector<double>& parameters) const {
   const double x = row.sign * extremes.gradients(to_signed(k), row.place);
   if (row.peak >= 0 || bound(row).is_constant()) return x;
   return x - row.sign * bound(row).expression()->derivative(study_.tuned[k], parameters);
 }
 
-double SignalRows::violation(std::size_t watched, const Extremes& extremes, const std::vector<double>& parameters) const {
+double SignalRows::violation(std::size_t watched, const Extremes& extremes,
+                             const std::vector<double>& parameters) const {
   double largest = 0.0;
   for (const SignalRow& row : inequalities_)
-    if (row.watched == watched && row.peak < 0) largest = std::max(largest, value(row, extremes, parameters));
+    if (row.watched == watched && row.peak < 0)
+      largest = std::max(largest, value(row, extremes, parameters));
   for (const SignalRow& row : equalities_)
-    if (row.watched == watched) largest = std::max(largest, std::abs(value(row, extremes, parameters)));
+    if (row.watched == watched)
+      largest = std::max(largest, std::abs(value(row, extremes, parameters)));
   return largest;
 }
 

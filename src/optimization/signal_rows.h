@@ -10,10 +10,12 @@
 
 namespace codesign {
 
-/// The worst case and the conditional value at risk of scenarios psi_i with weights w_i as smooth problems with slack variables y:
+/// The worst case and the conditional value at risk of scenarios psi_i with weights w_i as smooth
+/// problems with slack variables y:
 ///   worst:  minimize t              subject to psi_i <= t,            y = t
 ///   CVaR:   minimize t + sum_i w_i z_i / (1 - level)
-///                                   subject to psi_i - t <= z_i, z_i >= 0,   y = (t, z_1, ..., z_S)
+///                                   subject to psi_i - t <= z_i, z_i >= 0,   y = (t, z_1, ...,
+///                                   z_S)
 /// (Rockafellar and Uryasev 2002). The other measures need no slack variables: variables() is 0.
 class SlackForm {
  public:
@@ -27,7 +29,8 @@ class SlackForm {
   /// The lower bound of slack variable k: minus infinity for t, 0 for z.
   double lower(int k) const;
 
-  /// Slack variables that are feasible and optimal for given psi. @param threshold value at risk of psi, or its maximum for the worst case.
+  /// Slack variables that are feasible and optimal for given psi. @param threshold value at risk of
+  /// psi, or its maximum for the worst case.
   Eigen::VectorXd start(const Eigen::VectorXd& psi, double threshold) const;
   /// The objective and its derivative by y.
   double objective(const Eigen::VectorXd& y) const { return gradient().dot(y); }
@@ -43,8 +46,8 @@ class SlackForm {
   Eigen::VectorXd weights_;
 };
 
-/// One smooth constraint on a watched signal in one scenario, theory (24d). With x the value at an instant or the extreme value in a
-/// window:
+/// One smooth constraint on a watched signal in one scenario, theory (24d). With x the value at an
+/// instant or the extreme value in a window:
 ///   sign x - sign bound <= 0, or = 0 for an equality    of `path:` and `final:`
 ///   sign x - p <= 0                                      of a peak, p its slack variable
 struct SignalRow {
@@ -65,12 +68,16 @@ class SignalRows {
   const std::vector<std::size_t>& peaks() const { return peaks_; }
   const WatchLayout& layout() const { return layout_; }
 
-  /// The left side of the row of a constraint, or of a peak's row without p. @param parameters all named parameters of the scenario.
-  double value(const SignalRow& row, const Extremes& extremes, const std::vector<double>& parameters) const;
+  /// The left side of the row of a constraint, or of a peak's row without p. @param parameters all
+  /// named parameters of the scenario.
+  double value(const SignalRow& row, const Extremes& extremes,
+               const std::vector<double>& parameters) const;
   /// Derivative of value() by the k-th tuned parameter.
-  double derivative(const SignalRow& row, std::size_t k, const Extremes& extremes, const std::vector<double>& parameters) const;
+  double derivative(const SignalRow& row, std::size_t k, const Extremes& extremes,
+                    const std::vector<double>& parameters) const;
   /// The largest violation of the bounds of one watched signal; 0 if they are met.
-  double violation(std::size_t watched, const Extremes& extremes, const std::vector<double>& parameters) const;
+  double violation(std::size_t watched, const Extremes& extremes,
+                   const std::vector<double>& parameters) const;
 
  private:
   void add(std::size_t watched, double sign, int peak);

@@ -32,8 +32,10 @@ WatchedResult describe_bounds(const WatchedSignal& signal, const std::vector<dou
 }
 
 /// Extends the ranges of a watched signal by the ranges of one scenario.
-void widen(const WatchLayout::Entry& entry, const Extremes& extremes, const Extremes& initial, int scenario, WatchedResult* result) {
-  const auto now = extremes.values.segment(entry.first, entry.size()), before = initial.values.segment(entry.first, entry.size());
+void widen(const WatchLayout::Entry& entry, const Extremes& extremes, const Extremes& initial,
+           int scenario, WatchedResult* result) {
+  const auto now = extremes.values.segment(entry.first, entry.size()),
+             before = initial.values.segment(entry.first, entry.size());
   Eigen::Index low = 0, high = 0;
   const double smallest = now.minCoeff(&low), largest = now.maxCoeff(&high);
   if (smallest < result->smallest) {
@@ -52,7 +54,8 @@ void widen(const WatchLayout::Entry& entry, const Extremes& extremes, const Extr
 
 }  // namespace
 
-SmoothProgram::SmoothProgram(const Ensemble& ensemble) : ensemble_(ensemble), slack_(ensemble.options(), ensemble.weights()) {
+SmoothProgram::SmoothProgram(const Ensemble& ensemble)
+    : ensemble_(ensemble), slack_(ensemble.options(), ensemble.weights()) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
   rows_.reserve(scenarios.size());
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
@@ -73,20 +76,25 @@ bool SmoothProgram::bounds_read(int parameter) const {
     const std::vector<int>& read = bound->expression()->dependencies();
     return std::find(read.begin(), read.end(), parameter) != read.end();
   };
-  const std::vector<WatchedSignal>& watched = ensemble_.scenarios().front().system->whole_study().watched;
-  return std::any_of(watched.begin(), watched.end(), [&](const WatchedSignal& one) { return reads(one.lower) || reads(one.upper); });
+  const std::vector<WatchedSignal>& watched =
+      ensemble_.scenarios().front().system->whole_study().watched;
+  return std::any_of(watched.begin(), watched.end(), [&](const WatchedSignal& one) {
+    return reads(one.lower) || reads(one.upper);
+  });
 }
 
 Eigen::VectorXd SmoothProgram::start(const EnsembleEvaluation& at, double unit) {
   unit_ = unit;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(slacks());
   if (!at.total.status.ok()) return y;
-  if (slack_.variables() > 0) y.head(slack_.variables()) = slack_.start(at.values, at.threshold) / unit_;
+  if (slack_.variables() > 0)
+    y.head(slack_.variables()) = slack_.start(at.values, at.threshold) / unit_;
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (std::size_t j = 0; j < rows_[i].peaks().size(); ++j) {
       const int variable = peak_variable(i, static_cast<int>(j));
       const Eigen::VectorXd& values = at.extremes[i].values;
-      const double peak = std::abs(values[find_peak(rows_[i].layout().entries()[rows_[i].peaks()[j]], values).place]);
+      const double peak = std::abs(
+          values[find_peak(rows_[i].layout().entries()[rows_[i].peaks()[j]], values).place]);
       peak_units_[variable - slack_.variables()] = peak > 0.0 ? peak : 1.0;
       y[variable] = peak > 0.0 ? 1.0 : 0.0;
     }
@@ -105,7 +113,8 @@ void SmoothProgram::take(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     if (rows_[i].peaks().empty()) continue;
     const auto column = to_signed(i);
     Eigen::VectorXd of_peaks = Eigen::VectorXd::Zero(rho.size());
-    smooth_values_[column] -= peak_terms(scenario.system->whole_study(), all.extremes[i], &of_peaks);
+    smooth_values_[column] -=
+        peak_terms(scenario.system->whole_study(), all.extremes[i], &of_peaks);
     smooth_gradients_.col(column) -= of_peaks;
   }
 }
@@ -139,7 +148,8 @@ SmoothProgram::Value SmoothProgram::objective(const Eigen::VectorXd& slack) cons
 
 double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
   const std::size_t watched = rows_[scenario].peaks()[to_index(peak)];
-  const double weight = ensemble_.scenarios()[scenario].system->whole_study().watched[watched].weight;
+  const double weight =
+      ensemble_.scenarios()[scenario].system->whole_study().watched[watched].weight;
   return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
 }
 
@@ -149,7 +159,8 @@ SmoothProgram::Value SmoothProgram::signal_value(const Place& place) const {
   const Extremes& extremes = all_->extremes[place.scenario];
   result.value = rows.value(*place.row, extremes, parameters_[place.scenario]);
   for (Eigen::Index k = 0; k < result.by_rho.size(); ++k)
-    result.by_rho[k] = rows.derivative(*place.row, to_index(k), extremes, parameters_[place.scenario]);
+    result.by_rho[k] =
+        rows.derivative(*place.row, to_index(k), extremes, parameters_[place.scenario]);
   return result;
 }
 
@@ -179,27 +190,36 @@ SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& s
   return result;
 }
 
-SmoothProgram::Value SmoothProgram::equality(int row) const { return signal_value(equality_places_[to_index(row)]); }
+SmoothProgram::Value SmoothProgram::equality(int row) const {
+  return signal_value(equality_places_[to_index(row)]);
+}
 
-std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
+std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& extremes,
+                                                   const std::vector<Extremes>& initial,
                                                    const Eigen::VectorXd& rho) const {
   std::vector<WatchedResult> results;
   if (extremes.size() != rows_.size() || initial.size() != rows_.size()) return results;
   Scenario nominal = ensemble_.scenarios().front();
   nominal.values.clear();
   const std::vector<double> parameters = nominal.parameters(rho);
-  for (const WatchedSignal& signal : nominal.system->whole_study().watched) results.push_back(describe_bounds(signal, parameters));
+  for (const WatchedSignal& signal : nominal.system->whole_study().watched)
+    results.push_back(describe_bounds(signal, parameters));
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (std::size_t k = 0; k < results.size(); ++k) {
-      widen(rows_[i].layout().entries()[k], extremes[i], initial[i], static_cast<int>(i), &results[k]);
-      results[k].violation = std::max(results[k].violation, rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
+      widen(rows_[i].layout().entries()[k], extremes[i], initial[i], static_cast<int>(i),
+            &results[k]);
+      results[k].violation =
+          std::max(results[k].violation,
+                   rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
     }
   const std::vector<WatchedSignal>& watched = nominal.system->whole_study().watched;
-  for (std::size_t k = 0; k < results.size(); ++k) results[k].tolerance = watched[k].tolerance.value_or(tolerance_of_range(results[k]));
+  for (std::size_t k = 0; k < results.size(); ++k)
+    results[k].tolerance = watched[k].tolerance.value_or(tolerance_of_range(results[k]));
   return results;
 }
 
-double SmoothProgram::violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const {
+double SmoothProgram::violation(const std::vector<Extremes>& extremes,
+                                const Eigen::VectorXd& rho) const {
   double largest = 0.0;
   for (std::size_t i = 0; i < extremes.size(); ++i) {
     const std::vector<double> parameters = ensemble_.scenarios()[i].parameters(rho);

@@ -9,11 +9,13 @@
 
 namespace codesign {
 
-/// The smooth problem that stands for a robust measure, peaks and constraints on signals; theory (24b)-(24d). Its variables are rho and
-/// slack variables: the variables of SlackForm, then one p per scenario and peak, for which
-///   psi_i = integral and terminal terms + sum_j weight_j p_ij,    |signal_j - reference_j| <= p_ij in scenario i.
-/// The units of all numbers are chosen at the start: the unit of each psi is the unit of the scaled objective, the unit of each p is its
-/// magnitude.
+/// The smooth problem that stands for a robust measure, peaks and constraints on signals; theory
+/// (24b)-(24d). Its variables are rho and slack variables: the variables of SlackForm, then one p
+/// per scenario and peak, for which
+///   psi_i = integral and terminal terms + sum_j weight_j p_ij,    |signal_j - reference_j| <= p_ij
+///   in scenario i.
+/// The units of all numbers are chosen at the start: the unit of each psi is the unit of the scaled
+/// objective, the unit of each p is its magnitude.
 class SmoothProgram {
  public:
   explicit SmoothProgram(const Ensemble& ensemble);
@@ -29,7 +31,8 @@ class SmoothProgram {
 
   /// Chooses the units and returns slack variables that are feasible. @param unit of psi.
   Eigen::VectorXd start(const EnsembleEvaluation& at, double unit);
-  /// Takes over the evaluation that the functions below read; `all` must be ok and outlive their calls.
+  /// Takes over the evaluation that the functions below read; `all` must be ok and outlive their
+  /// calls.
   void take(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
 
   /// A number with its derivatives by rho (unscaled) and the slack variables.
@@ -42,8 +45,10 @@ class SmoothProgram {
   Value inequality(int row, const Eigen::VectorXd& slack) const;
   Value equality(int row) const;
 
-  /// One result per watched signal; empty without any. @param initial the evaluation at the start of the search, or null.
-  std::vector<WatchedResult> describe(const std::vector<Extremes>& extremes, const std::vector<Extremes>& initial,
+  /// One result per watched signal; empty without any. @param initial the evaluation at the start
+  /// of the search, or null.
+  std::vector<WatchedResult> describe(const std::vector<Extremes>& extremes,
+                                      const std::vector<Extremes>& initial,
                                       const Eigen::VectorXd& rho) const;
   /// The largest violation of any bound over all scenarios.
   double violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const;
@@ -57,7 +62,9 @@ class SmoothProgram {
   Value blank() const;
   Value signal_value(const Place& place) const;
   /// Number of the slack variable p of a scenario's peak.
-  int peak_variable(std::size_t scenario, int peak) const { return slack_.variables() + first_peak_[scenario] + peak; }
+  int peak_variable(std::size_t scenario, int peak) const {
+    return slack_.variables() + first_peak_[scenario] + peak;
+  }
   /// Derivative of psi_i by that variable, both in their units.
   double peak_factor(std::size_t scenario, int peak) const;
 

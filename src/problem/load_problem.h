@@ -30,8 +30,9 @@ struct Problem::Contents {
   std::vector<SourceText> overlays;
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<std::shared_ptr<const CompiledSystem>> variants;  ///< the systems of variant_of(); empty if there is only the study's own
-  double setup_seconds = 0.0;                                   ///< processor time of reading and compiling [s]
+  std::vector<std::shared_ptr<const CompiledSystem>>
+      variants;  ///< the systems of variant_of(); empty if there is only the study's own
+  double setup_seconds = 0.0;  ///< processor time of reading and compiling [s]
   Warnings warnings;
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
   std::vector<LoadedFile> files;               ///< likewise
@@ -43,30 +44,38 @@ struct SavedDesign {
   ParameterSettings values;
 };
 
-/// load_problem() from a saved design: the parameters that the model or the study has, within their bounds, begin with its values, before
-/// `settings` apply. What does not fit is named in the warning `result_of_another_study`. @throws InputError also if nothing fits.
-Problem load_problem_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                        const ParameterSettings& settings, const TrajectoryLoader& loader = {}, const FileLoader& files = {},
-                        const Laws& laws = standard_laws());
+/// load_problem() from a saved design: the parameters that the model or the study has, within their
+/// bounds, begin with its values, before `settings` apply. What does not fit is named in the
+/// warning `result_of_another_study`. @throws InputError also if nothing fits.
+Problem load_problem_at(const SavedDesign& design, const SourceText& urdf,
+                        const std::vector<SourceText>& overlays, const SourceText& study,
+                        const ParameterSettings& settings, const TrajectoryLoader& loader = {},
+                        const FileLoader& files = {}, const Laws& laws = standard_laws());
 /// The same without a study.
-Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays,
+Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf,
+                          const std::vector<SourceText>& overlays,
                           const ParameterSettings& settings);
 
-/// load_problem() for studies that may read trajectories from bags. @param loader reads such a trajectory; if it is empty, a study that
-/// names a bag is refused. @param files reads other files that the study names; if it is empty, they are looked for in the study's folder.
+/// load_problem() for studies that may read trajectories from bags. @param loader reads such a
+/// trajectory; if it is empty, a study that names a bag is refused. @param files reads other files
+/// that the study names; if it is empty, they are looked for in the study's folder.
 /// @param laws that model and study may name. Other processes know standard_laws() only.
-Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files = {},
+Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                     const SourceText& study, const ParameterSettings& settings,
+                     const TrajectoryLoader& loader, const FileLoader& files = {},
                      const Laws& laws = standard_laws());
 
 /// The system compiled for one run of `Study::ensemble.runs` with one friction law for all joints.
-/// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the uncertain friction law; -1: the model's own.
+/// @param run index of the run; 0 if the study has no runs. @param law index in `laws` of the
+/// uncertain friction law; -1: the model's own.
 std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law);
 
-/// Every system of the problem once: the study's own system first, then the systems of variant_of(). The texts alone determine the order.
+/// Every system of the problem once: the study's own system first, then the systems of
+/// variant_of(). The texts alone determine the order.
 std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem);
 
-/// The problem compiled anew with another study of the same model; the texts of `problem` stay. @throws InputError as load_problem().
+/// The problem compiled anew with another study of the same model; the texts of `problem` stay.
+/// @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
 
 /// All data that another process needs to compile the same problem on a machine without its files.
@@ -80,7 +89,8 @@ struct PortableProblem {
   std::vector<std::string> tuned;  ///< names of the tuned parameters
 };
 
-/// @param problem as loaded, or with other tuned parameters or start values; other changes of its study are not included.
+/// @param problem as loaded, or with other tuned parameters or start values; other changes of its
+/// study are not included.
 PortableProblem make_portable(const Problem& problem);
 
 /// The same problem, with the same order of its systems. @throws InputError as load_problem().

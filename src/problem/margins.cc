@@ -20,8 +20,9 @@ std::vector<ValueRange> ranges_of(const Study& study) {
   for (const std::string& name : tuned_names(study)) changed.insert(name);
   std::vector<ValueRange> ranges;
   for (const Parameter& parameter : study.parameters)
-    ranges.push_back(changed.count(parameter.name) > 0 ? ValueRange{parameter.lower, parameter.upper}
-                                                       : ValueRange{parameter.value, parameter.value});
+    ranges.push_back(changed.count(parameter.name) > 0
+                         ? ValueRange{parameter.lower, parameter.upper}
+                         : ValueRange{parameter.value, parameter.value});
   return ranges;
 }
 
@@ -38,7 +39,8 @@ std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins) {
   for (std::size_t k = 0; k < study.constraints.size(); ++k) {
     const double margin = margins[to_signed(k)];
     if (margin >= kMet) continue;
-    list += (list.empty() ? "\"" : ", \"") + study.constraints[k].text + "\" (margin " + to_decimal(margin) + ")";
+    list += (list.empty() ? "\"" : ", \"") + study.constraints[k].text + "\" (margin " +
+            to_decimal(margin) + ")";
   }
   return "not met at the best point: " + list;
 }
@@ -46,7 +48,8 @@ std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins) {
 void require_numbers_at_start(const Study& study, const std::vector<double>& parameters) {
   for (const ParameterConstraint& constraint : study.constraints)
     if (!std::isfinite(constraint.margin->value(parameters)))
-      throw InputError({constraint.where, constraint.element, "the constraint is not a number at the start", constraint.text,
+      throw InputError({constraint.where, constraint.element,
+                        "the constraint is not a number at the start", constraint.text,
                         "expressions that are finite at the parameters' start"});
 }
 
@@ -57,8 +60,10 @@ Warnings unsatisfiable_constraints(const Study& study) {
     if (const double most = constraint.margin->range(ranges).upper; most < kMet)
       warnings.push_back(
           warn("unsatisfiable_constraint",
-               {constraint.where, constraint.element, "no design within the parameters' bounds meets the constraint", constraint.text,
-                "the margin is at most " + to_decimal(most) + "; widen the bounds, or relax the constraint"}));
+               {constraint.where, constraint.element,
+                "no design within the parameters' bounds meets the constraint", constraint.text,
+                "the margin is at most " + to_decimal(most) +
+                    "; widen the bounds, or relax the constraint"}));
   return warnings;
 }
 
@@ -67,8 +72,10 @@ void require_ordered_bounds(const Study& study) {
   const ParameterConstraint* before = nullptr;
   for (const ParameterConstraint& constraint : study.constraints) {
     // The sum of the margins e - lower and upper - e.
-    if (before && before->element == constraint.element && before->margin->value(start) + constraint.margin->value(start) < kMet)
-      throw InputError({constraint.where, constraint.element, "the lower bound must be less than the upper one at the parameters' start",
+    if (before && before->element == constraint.element &&
+        before->margin->value(start) + constraint.margin->value(start) < kMet)
+      throw InputError({constraint.where, constraint.element,
+                        "the lower bound must be less than the upper one at the parameters' start",
                         before->text + ", " + constraint.text, "lower < upper"});
     before = &constraint;
   }

@@ -10,25 +10,29 @@
 
 namespace codesign {
 
-/// A parameter constraint counts as met if its margin is at least this. It is slightly negative because NLopt's algorithms end on the
-/// boundary of the constraints, where rounding may leave either sign.
+/// A parameter constraint counts as met if its margin is at least this. It is slightly negative
+/// because NLopt's algorithms end on the boundary of the constraints, where rounding may leave
+/// either sign.
 constexpr double kMet = -1e-7;
 
 /// Whether every margin is at least kMet; a margin that is NaN is not.
 bool all_met(const Eigen::VectorXd& margins);
 
-/// A sentence that lists the violated constraints with their margins, for the status of an optimization.
+/// A sentence that lists the violated constraints with their margins, for the status of an
+/// optimization.
 std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins);
 
-/// @throws InputError naming the first constraint whose margin is not finite at `parameters`, the start of an optimization.
+/// @throws InputError naming the first constraint whose margin is not finite at `parameters`, the
+/// start of an optimization.
 void require_numbers_at_start(const Study& study, const std::vector<double>& parameters);
 
-/// A warning for each constraint that no design can meet, by interval arithmetic: tuned parameters, and parameters that a run sets or that
-/// are uncertain, vary within their bounds, the others have their values. An optimization then ends as kInfeasible.
+/// A warning for each constraint that no design can meet, by interval arithmetic: tuned parameters,
+/// and parameters that a run sets or that are uncertain, vary within their bounds, the others have
+/// their values. An optimization then ends as kInfeasible.
 Warnings unsatisfiable_constraints(const Study& study);
 
-/// @throws InputError if the two bounds of one expression, which are two constraints with the same place, have changed their order since
-/// they were read.
+/// @throws InputError if the two bounds of one expression, which are two constraints with the same
+/// place, have changed their order since they were read.
 void require_ordered_bounds(const Study& study);
 
 }  // namespace codesign

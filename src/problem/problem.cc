@@ -34,14 +34,20 @@ void apply_settings(const ParameterSettings& settings, Study* study) {
   for (const auto& [name, value] : settings) {
     Parameter& parameter = find_parameter(study, name);
     if (!std::isfinite(value) || value < parameter.lower || value > parameter.upper)
-      throw InputError({{kSettings, 0}, name, "value outside the parameter's bounds", to_decimal(value), range_of(parameter)});
+      throw InputError({{kSettings, 0},
+                        name,
+                        "value outside the parameter's bounds",
+                        to_decimal(value),
+                        range_of(parameter)});
     parameter.value = value;
   }
 }
 
-/// Why the value of a saved design is not for this study; empty if it is. Sets the parameter in this case.
+/// Why the value of a saved design is not for this study; empty if it is. Sets the parameter in
+/// this case.
 std::string set_saved(const std::string& name, double value, Study* study) {
-  const auto found = std::find_if(study->parameters.begin(), study->parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  const auto found = std::find_if(study->parameters.begin(), study->parameters.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
   if (found == study->parameters.end()) return name + " is no parameter here";
   if (!std::isfinite(value) || value < found->lower || value > found->upper)
     return name + " = " + to_decimal(value) + " is outside its bounds " + range_of(*found);
@@ -52,7 +58,9 @@ std::string set_saved(const std::string& name, double value, Study* study) {
 /// Sets what fits of a saved design, and warns of all that does not.
 void apply_design(const SavedDesign& design, Study* study, Warnings* warnings) {
   std::string misfits;
-  const auto note = [&misfits](const std::string& misfit) { misfits += (misfits.empty() ? "" : "; ") + misfit; };
+  const auto note = [&misfits](const std::string& misfit) {
+    misfits += (misfits.empty() ? "" : "; ") + misfit;
+  };
   std::size_t fitting = 0;
   for (const auto& [name, value] : design.values) {
     const std::string misfit = set_saved(name, value, study);
@@ -65,19 +73,23 @@ void apply_design(const SavedDesign& design, Study* study, Warnings* warnings) {
                       "",
                       "the result of this study, or of one with some of its parameters"});
   for (const std::string& tuned : tuned_names(*study))
-    if (std::none_of(design.values.begin(), design.values.end(), [&](const auto& setting) { return setting.first == tuned; }))
-      note(tuned + ", which is tuned here, keeps its start value, since the result does not have it");
+    if (std::none_of(design.values.begin(), design.values.end(),
+                     [&](const auto& setting) { return setting.first == tuned; }))
+      note(tuned +
+           ", which is tuned here, keeps its start value, since the result does not have it");
   if (misfits.empty()) return;
-  append({warn("result_of_another_study", {{design.file, 0},
-                                           "result",
-                                           "the result is of another model or study; " + std::to_string(fitting) + " of its " +
-                                               std::to_string(design.values.size()) + " values are used: " + misfits,
-                                           "",
-                                           "the result of this study"})},
+  append({warn("result_of_another_study",
+               {{design.file, 0},
+                "result",
+                "the result is of another model or study; " + std::to_string(fitting) + " of its " +
+                    std::to_string(design.values.size()) + " values are used: " + misfits,
+                "",
+                "the result of this study"})},
          warnings);
 }
 
-/// `loader`, extended to keep all trajectories that it reads in `loaded`; an empty loader stays empty.
+/// `loader`, extended to keep all trajectories that it reads in `loaded`; an empty loader stays
+/// empty.
 TrajectoryLoader keeping(const TrajectoryLoader& loader, std::vector<LoadedTrajectory>* loaded) {
   if (!loader) return {};
   return [&loader, loaded](const TrajectoryAddress& address) {
@@ -94,16 +106,17 @@ FileLoader keeping(const FileLoader& files, std::vector<LoadedFile>* loaded) {
   };
 }
 
-/// Compiles the equations of motion of a model and a study with design and settings applied, and completes `contents`: system, warnings,
-/// time.
-Problem compile(const RobotDescription& robot, Study study, const SavedDesign& design, const ParameterSettings& settings,
-                Problem::Contents contents) {
+/// Compiles the equations of motion of a model and a study with design and settings applied, and
+/// completes `contents`: system, warnings, time.
+Problem compile(const RobotDescription& robot, Study study, const SavedDesign& design,
+                const ParameterSettings& settings, Problem::Contents contents) {
   if (!design.file.empty()) apply_design(design, &study, &contents.warnings);
   apply_settings(settings, &study);
   const CpuTimer timer;
   require_numbers_at_start(study, start_parameters(study));
   require_ordered_bounds(study);
-  for (const WatchedSignal& watched : study.watched) require_ordered_bounds(watched, start_parameters(study));
+  for (const WatchedSignal& watched : study.watched)
+    require_ordered_bounds(watched, start_parameters(study));
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);
   append(differing_nominals(study), &contents.warnings);
@@ -133,7 +146,9 @@ double Problem::setup_seconds() const { return contents_->setup_seconds; }
 double Problem::duration() const { return study().duration; }
 const std::vector<Parameter>& Problem::all_parameters() const { return study().parameters; }
 std::vector<double> Problem::parameters() const { return start_parameters(study()); }
-std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study(), rho); }
+std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const {
+  return parameters_at(study(), rho);
+}
 std::vector<std::string> Problem::tuned_names() const { return codesign::tuned_names(study()); }
 Eigen::VectorXd Problem::start() const { return start_of(study()); }
 const OptimizerOptions& Problem::optimizer_options() const { return study().optimizer; }
@@ -141,33 +156,47 @@ const RobotDescription& Problem::robot() const { return contents_->system->robot
 const Study& Problem::study() const { return contents_->system->whole_study(); }
 const std::shared_ptr<const CompiledSystem>& Problem::system() const { return contents_->system; }
 
-Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings) {
+Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                     const SourceText& study, const ParameterSettings& settings) {
   return load_problem(urdf, overlays, study, settings, TrajectoryLoader());
 }
 
-Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                     const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files, const Laws& laws) {
+Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                     const SourceText& study, const ParameterSettings& settings,
+                     const TrajectoryLoader& loader, const FileLoader& files, const Laws& laws) {
   return load_problem_at(SavedDesign(), urdf, overlays, study, settings, loader, files, laws);
 }
 
-Problem load_problem_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays, const SourceText& study,
-                        const ParameterSettings& settings, const TrajectoryLoader& loader, const FileLoader& files, const Laws& laws) {
+Problem load_problem_at(const SavedDesign& design, const SourceText& urdf,
+                        const std::vector<SourceText>& overlays, const SourceText& study,
+                        const ParameterSettings& settings, const TrajectoryLoader& loader,
+                        const FileLoader& files, const Laws& laws) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays, laws);
   std::vector<LoadedTrajectory> loaded;
   std::vector<LoadedFile> loaded_files;
   const FileLoader read_file = files ? files : files_beside(study.name);
-  Study read = read_study(study, robot, keeping(loader, &loaded), keeping(read_file, &loaded_files));
+  Study read =
+      read_study(study, robot, keeping(loader, &loaded), keeping(read_file, &loaded_files));
   return compile(robot, std::move(read), design, settings,
-                 {urdf, overlays, study, nullptr, {}, timer.seconds(), robot.warnings, std::move(loaded), std::move(loaded_files)});
+                 {urdf,
+                  overlays,
+                  study,
+                  nullptr,
+                  {},
+                  timer.seconds(),
+                  robot.warnings,
+                  std::move(loaded),
+                  std::move(loaded_files)});
 }
 
-Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays, const ParameterSettings& settings) {
+Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                       const ParameterSettings& settings) {
   return load_mechanism_at(SavedDesign(), urdf, overlays, settings);
 }
 
-Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf, const std::vector<SourceText>& overlays,
+Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf,
+                          const std::vector<SourceText>& overlays,
                           const ParameterSettings& settings) {
   const CpuTimer timer;
   const RobotDescription robot = read_urdf(urdf, overlays);
@@ -175,10 +204,13 @@ Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf, con
   study.parameters = robot.parameters;
   study.used_parameters = robot.used_parameters;
   study.file = urdf.name;
-  return compile(robot, std::move(study), design, settings, {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}, {}});
+  return compile(robot, std::move(study), design, settings,
+                 {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}, {}});
 }
 
-Problem with_settings(const Problem& problem, const ParameterSettings& settings) { return with_study(problem, problem.study(), settings); }
+Problem with_settings(const Problem& problem, const ParameterSettings& settings) {
+  return with_study(problem, problem.study(), settings);
+}
 
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
   return compile(problem.robot(), std::move(study), {}, settings,
@@ -204,22 +236,31 @@ Problem load_portable(const PortableProblem& portable) {
   const RobotDescription robot = read_urdf(portable.urdf, portable.overlays);
   const auto loader = [&portable](const TrajectoryAddress& address) {
     for (const LoadedTrajectory& one : portable.trajectories)
-      if (one.bag == address.bag && one.topic == address.topic && one.joint == address.joint) return one.trajectory;
-    throw InputError({address.where, address.element, "the trajectory was not sent with the problem", address.bag, ""});
+      if (one.bag == address.bag && one.topic == address.topic && one.joint == address.joint)
+        return one.trajectory;
+    throw InputError({address.where, address.element,
+                      "the trajectory was not sent with the problem", address.bag, ""});
   };
   const auto files = [&portable](const FileAddress& address) {
     for (const LoadedFile& one : portable.files)
       if (one.file == address.file) return one.source;
-    throw InputError({address.where, address.element, "the file was not sent with the problem", address.file, ""});
+    throw InputError({address.where, address.element, "the file was not sent with the problem",
+                      address.file, ""});
   };
   Study study = read_study(portable.study, robot, loader, files);
   if (study.parameters.size() != portable.values.size())
-    throw InputError({{portable.study.name, 0}, "parameters", "the problem was sent with other parameters", "", ""});
+    throw InputError({{portable.study.name, 0},
+                      "parameters",
+                      "the problem was sent with other parameters",
+                      "",
+                      ""});
   // Not by settings, which check bounds: these values have passed that check already.
-  for (std::size_t k = 0; k < portable.values.size(); ++k) study.parameters[k].value = portable.values[k];
+  for (std::size_t k = 0; k < portable.values.size(); ++k)
+    study.parameters[k].value = portable.values[k];
   study.tuned.clear();
   for (const std::string& name : portable.tuned)
-    study.tuned.push_back(static_cast<int>(&find_parameter(&study, name) - study.parameters.data()));
+    study.tuned.push_back(
+        static_cast<int>(&find_parameter(&study, name) - study.parameters.data()));
   return compile(robot, std::move(study), {}, {},
                  {portable.urdf,
                   portable.overlays,
@@ -235,11 +276,13 @@ Problem load_portable(const PortableProblem& portable) {
 void require_objective(const Problem& problem) {
   const Study& study = problem.study();
   if (!has_objective(study))
-    throw InputError({{study.file, 1},
-                      "objective",
-                      "the study has no objective: it can be simulated and checked, but there is nothing to optimize",
-                      "",
-                      "at least one term under objective.integral, objective.terminal or objective.peak"});
+    throw InputError(
+        {{study.file, 1},
+         "objective",
+         "the study has no objective: it can be simulated and checked, but there is nothing to "
+         "optimize",
+         "",
+         "at least one term under objective.integral, objective.terminal or objective.peak"});
 }
 
 }  // namespace codesign

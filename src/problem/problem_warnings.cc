@@ -13,18 +13,21 @@
 namespace codesign {
 namespace {
 
-constexpr double kEqual = 1e-6;  // relative to the value, or to its standard deviation if that is larger
+constexpr double kEqual =
+    1e-6;  // relative to the value, or to its standard deviation if that is larger
 
 /// Whether a number of the model, the study or the changes of a run depends on a parameter.
 bool is_used(const Study& study, int index) {
   const std::vector<RunDescription>& runs = study.ensemble.runs;
-  return study.used_parameters.count(index) > 0 || std::any_of(runs.begin(), runs.end(), [index](const RunDescription& run) {
+  return study.used_parameters.count(index) > 0 ||
+         std::any_of(runs.begin(), runs.end(), [index](const RunDescription& run) {
            return run.study && run.study->used_parameters.count(index) > 0;
          });
 }
 
-constexpr double kTolerated = 0.1;       // of the range of the way-points
-constexpr int kSamplesPerInterval = 64;  // an extremum is found to about 1e-3 of its distance from the way-points
+constexpr double kTolerated = 0.1;  // of the range of the way-points
+constexpr int kSamplesPerInterval =
+    64;  // an extremum is found to about 1e-3 of its distance from the way-points
 
 /// A number with the time at which a function has it.
 struct Extremum {
@@ -33,7 +36,8 @@ struct Extremum {
 };
 
 /// The smallest and the largest value between the first and the last way-point.
-std::pair<Extremum, Extremum> extremes_of(const Reference<double>& function, const std::vector<double>& times) {
+std::pair<Extremum, Extremum> extremes_of(const Reference<double>& function,
+                                          const std::vector<double>& times) {
   std::vector<Extremum> samples;
   for (std::size_t k = 0; k + 1 < times.size(); ++k)
     for (int i = 0; i <= kSamplesPerInterval; ++i) {
@@ -44,13 +48,15 @@ std::pair<Extremum, Extremum> extremes_of(const Reference<double>& function, con
   return {*lowest, *highest};
 }
 
-void check(const ReferenceDescription& reference, const std::vector<double>& parameters, const SourceLocation& where,
-           const std::string& element, Warnings* warnings) {
+void check(const ReferenceDescription& reference, const std::vector<double>& parameters,
+           const SourceLocation& where, const std::string& element, Warnings* warnings) {
   if (reference.kind != ReferenceDescription::Kind::kWaypoints) return;
   std::vector<double> positions;
-  for (const Quantity& position : reference.waypoints.positions) positions.push_back(position.at(parameters));
+  for (const Quantity& position : reference.waypoints.positions)
+    positions.push_back(position.at(parameters));
   const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
-  const auto [lowest, highest] = extremes_of(Reference<double>(reference, parameters), reference.waypoints.times);
+  const auto [lowest, highest] =
+      extremes_of(Reference<double>(reference, parameters), reference.waypoints.times);
   const double below = *low - lowest.value, above = highest.value - *high;
   // Equal way-points have no range; rounding is not worth a warning.
   const double rounding = 1e-9 * std::max(std::abs(*low), std::abs(*high));
@@ -58,8 +64,10 @@ void check(const ReferenceDescription& reference, const std::vector<double>& par
   const Extremum& far = below > above ? lowest : highest;
   append({warn("waypoint_overshoot",
                {where, element,
-                "the curve reaches " + readable(far.value) + " at " + readable(far.time) + " s, far beyond its way-points; leave out " +
-                    "`interpolation` and velocities that are not needed, which keeps it between them, or add way-points",
+                "the curve reaches " + readable(far.value) + " at " + readable(far.time) +
+                    " s, far beyond its way-points; leave out " +
+                    "`interpolation` and velocities that are not needed, which keeps it between "
+                    "them, or add way-points",
                 readable(far.value), readable(*low) + " to " + readable(*high)})},
          warnings);
 }
@@ -71,17 +79,18 @@ Warnings differing_nominals(const Study& study) {
   SourceLocation where;
   for (const UncertainQuantity& quantity : study.ensemble.uncertain) {
     if (!quantity.is_identified) continue;
-    const double nominal = study.parameters[to_index(quantity.parameter)].value, found = quantity.distribution.mean;
+    const double nominal = study.parameters[to_index(quantity.parameter)].value,
+                 found = quantity.distribution.mean;
     if (std::abs(nominal - found) <= kEqual * std::max(std::abs(found), quantity.spread)) continue;
     values += (values.empty() ? "" : ", ") + quantity.name + " " + readable(nominal);
     identified += (identified.empty() ? "" : ", ") + readable(found);
     where = quantity.where;
   }
   if (values.empty()) return {};
-  return {warn("nominal_differs",
-               {where, "uncertain.from",
-                "samples lie around the identified values, but nominal runs use other values; give identified_overlay.urdf as an overlay",
-                values, identified})};
+  return {warn("nominal_differs", {where, "uncertain.from",
+                                   "samples lie around the identified values, but nominal runs use "
+                                   "other values; give identified_overlay.urdf as an overlay",
+                                   values, identified})};
 }
 
 Warnings unused_parameters(const Study& study) {
@@ -90,18 +99,22 @@ Warnings unused_parameters(const Study& study) {
     if (is_used(study, index)) continue;
     const Parameter& parameter = study.parameters[to_index(index)];
     warnings.push_back(
-        warn("unused_parameter", {parameter.where, "parameter " + parameter.name,
-                                  "nothing in the model or the study depends on this parameter, which is to be tuned; write ${" +
-                                      parameter.name + "} where it belongs, or take it out of the study's parameters",
-                                  "", ""}));
+        warn("unused_parameter",
+             {parameter.where, "parameter " + parameter.name,
+              "nothing in the model or the study depends on this parameter, which is to be tuned; "
+              "write ${" +
+                  parameter.name + "} where it belongs, or take it out of the study's parameters",
+              "", ""}));
   }
   for (const UncertainQuantity& quantity : study.ensemble.uncertain) {
     if (quantity.parameter < 0 || is_used(study, quantity.parameter)) continue;
-    warnings.push_back(warn("unused_parameter", {quantity.where, "uncertain." + quantity.name,
-                                                 "nothing in the model or the study depends on this parameter, so all its samples are "
-                                                 "alike; write ${" +
-                                                     quantity.name + "} where it belongs, or take it out of uncertain",
-                                                 "", ""}));
+    warnings.push_back(
+        warn("unused_parameter",
+             {quantity.where, "uncertain." + quantity.name,
+              "nothing in the model or the study depends on this parameter, so all its samples are "
+              "alike; write ${" +
+                  quantity.name + "} where it belongs, or take it out of uncertain",
+              "", ""}));
   }
   return warnings;
 }
@@ -109,18 +122,23 @@ Warnings unused_parameters(const Study& study) {
 Warnings waypoint_overshoots(const Study& study) {
   Warnings warnings;
   const std::vector<double> parameters = start_parameters(study);
-  const auto look_at = [&](const ReferenceDescription& reference, const SourceLocation& where, const std::string& element) {
+  const auto look_at = [&](const ReferenceDescription& reference, const SourceLocation& where,
+                           const std::string& element) {
     check(reference, parameters, where, element, &warnings);
   };
   for (const ControllerDescription& controller : study.controllers) {
     const std::string element = "controllers." + controller.name;
     look_at(controller.setpoint, controller.where, element + ".setpoint");
     look_at(controller.feedforward, controller.where, element + ".feedforward");
-    for (const FeedbackTerm& term : controller.feedback) look_at(term.reference, controller.where, element + ".feedback");
+    for (const FeedbackTerm& term : controller.feedback)
+      look_at(term.reference, controller.where, element + ".feedback");
   }
-  for (const ObjectiveTerm& term : study.integral) look_at(term.reference, term.signal.where, "objective.integral");
-  for (const ObjectiveTerm& term : study.terminal) look_at(term.reference, term.signal.where, "objective.terminal");
-  for (const WatchedSignal& watched : study.watched) look_at(watched.reference, watched.where, watched.element + ".reference");
+  for (const ObjectiveTerm& term : study.integral)
+    look_at(term.reference, term.signal.where, "objective.integral");
+  for (const ObjectiveTerm& term : study.terminal)
+    look_at(term.reference, term.signal.where, "objective.terminal");
+  for (const WatchedSignal& watched : study.watched)
+    look_at(watched.reference, watched.where, watched.element + ".reference");
   for (const RunDescription& run : study.ensemble.runs)
     if (run.study) append(waypoint_overshoots(*run.study), &warnings);
   return warnings;

@@ -27,16 +27,20 @@ RobotDescription with_law(RobotDescription robot, FrictionModel model) {
 }
 
 bool is_tuned(const Study& study, const std::string& name) {
-  return std::any_of(study.tuned.begin(), study.tuned.end(), [&](int index) { return study.parameters[to_index(index)].name == name; });
+  return std::any_of(study.tuned.begin(), study.tuned.end(),
+                     [&](int index) { return study.parameters[to_index(index)].name == name; });
 }
 
-/// The points of the Sobol sequence have a largest dimension. @param quantities that are drawn, in words.
-void require_dimension(SamplerKind sampler, std::size_t count, const SourceLocation& where, const std::string& block,
-                       const std::string& quantities) {
+/// The points of the Sobol sequence have a largest dimension. @param quantities that are drawn, in
+/// words.
+void require_dimension(SamplerKind sampler, std::size_t count, const SourceLocation& where,
+                       const std::string& block, const std::string& quantities) {
   if (sampler != SamplerKind::kSobol || count <= to_index(kMaxSobolDimension)) return;
-  throw InputError({where, block + ".sampler", "the sampler sobol draws fewer quantities than there are " + quantities,
+  throw InputError({where, block + ".sampler",
+                    "the sampler sobol draws fewer quantities than there are " + quantities,
                     std::to_string(count) + " " + quantities,
-                    "at most " + std::to_string(kMaxSobolDimension) + ", or sampler: latin_hypercube or random"});
+                    "at most " + std::to_string(kMaxSobolDimension) +
+                        ", or sampler: latin_hypercube or random"});
 }
 
 }  // namespace
@@ -44,18 +48,22 @@ void require_dimension(SamplerKind sampler, std::size_t count, const SourceLocat
 void require_compatible(const Study& study) {
   const EnsembleDescription& ensemble = study.ensemble;
   const RobustOptions robust = ensemble.robust_options();
-  require_dimension(robust.sampler, ensemble.uncertain.size(), robust.where, "robust", "uncertain parameters");
+  require_dimension(robust.sampler, ensemble.uncertain.size(), robust.where, "robust",
+                    "uncertain parameters");
   if (ensemble.multistart.starts > 0)
-    require_dimension(ensemble.multistart.sampler, study.tuned.size(), ensemble.multistart.where, "multistart", "tuned parameters");
+    require_dimension(ensemble.multistart.sampler, study.tuned.size(), ensemble.multistart.where,
+                      "multistart", "tuned parameters");
   for (const RunDescription& run : study.ensemble.runs)
     for (const auto& [name, value] : run.set)
-      if (is_tuned(study, name)) throw tuned_error(run.where, "runs." + run.name + ".set." + name, name);
+      if (is_tuned(study, name))
+        throw tuned_error(run.where, "runs." + run.name + ".set." + name, name);
   for (const UncertainQuantity& quantity : study.ensemble.uncertain)
     if (quantity.parameter >= 0 && is_tuned(study, quantity.name))
       throw tuned_error(quantity.where, "uncertain." + quantity.name, quantity.name);
   if (study.ensemble.multistart.starts == 0) return;
   for (int index : study.tuned)
-    if (const auto fault = find_missing_bounds(study.parameters[to_index(index)])) throw InputError(*fault);
+    if (const auto fault = find_missing_bounds(study.parameters[to_index(index)]))
+      throw InputError(*fault);
 }
 
 int count_laws(const Study& study) {
@@ -63,18 +71,21 @@ int count_laws(const Study& study) {
   return law ? static_cast<int>(law->laws.size()) : 0;
 }
 
-std::vector<std::shared_ptr<const CompiledSystem>> make_variants(const RobotDescription& robot, const Study& study,
-                                                                 const std::shared_ptr<const CompiledSystem>& own, Warnings* warnings) {
+std::vector<std::shared_ptr<const CompiledSystem>> make_variants(
+    const RobotDescription& robot, const Study& study,
+    const std::shared_ptr<const CompiledSystem>& own, Warnings* warnings) {
   const UncertainQuantity* const law = uncertain_law(study);
   if (study.ensemble.runs.empty() && !law) return {};
   std::vector<std::shared_ptr<const CompiledSystem>> variants;
   const std::size_t runs = std::max<std::size_t>(1, study.ensemble.runs.size());
   for (std::size_t r = 0; r < runs; ++r) {
-    const Study* const changed = study.ensemble.runs.empty() ? nullptr : study.ensemble.runs[r].study.get();
+    const Study* const changed =
+        study.ensemble.runs.empty() ? nullptr : study.ensemble.runs[r].study.get();
     Warnings found;
     variants.push_back(changed ? make_system(robot, *changed, &found) : own);
     for (std::size_t k = 0; law && k < law->laws.size(); ++k)
-      variants.push_back(make_system(with_law(robot, *find_friction(robot.laws, law->laws[k])), changed ? *changed : study, &found));
+      variants.push_back(make_system(with_law(robot, *find_friction(robot.laws, law->laws[k])),
+                                     changed ? *changed : study, &found));
     append(found, warnings);
   }
   return variants;
@@ -90,7 +101,8 @@ std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run
 std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem) {
   std::vector<std::shared_ptr<const CompiledSystem>> systems{problem.system()};
   for (const auto& system : problem.contents().variants)
-    if (std::find(systems.begin(), systems.end(), system) == systems.end()) systems.push_back(system);
+    if (std::find(systems.begin(), systems.end(), system) == systems.end())
+      systems.push_back(system);
   return systems;
 }
 

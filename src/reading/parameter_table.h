@@ -12,8 +12,9 @@
 
 namespace codesign {
 
-/// The parameters that the expressions of one file may use, with their default values. Every expression of model and study is parsed here,
-/// so that the table knows which parameters are used. Not thread-safe.
+/// The parameters that the expressions of one file may use, with their default values. Every
+/// expression of model and study is parsed here, so that the table knows which parameters are used.
+/// Not thread-safe.
 struct ParameterTable {
   ParameterTable() = default;
   explicit ParameterTable(const std::vector<Parameter>& parameters) {
@@ -24,13 +25,15 @@ struct ParameterTable {
     }
   }
 
-  /// The expression that stands inside `${...}`; from now on its parameters are used. @throws std::invalid_argument as Expression.
+  /// The expression that stands inside `${...}`; from now on its parameters are used. @throws
+  /// std::invalid_argument as Expression.
   std::shared_ptr<const Expression> parse(const std::string& text) const {
     const auto index_of = [this](const std::string& name) {
       const auto found = index.find(name);
       return found == index.end() ? -1 : found->second;
     };
-    auto expression = std::make_shared<const Expression>(text, ExpressionScope{index_of, [this] { return names; }});
+    auto expression = std::make_shared<const Expression>(
+        text, ExpressionScope{index_of, [this] { return names; }});
     used.insert(expression->dependencies().begin(), expression->dependencies().end());
     return expression;
   }
@@ -38,7 +41,7 @@ struct ParameterTable {
   std::vector<std::string> names;
   std::vector<double> values;
   std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
-  mutable std::set<int> used;                  ///< indices of the parameters on which a parsed expression depends
+  mutable std::set<int> used;  ///< indices of the parameters on which a parsed expression depends
 };
 
 }  // namespace codesign

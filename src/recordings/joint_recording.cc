@@ -35,26 +35,33 @@ JointRecording read(const RecordingDescription& description, const Context& cont
   if (!description.is_bag && !std::filesystem::exists(path, unknown) && !unknown)
     throw InputError(
         {description.where, element, "there is no such recording", path,
-         "a recording of the robot, in the folder of the study or with its absolute path; doc/case_studies.md has the commands "
+         "a recording of the robot, in the folder of the study or with its absolute path; "
+         "doc/case_studies.md has the commands "
          "that make those of the shipped cases by simulation, beside a copy of the study"});
   if (!description.is_bag) return read_table_recording(description, path, context.joints);
   if (!context.reader)
-    throw InputError({description.where, element, "this program was built without ROS, which reads bags", path,
-                      "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is there"});
+    throw InputError(
+        {description.where, element, "this program was built without ROS, which reads bags", path,
+         "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is there"});
   return context.reader(description, path, context.joints, context.warnings);
 }
 
 /// Each joint that the study calibrates must have been recorded with an effort.
-void require_calibrated_joints(const JointRecording& recording, const IdentificationDescription& identification) {
+void require_calibrated_joints(const JointRecording& recording,
+                               const IdentificationDescription& identification) {
   std::vector<std::string> names;
   for (const JointSamples& samples : recording.joints) names.push_back(samples.joint);
   for (const JointCalibration& calibration : identification.joints) {
     const std::string element = "identify.joints." + calibration.joint;
     const JointSamples* samples = recording.find(calibration.joint);
-    if (samples == nullptr) throw unknown_name(calibration.where, element, "joint in " + recording.file, calibration.joint, names);
+    if (samples == nullptr)
+      throw unknown_name(calibration.where, element, "joint in " + recording.file,
+                         calibration.joint, names);
     if (samples->effort.empty())
-      throw InputError({calibration.where, element, "no effort of this joint was recorded, which its scale, delay and offset are about",
-                        recording.file, "a recording with " + calibration.joint + "/effort"});
+      throw InputError(
+          {calibration.where, element,
+           "no effort of this joint was recorded, which its scale, delay and offset are about",
+           recording.file, "a recording with " + calibration.joint + "/effort"});
   }
 }
 
@@ -64,49 +71,62 @@ void add_starts(const RecordingDescription& description, JointRecording* recordi
   for (const JointSamples& samples : recording->joints) names.push_back(samples.joint);
   for (const StartPosition& start : description.starts) {
     const std::string element = description.element + ".start." + start.joint;
-    const auto found = std::find_if(recording->joints.begin(), recording->joints.end(),
-                                    [&start](const JointSamples& samples) { return samples.joint == start.joint; });
+    const auto found = std::find_if(
+        recording->joints.begin(), recording->joints.end(),
+        [&start](const JointSamples& samples) { return samples.joint == start.joint; });
     if (found == recording->joints.end())
-      throw unknown_name(start.position.where, element, "joint in " + recording->file, start.joint, names);
+      throw unknown_name(start.position.where, element, "joint in " + recording->file, start.joint,
+                         names);
     if (!found->position.empty())
-      throw InputError({start.position.where, element, "positions of this joint were recorded, which give its start: " + recording->file,
-                        start.joint, "no start, or columns without its positions"});
+      throw InputError(
+          {start.position.where, element,
+           "positions of this joint were recorded, which give its start: " + recording->file,
+           start.joint, "no start, or columns without its positions"});
     if (found->velocity.empty())
       throw InputError({start.position.where, element,
-                        "no velocity of this joint was recorded, from which positions follow: " + recording->file, start.joint,
-                        "a recording with " + start.joint + "/velocity"});
+                        "no velocity of this joint was recorded, from which positions follow: " +
+                            recording->file,
+                        start.joint, "a recording with " + start.joint + "/velocity"});
     found->start = start.position;
   }
 }
 
 /// If only the velocity of a joint is recorded, its motion during a gap is unknown.
-void require_one_piece(const RecordingDescription& description, const std::vector<JointRecording>& pieces) {
+void require_one_piece(const RecordingDescription& description,
+                       const std::vector<JointRecording>& pieces) {
   if (pieces.size() < 2 || description.starts.empty()) return;
   throw InputError({description.where, description.element + ".gaps",
-                    "after a gap the positions of joints without recorded positions are unknown: " + pieces.front().file, "split",
-                    "one entry for each piece, with `from`, `to` and `start`"});
+                    "after a gap the positions of joints without recorded positions are unknown: " +
+                        pieces.front().file,
+                    "split", "one entry for each piece, with `from`, `to` and `start`"});
 }
 
 /// Pieces between gaps that the filters shorten too much are left out, unless all are.
-std::vector<JointRecording> long_enough(std::vector<JointRecording> pieces, const Context& context) {
+std::vector<JointRecording> long_enough(std::vector<JointRecording> pieces,
+                                        const Context& context) {
   const IdentificationDescription& options = context.identification;
   const auto is_short = [&options](const JointRecording& piece) {
     return samples_to_fit(piece, options.filter) < to_signed(kLeastSamples);
   };
-  if (options.residual != ResidualKind::kEffort || std::all_of(pieces.begin(), pieces.end(), is_short)) return pieces;
-  const auto short_ones = std::stable_partition(pieces.begin(), pieces.end(), [&](const auto& piece) { return !is_short(piece); });
+  if (options.residual != ResidualKind::kEffort ||
+      std::all_of(pieces.begin(), pieces.end(), is_short))
+    return pieces;
+  const auto short_ones = std::stable_partition(
+      pieces.begin(), pieces.end(), [&](const auto& piece) { return !is_short(piece); });
   for (auto piece = short_ones; piece != pieces.end(); ++piece)
-    context.warnings->push_back(
-        warn("recording_piece_dropped",
-             {piece->location_of(0), piece->element,
-              "a piece of " + std::to_string(piece->times.size()) + " samples between gaps is left out (" + piece->place_of(0) +
-                  "): the filters leave " + std::to_string(samples_to_fit(*piece, options.filter)) + " to fit",
-              "", "at least " + std::to_string(kLeastSamples)}));
+    context.warnings->push_back(warn(
+        "recording_piece_dropped",
+        {piece->location_of(0), piece->element,
+         "a piece of " + std::to_string(piece->times.size()) +
+             " samples between gaps is left out (" + piece->place_of(0) + "): the filters leave " +
+             std::to_string(samples_to_fit(*piece, options.filter)) + " to fit",
+         "", "at least " + std::to_string(kLeastSamples)}));
   pieces.erase(short_ones, pieces.end());
   return pieces;
 }
 
-std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions, const Context& context) {
+std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions,
+                                 const Context& context) {
   std::vector<JointRecording> recordings;
   for (const RecordingDescription& description : descriptions) {
     JointRecording whole = read(description, context);
@@ -117,26 +137,34 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
     check_spikes(part, context.warnings);
     unwrap_turns(context.robot, &part, context.warnings);
     check_units(context.robot, part, context.warnings);
-    // Before gaps are looked for, since late stamps look like missing samples; and again, since a clock may go on differently behind a gap.
+    // Before gaps are looked for, since late stamps look like missing samples; and again, since a
+    // clock may go on differently behind a gap.
     even_stamps(&part, context.warnings);
     std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
     require_one_piece(description, pieces);
     for (JointRecording& piece : pieces) even_stamps(&piece, context.warnings);
-    for (JointRecording& piece : long_enough(std::move(pieces), context)) recordings.push_back(std::move(piece));
+    for (JointRecording& piece : long_enough(std::move(pieces), context))
+      recordings.push_back(std::move(piece));
   }
   return recordings;
 }
 
-/// Whether two recordings have samples in common: the same places of one file, with the same numbers.
+/// Whether two recordings have samples in common: the same places of one file, with the same
+/// numbers.
 bool share_samples(const JointRecording& one, const JointRecording& other) {
   const std::size_t place = std::max(one.places.front(), other.places.front());
-  if (one.file != other.file || one.topic != other.topic || place > std::min(one.places.back(), other.places.back())) return false;
+  if (one.file != other.file || one.topic != other.topic ||
+      place > std::min(one.places.back(), other.places.back()))
+    return false;
   const auto index = [place](const JointRecording& recording) {
-    return std::lower_bound(recording.places.begin(), recording.places.end(), place) - recording.places.begin();
+    return std::lower_bound(recording.places.begin(), recording.places.end(), place) -
+           recording.places.begin();
   };
   return std::all_of(one.joints.begin(), one.joints.end(), [&](const JointSamples& samples) {
     const JointSamples* same = other.find(samples.joint);
-    if (!same || same->position.size() != other.times.size() || samples.position.size() != one.times.size()) return same != nullptr;
+    if (!same || same->position.size() != other.times.size() ||
+        samples.position.size() != one.times.size())
+      return same != nullptr;
     return samples.position[to_index(index(one))] == same->position[to_index(index(other))];
   });
 }
@@ -146,10 +174,12 @@ void warn_of_repeated(const StudyRecordings& recordings, Warnings* warnings) {
   const auto check = [&](const JointRecording& recording, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k)
       if (share_samples(recording, recordings.data[k])) {
-        warnings->push_back(warn(
-            "recording_repeated",
-            {recording.where, recording.element, "some of its samples are fitted as " + recordings.data[k].element + ": " + recording.file,
-             "", "other recordings, or parts by `from` and `to` that do not overlap"}));
+        warnings->push_back(
+            warn("recording_repeated",
+                 {recording.where, recording.element,
+                  "some of its samples are fitted as " + recordings.data[k].element + ": " +
+                      recording.file,
+                  "", "other recordings, or parts by `from` and `to` that do not overlap"}));
         return;
       }
   };
@@ -167,19 +197,22 @@ struct StampLine {
   double at(std::size_t k) const { return start + number[k] * step; }
 };
 
-/// The mean of the usual periods: of stamps that are rounded, such as 3, 7 and 10 ms, the median is another one.
+/// The mean of the usual periods: of stamps that are rounded, such as 3, 7 and 10 ms, the median is
+/// another one.
 double usual_period(const std::vector<double>& times) {
   const double median = median_period(times);
   double sum = 0.0, count = 0.0;
   for (std::size_t k = 1; k < times.size(); ++k)
-    if (const double period = times[k] - times[k - 1]; 0.5 * median < period && period < 1.5 * median) {
+    if (const double period = times[k] - times[k - 1];
+        0.5 * median < period && period < 1.5 * median) {
       sum += period;
       count += 1.0;
     }
   return sum / count;
 }
 
-/// Numbers of steps. The expected time follows the stamps slowly, so that one that is late does not move those behind it.
+/// Numbers of steps. The expected time follows the stamps slowly, so that one that is late does not
+/// move those behind it.
 std::vector<double> step_numbers(const std::vector<double>& times) {
   constexpr double kFollow = 0.1;
   const double period = usual_period(times);
@@ -218,22 +251,28 @@ StampLine line_through(const std::vector<double>& times, std::vector<double> num
   return line;
 }
 
-/// A pause may be a sample that is missing, or a stamp that is late: what leaves the smaller jitter counts.
+/// A pause may be a sample that is missing, or a stamp that is late: what leaves the smaller jitter
+/// counts.
 StampLine stamp_line(const std::vector<double>& times) {
   std::vector<double> whole(times.size());
   std::iota(whole.begin(), whole.end(), 0.0);
-  StampLine with_missing = line_through(times, step_numbers(times)), without = line_through(times, std::move(whole));
+  StampLine with_missing = line_through(times, step_numbers(times)),
+            without = line_through(times, std::move(whole));
   return with_missing.spread < without.spread ? with_missing : without;
 }
 
-/// What a column tells of `share` in x_k = x(at(k) + share off[k]): its estimate times its information, and its information.
+/// What a column tells of `share` in x_k = x(at(k) + share off[k]): its estimate times its
+/// information, and its information.
 struct Evidence {
   double weighted = 0.0, information = 0.0;
 };
 
-/// Fourth differences of five neighbours take the smooth motion away and leave what jitter and noise do.
+/// Fourth differences of five neighbours take the smooth motion away and leave what jitter and
+/// noise do.
 Evidence evidence_of(const StampLine& line, const std::vector<double>& column) {
-  const auto fourth = [](const auto& x) { return x(0) - 4.0 * x(1) + 6.0 * x(2) - 4.0 * x(3) + x(4); };
+  const auto fourth = [](const auto& x) {
+    return x(0) - 4.0 * x(1) + 6.0 * x(2) - 4.0 * x(3) + x(4);
+  };
   double yy = 0.0, yz = 0.0, zz = 0.0, count = 0.0;
   for (std::size_t k = 0; k + 4 < column.size(); ++k) {
     if (line.number[k + 4] - line.number[k] != 4.0) continue;
@@ -253,25 +292,33 @@ Evidence evidence_of(const StampLine& line, const std::vector<double>& column) {
 }  // namespace
 
 const JointSamples* JointRecording::find(const std::string& joint) const {
-  const auto found = std::find_if(joints.begin(), joints.end(), [&joint](const JointSamples& samples) { return samples.joint == joint; });
+  const auto found =
+      std::find_if(joints.begin(), joints.end(),
+                   [&joint](const JointSamples& samples) { return samples.joint == joint; });
   return found == joints.end() ? nullptr : &*found;
 }
 
 std::string JointRecording::place_of(std::size_t k) const {
-  return (topic.empty() ? "line " : "message ") + std::to_string(places[k]) + ", t = " + readable(times[k]) + " s";
+  return (topic.empty() ? "line " : "message ") + std::to_string(places[k]) +
+         ", t = " + readable(times[k]) + " s";
 }
 
-SourceLocation JointRecording::location_of(std::size_t k) const { return {file, topic.empty() ? static_cast<int>(places[k]) : 0}; }
+SourceLocation JointRecording::location_of(std::size_t k) const {
+  return {file, topic.empty() ? static_cast<int>(places[k]) : 0};
+}
 
 bool has_same_settings(const JointRecording& one, const JointRecording& other) {
-  return std::equal(one.settings.begin(), one.settings.end(), other.settings.begin(), other.settings.end(),
-                    [](const RecordedSetting& a, const RecordedSetting& b) { return a.parameter == b.parameter && a.value == b.value; });
+  return std::equal(one.settings.begin(), one.settings.end(), other.settings.begin(),
+                    other.settings.end(), [](const RecordedSetting& a, const RecordedSetting& b) {
+                      return a.parameter == b.parameter && a.value == b.value;
+                    });
 }
 
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end) {
   const auto cut = [begin, end](const auto& column) {
     auto part = column;
-    if (!column.empty()) part.assign(column.begin() + to_signed(begin), column.begin() + to_signed(end));
+    if (!column.empty())
+      part.assign(column.begin() + to_signed(begin), column.begin() + to_signed(end));
     return part;
   };
   JointRecording part;
@@ -283,28 +330,35 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
   part.times = cut(recording.times);
   part.places = cut(recording.places);
   for (const JointSamples& samples : recording.joints)
-    part.joints.push_back({samples.joint, cut(samples.position), cut(samples.velocity), cut(samples.effort), samples.start});
+    part.joints.push_back({samples.joint, cut(samples.position), cut(samples.velocity),
+                           cut(samples.effort), samples.start});
   return part;
 }
 
-StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
+StudyRecordings load_recordings(const IdentificationDescription& identification,
+                                const RobotDescription& robot, const std::string& folder,
                                 const BagReader& reader, Warnings* warnings) {
   Context context{identification, robot, folder, reader, warnings, {}};
   for (const JointDescription& joint : robot.joints)
     if (has_one_coordinate(joint.type)) context.joints.push_back(joint.name);
-  StudyRecordings recordings{load(identification.data, context), load(identification.holdout, context)};
+  StudyRecordings recordings{load(identification.data, context),
+                             load(identification.holdout, context)};
   warn_of_repeated(recordings, warnings);
   return recordings;
 }
 
 void even_stamps(JointRecording* recording, Warnings* warnings) {
-  constexpr double kExact = 1e-3, kMost = 2.0, kMostSpread = 0.2;  // of a step; beyond, nothing tells which samples are missing
+  constexpr double kExact = 1e-3, kMost = 2.0,
+                   kMostSpread = 0.2;  // of a step; beyond, nothing tells which samples are missing
   constexpr double kHalf = 0.5, kDeviations = 5.0;
   const StampLine line = stamp_line(recording->times);
-  if (line.largest < kExact * line.step || line.largest > kMost * line.step || line.spread > kMostSpread * line.step) return;
+  if (line.largest < kExact * line.step || line.largest > kMost * line.step ||
+      line.spread > kMostSpread * line.step)
+    return;
   Evidence all;
   for (const JointSamples& samples : recording->joints) {
-    const Evidence one = evidence_of(line, samples.position.empty() ? samples.velocity : samples.position);
+    const Evidence one =
+        evidence_of(line, samples.position.empty() ? samples.velocity : samples.position);
     all.weighted += one.weighted;
     all.information += one.information;
   }
@@ -312,11 +366,13 @@ void even_stamps(JointRecording* recording, Warnings* warnings) {
   const double share = all.weighted / all.information;
   if (!(kHalf - share > kDeviations / std::sqrt(all.information))) return;
   for (std::size_t k = 0; k < recording->times.size(); ++k) recording->times[k] = line.at(k);
-  warnings->push_back(warn("recording_even_stamps", {recording->where, recording->element,
-                                                     "the times jitter by up to " + readable(line.largest, 3) +
-                                                         " s, but the motion does not: the samples are taken at equal steps of " +
-                                                         readable(line.step, 6) + " s: " + recording->file,
-                                                     "", ""}));
+  warnings->push_back(
+      warn("recording_even_stamps",
+           {recording->where, recording->element,
+            "the times jitter by up to " + readable(line.largest, 3) +
+                " s, but the motion does not: the samples are taken at equal steps of " +
+                readable(line.step, 6) + " s: " + recording->file,
+            "", ""}));
 }
 
 }  // namespace codesign

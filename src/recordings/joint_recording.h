@@ -13,28 +13,37 @@
 
 namespace codesign {
 
-/// The measurements of one joint, one number per time in the joint's units. An empty column was not measured.
+/// The measurements of one joint, one number per time in the joint's units. An empty column was not
+/// measured.
 struct JointSamples {
   std::string joint;
   std::vector<double> position, velocity, effort;
-  std::optional<FittedNumber> start = std::nullopt;  ///< position at the first time, if velocities are to be integrated
+  std::optional<FittedNumber> start =
+      std::nullopt;  ///< position at the first time, if velocities are to be integrated
 
   std::vector<double>& of(MeasuredQuantity quantity) {
-    return quantity == MeasuredQuantity::kPosition ? position : quantity == MeasuredQuantity::kVelocity ? velocity : effort;
+    return quantity == MeasuredQuantity::kPosition   ? position
+           : quantity == MeasuredQuantity::kVelocity ? velocity
+                                                     : effort;
   }
-  const std::vector<double>& of(MeasuredQuantity quantity) const { return const_cast<JointSamples*>(this)->of(quantity); }
+  const std::vector<double>& of(MeasuredQuantity quantity) const {
+    return const_cast<JointSamples*>(this)->of(quantity);
+  }
 };
 
-/// Measurements of several joints at common times. The recordings of load_recordings() have ascending times, finite numbers and no gap.
+/// Measurements of several joints at common times. The recordings of load_recordings() have
+/// ascending times, finite numbers and no gap.
 struct JointRecording {
-  std::string file;                 ///< the path that was read
-  std::string topic;                ///< topic in a bag; empty for a table
-  std::vector<double> times;        ///< [s], from the column of a table, or counted from the begin of the bag
-  std::vector<std::size_t> places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
+  std::string file;   ///< the path that was read
+  std::string topic;  ///< topic in a bag; empty for a table
+  std::vector<double>
+      times;  ///< [s], from the column of a table, or counted from the begin of the bag
+  std::vector<std::size_t>
+      places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
   std::vector<JointSamples> joints;
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
-  std::string element;                    ///< the entry of the study, for messages: `identify.data[0]`
-  SourceLocation where;                   ///< place of this entry, for messages
+  std::string element;   ///< the entry of the study, for messages: `identify.data[0]`
+  SourceLocation where;  ///< place of this entry, for messages
 
   /// The samples of a joint; null if it was not recorded.
   const JointSamples* find(const std::string& joint) const;
@@ -50,28 +59,33 @@ bool has_same_settings(const JointRecording& one, const JointRecording& other);
 /// Samples `begin` to `end` - 1. @param begin at most `end`, which is at most the number of samples
 JointRecording part_of(const JointRecording& recording, std::size_t begin, std::size_t end);
 
-/// Callback that reads the joint states of a topic from a bag. The caller provides it, since this library does not depend on ROS, which
-/// reads bags.
-/// @param path of the bag. @param joints names of the model's joints with one coordinate; other joints in the messages are ignored.
+/// Callback that reads the joint states of a topic from a bag. The caller provides it, since this
+/// library does not depend on ROS, which reads bags.
+/// @param path of the bag. @param joints names of the model's joints with one coordinate; other
+/// joints in the messages are ignored.
 /// @throws InputError if the bag or topic cannot be read, or names none of the joints.
-using BagReader = std::function<JointRecording(const RecordingDescription& description, const std::string& path,
-                                               const std::vector<std::string>& joints, Warnings* warnings)>;
+using BagReader =
+    std::function<JointRecording(const RecordingDescription& description, const std::string& path,
+                                 const std::vector<std::string>& joints, Warnings* warnings)>;
 
 /// The recordings of a study.
 struct StudyRecordings {
   std::vector<JointRecording> data, holdout;
 };
 
-/// Reads and checks the recordings that a study names: checked_part(), unwrap_turns(), check_units(), even_stamps(), without_gaps(). Each
-/// recording must have all joints of `identify.joints`.
+/// Reads and checks the recordings that a study names: checked_part(), unwrap_turns(),
+/// check_units(), even_stamps(), without_gaps(). Each recording must have all joints of
+/// `identify.joints`.
 /// @param folder base of relative paths; empty: only absolute paths are accepted.
 /// @param reader reads bags; if it is empty, a study that names a bag is refused.
 /// @throws InputError with the place in the study or in the file.
-StudyRecordings load_recordings(const IdentificationDescription& identification, const RobotDescription& robot, const std::string& folder,
+StudyRecordings load_recordings(const IdentificationDescription& identification,
+                                const RobotDescription& robot, const std::string& folder,
                                 const BagReader& reader, Warnings* warnings);
 
-/// Puts the times of a recording on equal steps if its motion says that the samples were taken there and only their stamps jitter;
-/// doc/theory.md (30a). Missing samples stay missing. Warning `recording_even_stamps`. Otherwise nothing changes.
+/// Puts the times of a recording on equal steps if its motion says that the samples were taken
+/// there and only their stamps jitter; doc/theory.md (30a). Missing samples stay missing. Warning
+/// `recording_even_stamps`. Otherwise nothing changes.
 /// @param recording with ascending times, turns unwrapped
 void even_stamps(JointRecording* recording, Warnings* warnings);
 

@@ -15,42 +15,49 @@ namespace codesign {
 struct UniformTimes {
   double start = 0.0, step = 0.0;  ///< [s]
   Eigen::Index count = 0;
-  bool exact = false;  ///< whether no interpolation is needed: no sample is missing, and all lie within 1e-3 steps of the uniform times
+  bool exact = false;  ///< whether no interpolation is needed: no sample is missing, and all lie
+                       ///< within 1e-3 steps of the uniform times
 
   double rate() const { return 1.0 / step; }
   double at(Eigen::Index k) const { return start + static_cast<double>(k) * step; }
 };
 
-/// Equal steps through the times of a recording: from the first to the last, one step per period. A pause counts as the nearest whole
-/// number of median periods. @param times ascending, at least two
+/// Equal steps through the times of a recording: from the first to the last, one step per period. A
+/// pause counts as the nearest whole number of median periods. @param times ascending, at least two
 UniformTimes uniform_times(const std::vector<double>& times);
 
 /// How values between samples are interpolated; doc/theory.md (30).
 enum class Between {
   kLinear,  ///< for efforts, which may jump: a cubic would overshoot at a jump
-  kCubic    ///< for smooth motion, by cubics with slopes of the parabola through three neighbours: linear pieces would have no acceleration
+  kCubic    ///< for smooth motion, by cubics with slopes of the parabola through three neighbours:
+            ///< linear pieces would have no acceleration
 };
 
 /// Values at the uniform times. @param times ascending, at least three. @param values one per time
-Eigen::VectorXd resample(const std::vector<double>& times, const std::vector<double>& values, const UniformTimes& uniform, Between between);
+Eigen::VectorXd resample(const std::vector<double>& times, const std::vector<double>& values,
+                         const UniformTimes& uniform, Between between);
 
-/// The derivative of equally spaced samples [unit/s]; doc/theory.md (31). By central differences of eighth order, at the four samples next
-/// to the ends of order six, four and two, and at the ends themselves by one-sided differences of order two.
+/// The derivative of equally spaced samples [unit/s]; doc/theory.md (31). By central differences of
+/// eighth order, at the four samples next to the ends of order six, four and two, and at the ends
+/// themselves by one-sided differences of order two.
 /// @param samples at least three. @param step [s]
 Eigen::VectorXd derivative(const Eigen::VectorXd& samples, double step);
 
-/// The integral of equally spaced samples [unit s], zero at the first; doc/theory.md (49). Each step integrates the polynomial of degree
-/// five through six neighbours, the two steps next to the ends the polynomial of degree three through four, so that integral() is the
-/// inverse of derivative() up to the bandwidth of the filter. @param samples at least four. @param step [s]
+/// The integral of equally spaced samples [unit s], zero at the first; doc/theory.md (49). Each
+/// step integrates the polynomial of degree five through six neighbours, the two steps next to the
+/// ends the polynomial of degree three through four, so that integral() is the inverse of
+/// derivative() up to the bandwidth of the filter. @param samples at least four. @param step [s]
 Eigen::VectorXd integral(const Eigen::VectorXd& samples, double step);
 
 /// The motion of a joint at equal steps, and its recorded effort; in the joint's units.
 struct JointMotion {
   std::string joint;
-  Eigen::VectorXd position, velocity, acceleration;  ///< empty if the recording does not determine them
-  Eigen::VectorXd effort;                            ///< as recorded, not filtered; empty if not recorded
-  bool velocity_measured = false;                    ///< false: the velocity is the derivative of the position
-  bool position_measured = true;                     ///< false: the position is the integral of the velocity from JointSamples::start
+  Eigen::VectorXd position, velocity,
+      acceleration;                ///< empty if the recording does not determine them
+  Eigen::VectorXd effort;          ///< as recorded, not filtered; empty if not recorded
+  bool velocity_measured = false;  ///< false: the velocity is the derivative of the position
+  bool position_measured =
+      true;  ///< false: the position is the integral of the velocity from JointSamples::start
 };
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).
@@ -58,25 +65,31 @@ struct MeasuredMotion {
   std::string element;  ///< the entry of the study: `identify.data[0]`
   UniformTimes times;
   std::vector<JointMotion> joints;  ///< in the order of the recording
-  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends a filter has samples on one side only, so that 2/cutoff
-  /// is left out at each end, for both cutoffs; the effect of the mirrored end on a filter of order four has then decayed to 1 %.
+  /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends a filter has
+  /// samples on one side only, so that 2/cutoff is left out at each end, for both cutoffs; the
+  /// effect of the mirrored end on a filter of order four has then decayed to 1 %.
   Eigen::Index first = 0, end = 0, every = 1;
 
   Eigen::Index fitted() const { return end > first ? (end - first + every - 1) / every : 0; }
 };
 
-/// Number of samples of a recording that a filter leaves to fit, MeasuredMotion::fitted(); 0 if it is too short for the filter.
+/// Number of samples of a recording that a filter leaves to fit, MeasuredMotion::fitted(); 0 if it
+/// is too short for the filter.
 Eigen::Index samples_to_fit(const JointRecording& recording, const FilterOptions& filter);
 
-/// Positions and measured velocities are resampled by cubics, efforts by lines; positions and velocities are filtered at `cutoff`; a
-/// velocity that was not measured is the derivative of the position, and the acceleration is always the derivative of the velocity. A
-/// position that was not measured is the integral of the filtered velocity from the joint's start in the study; without a start it is
-/// empty.
+/// Positions and measured velocities are resampled by cubics, efforts by lines; positions and
+/// velocities are filtered at `cutoff`; a velocity that was not measured is the derivative of the
+/// position, and the acceleration is always the derivative of the velocity. A position that was not
+/// measured is the integral of the filtered velocity from the joint's start in the study; without a
+/// start it is empty.
 ///
-/// For residuals in effort the caller must filter both measured and computed efforts at `residual_cutoff`, and then take them at the
-/// samples to fit.
-/// @param recording as load_recordings() returns it. Warns with `recording_resampled`, `recording_not_filtered` and `recording_aliased`.
-/// @throws InputError if a cutoff is not below half of the rate, or the recording is too short for the filter.
-MeasuredMotion measured_motion(const JointRecording& recording, const FilterOptions& filter, Warnings* warnings);
+/// For residuals in effort the caller must filter both measured and computed efforts at
+/// `residual_cutoff`, and then take them at the samples to fit.
+/// @param recording as load_recordings() returns it. Warns with `recording_resampled`,
+/// `recording_not_filtered` and `recording_aliased`.
+/// @throws InputError if a cutoff is not below half of the rate, or the recording is too short for
+/// the filter.
+MeasuredMotion measured_motion(const JointRecording& recording, const FilterOptions& filter,
+                               Warnings* warnings);
 
 }  // namespace codesign

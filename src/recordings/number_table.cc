@@ -25,7 +25,9 @@ std::string_view trimmed(std::string_view text) {
 
 std::string_view unquoted(std::string_view text) {
   const std::string_view cell = trimmed(text);
-  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? cell.substr(1, cell.size() - 2) : cell;
+  return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"'
+             ? cell.substr(1, cell.size() - 2)
+             : cell;
 }
 
 /// Whether the whole text is a number; a value too small for a double is zero.
@@ -34,14 +36,16 @@ bool parse(std::string_view text, double* value) {
   const char* const end = text.data() + text.size();
   const std::from_chars_result result = std::from_chars(text.data(), end, *value);
   if (result.ptr != end || text.empty()) return false;
-  if (result.ec == std::errc::result_out_of_range) *value = text.find("e-") != text.npos || text.find("E-") != text.npos ? 0.0 : HUGE_VAL;
+  if (result.ec == std::errc::result_out_of_range)
+    *value = text.find("e-") != text.npos || text.find("E-") != text.npos ? 0.0 : HUGE_VAL;
   return true;
 }
 
 /// The lines of a text one after the other, without their ends.
 class Lines {
  public:
-  Lines(std::string_view text, std::size_t from, int number) : text_(text), next_(from), number_(number - 1) {}
+  Lines(std::string_view text, std::size_t from, int number)
+      : text_(text), next_(from), number_(number - 1) {}
   bool next(std::string_view* line) {
     if (next_ >= text_.size()) return false;
     const std::size_t end = std::min(text_.find('\n', next_), text_.size());
@@ -73,7 +77,8 @@ char chosen_delimiter(CellDelimiter choice, std::string_view first_row) {
 
 bool all_numbers(const std::vector<std::string_view>& cells) {
   double value = 0.0;
-  return std::all_of(cells.begin(), cells.end(), [&value](std::string_view cell) { return parse(unquoted(cell), &value); });
+  return std::all_of(cells.begin(), cells.end(),
+                     [&value](std::string_view cell) { return parse(unquoted(cell), &value); });
 }
 
 std::vector<std::string> names_in(const std::vector<std::string_view>& cells) {
@@ -89,12 +94,16 @@ std::string text_of_file(const RecordingDescription& description, const std::str
   };
   errno = 0;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail(std::string("the file cannot be read: ") + std::strerror(errno), "a path, relative to the folder of the study");
+  if (!file)
+    fail(std::string("the file cannot be read: ") + std::strerror(errno),
+         "a path, relative to the folder of the study");
   const std::streamoff size = file.tellg();
-  if (size < 0 || size > kMostBytes) fail("no file, or one that is too large", "a file of at most 2 GB");
+  if (size < 0 || size > kMostBytes)
+    fail("no file, or one that is too large", "a file of at most 2 GB");
   std::string text(to_index(size), '\0');
   file.seekg(0);
-  if (!file.read(text.data(), size)) fail(std::string("the file cannot be read: ") + std::strerror(errno), "");
+  if (!file.read(text.data(), size))
+    fail(std::string("the file cannot be read: ") + std::strerror(errno), "");
   return text;
 }
 
@@ -102,18 +111,24 @@ std::string text_of_file(const RecordingDescription& description, const std::str
 int index_of(const ColumnDescription& column, const NumberTable& table) {
   if (column.number > 0) {
     if (column.number > table.width())
-      throw InputError({column.where, column.element, "the table has " + std::to_string(table.width()) + " columns: " + table.file(),
-                        std::to_string(column.number), "from 1 to " + std::to_string(table.width())});
+      throw InputError(
+          {column.where, column.element,
+           "the table has " + std::to_string(table.width()) + " columns: " + table.file(),
+           std::to_string(column.number), "from 1 to " + std::to_string(table.width())});
     return column.number - 1;
   }
   const std::vector<std::string>& names = table.names();
   if (names.empty())
-    throw InputError({column.where, column.element, "the columns of the table have no names: " + table.file(), column.name,
+    throw InputError({column.where, column.element,
+                      "the columns of the table have no names: " + table.file(), column.name,
                       "a number from 1 to " + std::to_string(table.width())});
   const auto found = std::find(names.begin(), names.end(), column.name);
-  if (found == names.end()) throw unknown_name(column.where, column.element, "column of " + table.file(), column.name, names);
+  if (found == names.end())
+    throw unknown_name(column.where, column.element, "column of " + table.file(), column.name,
+                       names);
   if (std::find(found + 1, names.end(), column.name) != names.end())
-    throw InputError({column.where, column.element, "several columns have this name: " + table.file(), column.name,
+    throw InputError({column.where, column.element,
+                      "several columns have this name: " + table.file(), column.name,
                       "the number of the column, from 1 to " + std::to_string(table.width())});
   return static_cast<int>(found - names.begin());
 }
@@ -138,14 +153,20 @@ RecordingDescription with_found_columns(RecordingDescription description, const 
   for (const std::string& joint : joints)
     for (std::size_t k = 0; k < kMeasuredQuantityNames.size(); ++k) {
       const std::string name = joint + "/" + kMeasuredQuantityNames[k];
-      if (has(name)) description.columns.push_back({joint, static_cast<MeasuredQuantity>(k), named(name, description)});
+      if (has(name))
+        description.columns.push_back(
+            {joint, static_cast<MeasuredQuantity>(k), named(name, description)});
     }
   if (!description.time || description.columns.empty())
-    throw InputError({description.where, description.element,
-                      std::string("the table has no column named ") +
-                          (description.time ? "JOINT/position, JOINT/velocity or JOINT/effort with a joint of the model" : "time or t") +
-                          ", but " + (table.names().empty() ? "no names at all" : list_names(table.names())) + ": " + table.file(),
-                      "", "columns: {time: COLUMN, JOINT/position: COLUMN, ...}"});
+    throw InputError(
+        {description.where, description.element,
+         std::string("the table has no column named ") +
+             (description.time
+                  ? "JOINT/position, JOINT/velocity or JOINT/effort with a joint of the model"
+                  : "time or t") +
+             ", but " + (table.names().empty() ? "no names at all" : list_names(table.names())) +
+             ": " + table.file(),
+         "", "columns: {time: COLUMN, JOINT/position: COLUMN, ...}"});
   return description;
 }
 
@@ -164,9 +185,11 @@ JointSamples& samples_of(const std::string& joint, std::vector<JointSamples>* jo
 
 }  // namespace
 
-NumberTable::NumberTable(std::string file, std::string text, CellDelimiter delimiter) : file_(std::move(file)), text_(std::move(text)) {
+NumberTable::NumberTable(std::string file, std::string text, CellDelimiter delimiter)
+    : file_(std::move(file)), text_(std::move(text)) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) text_.erase(0, kByteOrderMark.size());
+  if (text_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
+    text_.erase(0, kByteOrderMark.size());
   Lines lines(text_, 0, 1);
   std::string_view line, comment;
   while (lines.next(&line)) {
@@ -232,10 +255,13 @@ NumberTable::Columns NumberTable::read(const std::vector<int>& indices) const {
   return columns;
 }
 
-void NumberTable::read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices, Columns* columns) const {
+void NumberTable::read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices,
+                           Columns* columns) const {
   if (static_cast<int>(cells.size()) != width_)
-    fail(line, "", "a row of " + std::to_string(cells.size()) + " cells, where the first has " + std::to_string(width_), "",
-         "rows of equal length; `delimiter` gives the separator of the cells");
+    fail(line, "",
+         "a row of " + std::to_string(cells.size()) + " cells, where the first has " +
+             std::to_string(width_),
+         "", "rows of equal length; `delimiter` gives the separator of the cells");
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const auto column = to_index(indices[k]);
     columns->values[k].push_back(read_cell(cells[column], line, column));
@@ -247,23 +273,29 @@ double NumberTable::read_cell(std::string_view cell, std::size_t number, std::si
   double value = 0.0;
   const std::string_view text = unquoted(cell);
   if (parse(text, &value)) return value;
-  const std::string name = column < names_.size() ? "column \"" + names_[column] + "\"" : "column " + std::to_string(column + 1);
+  const std::string name = column < names_.size() ? "column \"" + names_[column] + "\""
+                                                  : "column " + std::to_string(column + 1);
   if (text.empty()) fail(number, name, "the cell is empty", "", "a finite number in each row");
-  if (text.find(',') != std::string_view::npos) fail(number, name, "not a number", text, "a decimal point, no comma");
+  if (text.find(',') != std::string_view::npos)
+    fail(number, name, "not a number", text, "a decimal point, no comma");
   fail(number, name, "not a number", text, "a number in each row");
 }
 
-void NumberTable::fail(std::size_t line, const std::string& element, const std::string& message, std::string_view value,
-                       const std::string& allowed) const {
-  throw InputError({{file_, static_cast<int>(line)}, element, message, std::string(value), allowed});
+void NumberTable::fail(std::size_t line, const std::string& element, const std::string& message,
+                       std::string_view value, const std::string& allowed) const {
+  throw InputError(
+      {{file_, static_cast<int>(line)}, element, message, std::string(value), allowed});
 }
 
-JointRecording read_table_recording(const RecordingDescription& description, const std::string& path,
+JointRecording read_table_recording(const RecordingDescription& description,
+                                    const std::string& path,
                                     const std::vector<std::string>& joints) {
   const NumberTable table(path, text_of_file(description, path), description.delimiter);
-  const RecordingDescription found = description.time ? description : with_found_columns(description, table, joints);
+  const RecordingDescription found =
+      description.time ? description : with_found_columns(description, table, joints);
   std::vector<int> indices = {index_of(*found.time, table)};
-  for (const MeasuredColumn& measured : found.columns) indices.push_back(index_of(measured.column, table));
+  for (const MeasuredColumn& measured : found.columns)
+    indices.push_back(index_of(measured.column, table));
   NumberTable::Columns columns = table.read(indices);
   JointRecording recording;
   recording.file = path;
@@ -273,7 +305,8 @@ JointRecording read_table_recording(const RecordingDescription& description, con
   recording.times = scaled(std::move(columns.values[0]), *found.time);
   for (std::size_t k = 0; k < found.columns.size(); ++k) {
     const MeasuredColumn& measured = found.columns[k];
-    samples_of(measured.joint, &recording.joints).of(measured.quantity) = scaled(std::move(columns.values[k + 1]), measured.column);
+    samples_of(measured.joint, &recording.joints).of(measured.quantity) =
+        scaled(std::move(columns.values[k + 1]), measured.column);
   }
   return recording;
 }

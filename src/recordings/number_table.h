@@ -14,8 +14,9 @@ namespace codesign {
 
 /// A table of numbers as text: one row per line, all rows with the same number of cells.
 ///
-/// Lines that are empty or begin with `#` are skipped. The first row has the names of the columns, unless all its cells are numbers. In
-/// that case, a comment directly above it with as many cells has the names, as numpy writes them. Names may be quoted.
+/// Lines that are empty or begin with `#` are skipped. The first row has the names of the columns,
+/// unless all its cells are numbers. In that case, a comment directly above it with as many cells
+/// has the names, as numpy writes them. Names may be quoted.
 class NumberTable {
  public:
   /// @param file for messages. @throws InputError if there is no row.
@@ -34,17 +35,20 @@ class NumberTable {
     std::vector<std::vector<double>> values;  ///< one per requested column, with one number per row
     std::vector<std::size_t> lines;           ///< line number of each row, from 1
   };
-  /// Reads some columns; the others may hold any text. `nan` and `inf` are numbers here. @param indices from 0 to width() - 1.
-  /// @throws InputError with the line for a row with more or fewer cells and a cell that is not a number.
+  /// Reads some columns; the others may hold any text. `nan` and `inf` are numbers here. @param
+  /// indices from 0 to width() - 1.
+  /// @throws InputError with the line for a row with more or fewer cells and a cell that is not a
+  /// number.
   Columns read(const std::vector<int>& indices) const;
 
  private:
   using Cells = std::vector<std::string_view>;
   void split(std::string_view line, Cells* cells) const;
-  void read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices, Columns* columns) const;
+  void read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices,
+                Columns* columns) const;
   double read_cell(std::string_view cell, std::size_t number, std::size_t column) const;
-  [[noreturn]] void fail(std::size_t line, const std::string& element, const std::string& message, std::string_view value,
-                         const std::string& allowed) const;
+  [[noreturn]] void fail(std::size_t line, const std::string& element, const std::string& message,
+                         std::string_view value, const std::string& allowed) const;
 
   std::string file_, text_;
   char delimiter_ = ',';  ///< a blank stands for any white space
@@ -55,11 +59,14 @@ class NumberTable {
   int first_line_ = 1;
 };
 
-/// Reads a table of numbers without checking their values. Without `columns` in the description, the columns named `time` (or `t`) and
-/// `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are read.
+/// Reads a table of numbers without checking their values. Without `columns` in the description,
+/// the columns named `time` (or `t`) and `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are
+/// read.
 /// @param path of the file, at most 2 GB. @param joints known names of joints.
-/// @throws InputError for a file that cannot be read, a missing column, or a cell that is not a number.
-JointRecording read_table_recording(const RecordingDescription& description, const std::string& path,
+/// @throws InputError for a file that cannot be read, a missing column, or a cell that is not a
+/// number.
+JointRecording read_table_recording(const RecordingDescription& description,
+                                    const std::string& path,
                                     const std::vector<std::string>& joints);
 
 }  // namespace codesign

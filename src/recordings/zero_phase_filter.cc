@@ -8,19 +8,25 @@
 
 namespace codesign {
 
-// Pairs of poles of the analog prototype, s^2 + q s + 1 with q = 2 sin(pi (2k + 1) / (2 n)), and the real pole of odd orders, taken to
-// discrete time by the bilinear transformation with the cutoff prewarped.
-ZeroPhaseFilter::ZeroPhaseFilter(int order, double cutoff, double rate) : padding_(3 * (order + 1)) {
+// Pairs of poles of the analog prototype, s^2 + q s + 1 with q = 2 sin(pi (2k + 1) / (2 n)), and
+// the real pole of odd orders, taken to discrete time by the bilinear transformation with the
+// cutoff prewarped.
+ZeroPhaseFilter::ZeroPhaseFilter(int order, double cutoff, double rate)
+    : padding_(3 * (order + 1)) {
   assert(order >= 1 && cutoff > 0.0 && cutoff < 0.5 * rate);
   const double w = std::tan(M_PI * cutoff / rate);
   for (int k = 0; k < order / 2; ++k) {
-    const double q = 2.0 * std::sin(M_PI * (2 * k + 1) / (2.0 * order)), scale = 1.0 / (1.0 + q * w + w * w);
-    sections_.push_back({w * w * scale, 2.0 * w * w * scale, w * w * scale, 2.0 * (w * w - 1.0) * scale, (1.0 - q * w + w * w) * scale});
+    const double q = 2.0 * std::sin(M_PI * (2 * k + 1) / (2.0 * order)),
+                 scale = 1.0 / (1.0 + q * w + w * w);
+    sections_.push_back({w * w * scale, 2.0 * w * w * scale, w * w * scale,
+                         2.0 * (w * w - 1.0) * scale, (1.0 - q * w + w * w) * scale});
   }
-  if (order % 2 == 1) sections_.push_back({w / (1.0 + w), w / (1.0 + w), 0.0, (w - 1.0) / (w + 1.0), 0.0});
+  if (order % 2 == 1)
+    sections_.push_back({w / (1.0 + w), w / (1.0 + w), 0.0, (w - 1.0) / (w + 1.0), 0.0});
 }
 
-/// Filters the samples from `first` to before `last`, `step` apart, in place, from the steady state of the first one.
+/// Filters the samples from `first` to before `last`, `step` apart, in place, from the steady state
+/// of the first one.
 void ZeroPhaseFilter::run(const Section& c, double* first, double* last, std::ptrdiff_t step) {
   double s1 = (1.0 - c.b0) * *first, s2 = (c.b2 - c.a2) * *first;
   for (double* sample = first; sample != last; sample += step) {
@@ -41,14 +47,17 @@ void ZeroPhaseFilter::apply(Eigen::Ref<Eigen::VectorXd> samples, Workspace* work
     x[m + n + k] = 2.0 * samples[n - 1] - samples[n - 2 - k];
   }
   for (Eigen::Index k = 0; k < n; ++k) x[m + k] = samples[k];
-  // All forward runs come before the backward runs, since each run begins in the steady state of its own input.
+  // All forward runs come before the backward runs, since each run begins in the steady state of
+  // its own input.
   for (const Section& section : sections_) run(section, x, x + n + 2 * m, 1);
   for (const Section& section : sections_) run(section, x + n + 2 * m - 1, x - 1, -1);
   for (Eigen::Index k = 0; k < n; ++k) samples[k] = x[m + k];
 }
 
-void ZeroPhaseFilter::apply_to_columns(Eigen::Ref<Eigen::MatrixXd> columns, Workspace* workspace) const {
-  for (Eigen::Index column = 0; column < columns.cols(); ++column) apply(columns.col(column), workspace);
+void ZeroPhaseFilter::apply_to_columns(Eigen::Ref<Eigen::MatrixXd> columns,
+                                       Workspace* workspace) const {
+  for (Eigen::Index column = 0; column < columns.cols(); ++column)
+    apply(columns.col(column), workspace);
 }
 
 }  // namespace codesign

@@ -6,15 +6,17 @@
 
 namespace codesign {
 
-/// A Butterworth low-pass filter that runs over samples forward and then backward, so that it does not delay; doc/theory.md (29). Linear in
-/// the samples; constants and straight lines pass unchanged away from the ends. The gain at the cutoff is 1/2 (-6 dB).
+/// A Butterworth low-pass filter that runs over samples forward and then backward, so that it does
+/// not delay; doc/theory.md (29). Linear in the samples; constants and straight lines pass
+/// unchanged away from the ends. The gain at the cutoff is 1/2 (-6 dB).
 ///
-/// Both ends are continued by 3 (order + 1) samples, mirrored in the end point, and each run begins in the steady state of its first
-/// sample, as in scipy.signal.filtfilt and MATLAB's filtfilt, with the same results. Second-order sections keep the precision at low
-/// cutoffs.
+/// Both ends are continued by 3 (order + 1) samples, mirrored in the end point, and each run begins
+/// in the steady state of its first sample, as in scipy.signal.filtfilt and MATLAB's filtfilt, with
+/// the same results. Second-order sections keep the precision at low cutoffs.
 class ZeroPhaseFilter {
  public:
-  /// @param order of the Butterworth filter, at least 1. @param cutoff [Hz], between 0 and rate / 2. @param rate samples per second [Hz]
+  /// @param order of the Butterworth filter, at least 1. @param cutoff [Hz], between 0 and rate
+  /// / 2. @param rate samples per second [Hz]
   ZeroPhaseFilter(int order, double cutoff, double rate);
 
   /// Fewer samples than this cannot be filtered: 3 (order + 1) + 1.

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Loads libcodesign_bags.so when a bag is first read or written: the libraries of ROS that it links would take 40 % of the time in which
-// the program starts. See doc/decisions/0072-bags-on-demand.md.
+// Loads libcodesign_bags.so when a bag is first read or written: the libraries of ROS that it links
+// would take 40 % of the time in which the program starts. See
+// doc/decisions/0072-bags-on-demand.md.
 #include <dlfcn.h>
 
 #include <stdexcept>
@@ -11,10 +12,12 @@ namespace codesign {
 namespace {
 
 const BagFiles* load() {
-  // Found in the RUNPATH of the program. Never closed, since libraries of ROS leave threads and handlers behind.
+  // Found in the RUNPATH of the program. Never closed, since libraries of ROS leave threads and
+  // handlers behind.
   void* const module = dlopen("libcodesign_bags.so", RTLD_NOW | RTLD_LOCAL);
   void* const function = module ? dlsym(module, "codesign_bag_files") : nullptr;
-  if (!function) throw std::runtime_error(std::string("bags can be neither read nor written: ") + dlerror());
+  if (!function)
+    throw std::runtime_error(std::string("bags can be neither read nor written: ") + dlerror());
   return reinterpret_cast<decltype(&codesign_bag_files)>(function)();
 }
 
@@ -26,11 +29,15 @@ const BagFiles& loaded() {
 }  // namespace
 
 BagFiles bag_files() {
-  return {[](const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints, Warnings* warnings) {
-            return loaded().read(description, path, joints, warnings);
+  return {[](const RecordingDescription& description, const std::string& path,
+             const std::vector<std::string>& joints,
+             Warnings* warnings) { return loaded().read(description, path, joints, warnings); },
+          [](const std::string& path, const IdentificationShow& show) {
+            loaded().write_identification(path, show);
           },
-          [](const std::string& path, const IdentificationShow& show) { loaded().write_identification(path, show); },
-          [](const std::string& path, const TrajectoryPoints& points) { loaded().write_trajectory(path, points); }};
+          [](const std::string& path, const TrajectoryPoints& points) {
+            loaded().write_trajectory(path, points);
+          }};
 }
 
 }  // namespace codesign

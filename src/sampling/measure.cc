@@ -22,7 +22,9 @@ double weighted_sum(const VectorXd& weights, const VectorXd& x) {
 }
 
 // Relative to the first value, so that the mean of equal values is exact.
-double weighted_mean(const VectorXd& weights, const VectorXd& x) { return x[0] + weighted_sum(weights, (x.array() - x[0]).matrix()); }
+double weighted_mean(const VectorXd& weights, const VectorXd& x) {
+  return x[0] + weighted_sum(weights, (x.array() - x[0]).matrix());
+}
 
 // sqrt(sum w_i (psi_i - mean)^2), whose derivative is w_i (psi_i - mean) / deviation.
 Measured mean_plus_deviation(double factor, const VectorXd& values, const VectorXd& weights) {
@@ -46,14 +48,17 @@ Measured worst(const VectorXd& values) {
 std::vector<Index> worst_first(const VectorXd& values) {
   std::vector<Index> order(to_index(values.size()));
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&values](Index a, Index b) { return values[a] > values[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&values](Index a, Index b) { return values[a] > values[b]; });
   return order;
 }
 
-// The minimum over t of t + sum w_i max(psi_i - t, 0) / (1 - level), doc/theory.md [16]: the mean of the worst values with a total weight
-// of 1 - level; the last of these may count with a part of its weight.
+// The minimum over t of t + sum w_i max(psi_i - t, 0) / (1 - level), doc/theory.md [16]: the mean
+// of the worst values with a total weight of 1 - level; the last of these may count with a part of
+// its weight.
 Measured conditional_value_at_risk(double level, const VectorXd& values, const VectorXd& weights) {
-  constexpr double kRounding = 1e-12;  // relative to 1 - level; a rest below it is rounding, not a part of the next value's weight
+  constexpr double kRounding = 1e-12;  // relative to 1 - level; a rest below it is rounding, not a
+                                       // part of the next value's weight
   const double slack = kRounding * (1.0 - level);
   double rest = 1.0 - level, counted = 0.0;
   Measured result{0.0, VectorXd::Zero(values.size())};

@@ -16,8 +16,11 @@ namespace {
 // The largest number below one.
 constexpr double kBelowOne = 1.0 - 0x1p-53;
 
-// Raw 32-bit numbers: the standard defines their sequence, but not the algorithms of <random>'s distributions.
-std::uint32_t draw_bits(std::mt19937* generator) { return static_cast<std::uint32_t>((*generator)()); }
+// Raw 32-bit numbers: the standard defines their sequence, but not the algorithms of <random>'s
+// distributions.
+std::uint32_t draw_bits(std::mt19937* generator) {
+  return static_cast<std::uint32_t>((*generator)());
+}
 
 // From 52 random bits of two draws: an odd multiple of 2^-53, inside (0, 1) and without rounding.
 double draw_unit(std::mt19937* generator) {
@@ -26,7 +29,9 @@ double draw_unit(std::mt19937* generator) {
 }
 
 // A whole number from 0 to size - 1; the numbers' probabilities differ by 2^-32 at most.
-std::size_t draw_below(std::size_t size, std::mt19937* generator) { return to_index((std::uint64_t{draw_bits(generator)} * size) >> 32); }
+std::size_t draw_below(std::size_t size, std::mt19937* generator) {
+  return to_index((std::uint64_t{draw_bits(generator)} * size) >> 32);
+}
 
 PointSequence random_sequence(std::uint32_t seed) {
   return [generator = std::mt19937(seed)](Eigen::MatrixXd* points) mutable {
@@ -36,14 +41,16 @@ PointSequence random_sequence(std::uint32_t seed) {
   };
 }
 
-// Each column has the intervals in a random order (Fisher and Yates) and a random place in each interval.
+// Each column has the intervals in a random order (Fisher and Yates) and a random place in each
+// interval.
 Eigen::MatrixXd latin_hypercube(int count, int dimension, std::uint32_t seed) {
   std::mt19937 generator(seed);
   Eigen::MatrixXd points(count, dimension);
   std::vector<int> intervals(to_index(count));
   for (int j = 0; j < dimension; ++j) {
     std::iota(intervals.begin(), intervals.end(), 0);
-    for (std::size_t left = intervals.size(); left > 1; --left) std::swap(intervals[left - 1], intervals[draw_below(left, &generator)]);
+    for (std::size_t left = intervals.size(); left > 1; --left)
+      std::swap(intervals[left - 1], intervals[draw_below(left, &generator)]);
     for (int i = 0; i < count; ++i) {
       const double place = (draw_bits(&generator) + 0.5) * 0x1p-32;
       points(i, j) = std::min((intervals[to_index(i)] + place) / count, kBelowOne);
@@ -52,9 +59,11 @@ Eigen::MatrixXd latin_hypercube(int count, int dimension, std::uint32_t seed) {
   return points;
 }
 
-// The columns are drawn one after the other, so that all points must be there before the first one is taken.
+// The columns are drawn one after the other, so that all points must be there before the first one
+// is taken.
 PointSequence latin_sequence(int count, int dimension, std::uint32_t seed) {
-  return [all = latin_hypercube(count, dimension, seed), taken = Eigen::Index{0}](Eigen::MatrixXd* points) mutable {
+  return [all = latin_hypercube(count, dimension, seed),
+          taken = Eigen::Index{0}](Eigen::MatrixXd* points) mutable {
     *points = all.middleRows(taken, points->rows());
     taken += points->rows();
   };
@@ -72,12 +81,15 @@ std::uint32_t reverse_bits(std::uint32_t x) {
   return (x << 16) | (x >> 16);
 }
 
-// Owen's scrambling: each bit is flipped or not as a function of the bits above it, so that every net stays a net. The hash is by Laine and
-// Karras, with Burley's constants, doc/theory.md [18]. In the hash a bit depends on the bits below it, hence the reversal. A random digital
-// shift would keep the nets too, but flips a bit everywhere or nowhere: at best the error of a mean falls as N^-1 then, and as N^-1.5 here.
+// Owen's scrambling: each bit is flipped or not as a function of the bits above it, so that every
+// net stays a net. The hash is by Laine and Karras, with Burley's constants, doc/theory.md [18]. In
+// the hash a bit depends on the bits below it, hence the reversal. A random digital shift would
+// keep the nets too, but flips a bit everywhere or nowhere: at best the error of a mean falls as
+// N^-1 then, and as N^-1.5 here.
 std::uint32_t scramble(std::uint32_t x, std::uint32_t key) {
   x = reverse_bits(x) + key;
-  for (const std::uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u}) x ^= x * factor;
+  for (const std::uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u})
+    x ^= x * factor;
   return reverse_bits(x);
 }
 
@@ -104,15 +116,18 @@ Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uin
 PointSequence sobol_sequence(int dimension, std::uint32_t seed) {
   if (dimension == 0) return [](Eigen::MatrixXd*) {};
   const auto size = to_index(dimension);
-  std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of <random>'s distributions
+  std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of
+                                 // <random>'s distributions
   std::vector<std::uint32_t> keys(size);
   for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(generator());
-  return [engine = Engine(size), keys, bits = std::vector<std::uint32_t>(size, 0u), is_first = true](Eigen::MatrixXd* points) mutable {
+  return [engine = Engine(size), keys, bits = std::vector<std::uint32_t>(size, 0u),
+          is_first = true](Eigen::MatrixXd* points) mutable {
     for (Eigen::Index i = 0; i < points->rows(); ++i) {
       // Boost leaves out the first point, zero, without which the first 2^k points are no net.
       if (!is_first) engine.generate(bits.begin(), bits.end());
       is_first = false;
-      for (std::size_t j = 0; j < keys.size(); ++j) (*points)(i, to_signed(j)) = (scramble(bits[j], keys[j]) + 0.5) * 0x1p-32;
+      for (std::size_t j = 0; j < keys.size(); ++j)
+        (*points)(i, to_signed(j)) = (scramble(bits[j], keys[j]) + 0.5) * 0x1p-32;
     }
   };
 }

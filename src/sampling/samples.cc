@@ -12,25 +12,32 @@ namespace codesign {
 namespace {
 
 /// The distribution of a quantity, given the values of the quantities before it.
-Distribution given(const std::vector<UncertainQuantity>& quantities, std::size_t index, const std::vector<double>& earlier) {
+Distribution given(const std::vector<UncertainQuantity>& quantities, std::size_t index,
+                   const std::vector<double>& earlier) {
   Distribution distribution = quantities[index].distribution;
   for (const MeanSlope& on : quantities[index].slopes)
-    distribution.mean += on.slope * (earlier[on.quantity] - quantities[on.quantity].distribution.mean);
+    distribution.mean +=
+        on.slope * (earlier[on.quantity] - quantities[on.quantity].distribution.mean);
   return distribution;
 }
 
 constexpr double kSqrt2 = 1.4142135623730950488;
 
-// No long double, whose width differs from platform to platform; probability zero is at infinity and no error.
+// No long double, whose width differs from platform to platform; probability zero is at infinity
+// and no error.
 namespace policies = boost::math::policies;
-using Policy = policies::policy<policies::promote_double<false>, policies::overflow_error<policies::ignore_error>>;
+using Policy = policies::policy<policies::promote_double<false>,
+                                policies::overflow_error<policies::ignore_error>>;
 
-// Probability that a standard normal number exceeds x, and the x that is exceeded with a probability of at most 1/2.
+// Probability that a standard normal number exceeds x, and the x that is exceeded with a
+// probability of at most 1/2.
 double tail(double x) { return 0.5 * std::erfc(x / kSqrt2); }
-double exceeded_with(double probability) { return kSqrt2 * boost::math::erfc_inv(2.0 * probability, Policy()); }
+double exceeded_with(double probability) {
+  return kSqrt2 * boost::math::erfc_inv(2.0 * probability, Policy());
+}
 
-// Both the probabilities p below and q = 1 - p above the value are computed without subtracting from one, and the smaller one is inverted:
-// far out in a tail, the larger one has lost its digits.
+// Both the probabilities p below and q = 1 - p above the value are computed without subtracting
+// from one, and the smaller one is inverted: far out in a tail, the larger one has lost its digits.
 double normal_quantile(const Distribution& d, double u) {
   if (!(d.deviation > 0.0)) return std::clamp(d.mean, d.lower, d.upper);
   const double from = (d.lower - d.mean) / d.deviation, to = (d.upper - d.mean) / d.deviation;
@@ -43,14 +50,16 @@ double normal_quantile(const Distribution& d, double u) {
 
 }  // namespace
 
-std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities, SamplerKind sampler, int count,
-                                      std::uint32_t seed) {
-  const Eigen::MatrixXd points = unit_points(sampler, count, static_cast<int>(quantities.size()), seed);
+std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities,
+                                      SamplerKind sampler, int count, std::uint32_t seed) {
+  const Eigen::MatrixXd points =
+      unit_points(sampler, count, static_cast<int>(quantities.size()), seed);
   std::vector<std::vector<double>> samples(to_index(count));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].reserve(quantities.size());
     for (std::size_t j = 0; j < quantities.size(); ++j) {
-      samples[i].push_back(quantile(given(quantities, j, samples[i]), points(to_signed(i), to_signed(j))));
+      samples[i].push_back(
+          quantile(given(quantities, j, samples[i]), points(to_signed(i), to_signed(j))));
     }
   }
   return samples;

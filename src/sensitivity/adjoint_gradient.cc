@@ -9,8 +9,12 @@
 
 namespace codesign {
 
-AdjointGradient::Backward::Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points)
-    : replay(system, tableau), adjoint(system, tableau), boundary(system), path(system.layout(), most_points) {
+AdjointGradient::Backward::Backward(const CompiledSystem& system, const RosenbrockTableau& tableau,
+                                    int most_points)
+    : replay(system, tableau),
+      adjoint(system, tableau),
+      boundary(system),
+      path(system.layout(), most_points) {
   point.resize(system.layout());
   final_adjoint.setZero(IncrementLayout(system.layout()).size());
 }
@@ -36,13 +40,17 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
 Status AdjointGradient::advance(double limit) {
   Status status = integrator_.advance(limit);
   const RosenbrockStep<double>& step = integrator_.step();
-  if (status.ok() && with_gradient_) back_->path.append(step.step_size(), step.tableau(), step.unprojected());
+  if (status.ok() && with_gradient_)
+    back_->path.append(step.step_size(), step.tableau(), step.unprojected());
   return status;
 }
 
-double AdjointGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state()); }
+double AdjointGradient::objective() {
+  return integrator_.psi() + integrator_.equations().terminal(integrator_.state());
+}
 
-// The backward pass begins with the gradient of the terminal terms as the adjoint of the last state, and 1 for psi.
+// The backward pass begins with the gradient of the terminal terms as the adjoint of the last
+// state, and 1 for psi.
 void AdjointGradient::prepare() {
   const std::vector<double>& parameters = integrator_.equations().parameters();
   const IncrementLayout at(system_.layout());
@@ -57,7 +65,8 @@ void AdjointGradient::prepare() {
   back_->replay.equations().set_design(parameters);
   back_->replay.use(back_->path.tableau(0));
   back_->replay.start(integrator_.initial_state());
-  back_->replay.choose_pivots(back_->path.size() > 1 ? back_->path.step_size(1) : integrator_.step().step_size());
+  back_->replay.choose_pivots(back_->path.size() > 1 ? back_->path.step_size(1)
+                                                     : integrator_.step().step_size());
 }
 
 /// Continues the solution at point k, which `point` holds.
@@ -74,7 +83,8 @@ bool AdjointGradient::take_up(int k) {
   return true;
 }
 
-/// Sets `point` to the k-th point of the path. If it was not stored, the steps from the last stored point before it are repeated.
+/// Sets `point` to the k-th point of the path. If it was not stored, the steps from the last stored
+/// point before it are repeated.
 bool AdjointGradient::reach(int k) {
   StepPath& path = back_->path;
   State<double>& point = back_->point;
@@ -110,7 +120,8 @@ bool AdjointGradient::step_back(int k) {
   return true;
 }
 
-// Adds the parts of (18a) at both ends of the run, psi_y(0)^T y_rho(0) and w_rho, with one lane per parameter.
+// Adds the parts of (18a) at both ends of the run, psi_y(0)^T y_rho(0) and w_rho, with one lane per
+// parameter.
 void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
   const IncrementLayout at(system_.layout());
   const VectorX<double>& adjoint = back_->adjoint.adjoint();
@@ -122,10 +133,12 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
     range.seed(system_, integrator_.equations().parameters(), &seeded);
     State<Lanes<8>>& state = back_->boundary_state;
     equations.set_design(seeded);
-    integrator_.assembly().extend(seeded, integrator_.initial_state(), &equations, &back_->boundary_extension, &state);
+    integrator_.assembly().extend(seeded, integrator_.initial_state(), &equations,
+                                  &back_->boundary_extension, &state);
     auto sum = gradient->segment(first, range.count);
     const auto add = [&](const VectorX<Lanes<8>>& part, int column) {
-      for (Eigen::Index k = 0; k < part.size(); ++k) sum += adjoint[column + k] * part[k].directions().head(range.count);
+      for (Eigen::Index k = 0; k < part.size(); ++k)
+        sum += adjoint[column + k] * part[k].directions().head(range.count);
     };
     add(state.q, at.x());
     add(state.s, at.s());

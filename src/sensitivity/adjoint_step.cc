@@ -24,7 +24,8 @@ void MatrixWeights::set(int k, const VectorX<double>& u, const VectorX<double>& 
   mu_.row(k) = mu.transpose();
 }
 
-void MatrixWeights::compute(const Sparsity& pattern, int first_column, std::vector<double>* weights) const {
+void MatrixWeights::compute(const Sparsity& pattern, int first_column,
+                            std::vector<double>* weights) const {
   for (int row = 0; row < pattern.rows; ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
       (*weights)[to_index(e)] = mu_.col(row).dot(u_.col(first_column + pattern.column(e)));
@@ -67,13 +68,16 @@ void AdjointStep::clear() {
   weights_.clear();
 }
 
-void AdjointStep::add_products(const Linearization<double>& derivatives, RowRange rows, const VectorX<double>& mu,
-                               VectorX<double>* adjoint) const {
+void AdjointStep::add_products(const Linearization<double>& derivatives, RowRange rows,
+                               const VectorX<double>& mu, VectorX<double>* adjoint) const {
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Out<double> all = *adjoint;
-  add_transposed_product(patterns.position, derivatives.position, rows, 1.0, mu, all.subspan(at_.x(), at_.x_size));
-  add_transposed_product(patterns.velocity, derivatives.velocity, rows, 1.0, mu, all.subspan(at_.v(), at_.n));
-  add_transposed_product(patterns.rate, derivatives.rate, rows, 1.0, mu, all.subspan(at_.z(), at_.z_size));
+  add_transposed_product(patterns.position, derivatives.position, rows, 1.0, mu,
+                         all.subspan(at_.x(), at_.x_size));
+  add_transposed_product(patterns.velocity, derivatives.velocity, rows, 1.0, mu,
+                         all.subspan(at_.v(), at_.n));
+  add_transposed_product(patterns.rate, derivatives.rate, rows, 1.0, mu,
+                         all.subspan(at_.z(), at_.z_size));
 }
 
 // Reverses u_psi = h gamma (g + Sigma_psi + g_y u).
@@ -85,8 +89,8 @@ void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>&
   add_products(step.derivatives(), {at_.z_size, at_.z_size + 1}, mu, &u);
 }
 
-// Reverses u_z = -E^-1 (G + G_q w_q + G_v w_v + G_s w_s); u_v = w_v + h gamma u_a, u_q = w_q + (h gamma)^2 u_a, u_s = w_s + h gamma
-// u_sigma.
+// Reverses u_z = -E^-1 (G + G_q w_q + G_v w_v + G_s w_s); u_v = w_v + h gamma u_a, u_q = w_q + (h
+// gamma)^2 u_a, u_s = w_s + h gamma u_sigma.
 void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = mu_;
   const double hg = step.step_size() * tableau_->gamma;
@@ -98,11 +102,14 @@ void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& ste
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
   const RowRange rows{0, at_.z_size};
-  add_transposed_product(patterns.position, matrices.position, rows, 1.0, mu, Out<double>(u).subspan(at_.x(), at_.x_size));
-  add_transposed_product(patterns.velocity, matrices.velocity, rows, 1.0, mu, Out<double>(u).subspan(at_.v(), at_.n));
+  add_transposed_product(patterns.position, matrices.position, rows, 1.0, mu,
+                         Out<double>(u).subspan(at_.x(), at_.x_size));
+  add_transposed_product(patterns.velocity, matrices.velocity, rows, 1.0, mu,
+                         Out<double>(u).subspan(at_.v(), at_.n));
 }
 
-// Reverses w_q = h gamma (v + Sigma_q + w_v), w_v = h gamma (a + Sigma_v), w_s = h gamma (sigma + Sigma_s).
+// Reverses w_q = h gamma (v + Sigma_q + w_v), w_v = h gamma (a + Sigma_v), w_s = h gamma (sigma +
+// Sigma_s).
 void AdjointStep::reverse_elimination(std::size_t i, double hg) {
   VectorX<double>& w = increment_adjoints_[i];
   const auto w_q = w.segment(at_.x(), at_.n), w_s = w.segment(at_.s(), at_.states);
@@ -119,15 +126,18 @@ void AdjointStep::reverse_elimination(std::size_t i, double hg) {
 
 void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& step) {
   const In<double> mu = mu_;
-  equations_.add_transposed(EquationFunction::kResidual, step.stages()[i], {mu.first(at_.z_size), mu.subspan(at_.z_size, 1), {}, {}},
+  equations_.add_transposed(EquationFunction::kResidual, step.stages()[i],
+                            {mu.first(at_.z_size), mu.subspan(at_.z_size, 1), {}, {}},
                             stage_adjoint_);
   start_adjoint_ += stage_adjoint_;
   const double inverse_h = 1.0 / step.step_size();
   for (std::size_t j = 0; j < i; ++j)
-    increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_ + (tableau_->c[i][j] * inverse_h) * sum_adjoint_;
+    increment_adjoints_[j] +=
+        tableau_->a[i][j] * stage_adjoint_ + (tableau_->c[i][j] * inverse_h) * sum_adjoint_;
 }
 
-// Reverses u_x = h (v, sigma), u_v = h a, u_psi = h g; z at the end of the step is z of the last stage. G = 0 gives z of each stage.
+// Reverses u_x = h (v, sigma), u_v = h a, u_psi = h g; z at the end of the step is z of the last
+// stage. G = 0 gives z of each stage.
 void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* step) {
   const double h = step->step_size();
   const int z_size = at_.z_size;
@@ -141,15 +151,16 @@ void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* 
     pattern->solve<1>(values, z_);  // symmetric; and g does not depend on z
   } else {
     step->factor_stage(i);
-    add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1}, 1.0, mu_, z_);
+    add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1},
+                           1.0, mu_, z_);
     step->stage_matrix().lu().solve_transposed_rows<1>(z_);
   }
   mu_.head(z_size) = -z_;
   stage_adjoint_.setZero();
   stage_adjoint_.segment(at_.v(), at_.n) = h * u.segment(at_.x(), at_.n);
   const In<double> mu = mu_;
-  equations_.add_transposed(EquationFunction::kResidual, step->stages()[i], {mu.first(z_size), mu.subspan(z_size, 1), {}, {}},
-                            stage_adjoint_);
+  equations_.add_transposed(EquationFunction::kResidual, step->stages()[i],
+                            {mu.first(z_size), mu.subspan(z_size, 1), {}, {}}, stage_adjoint_);
   stage_adjoint_.segment(at_.z(), z_size).setZero();
   start_adjoint_ += stage_adjoint_;
   for (std::size_t j = 0; j < i; ++j) increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_;
@@ -167,15 +178,19 @@ void AdjointStep::reverse_stage(std::size_t i, const RosenbrockStep<double>& ste
 void AdjointStep::reverse_stages(RosenbrockStep<double>* step) {
   tableau_ = &step->tableau();
   const bool is_explicit = tableau_->is_explicit();
-  for (std::size_t i = 0; i < count(); ++i) increment_adjoints_[i] = tableau_->weights[i] * adjoint_;
+  for (std::size_t i = 0; i < count(); ++i)
+    increment_adjoints_[i] = tableau_->weights[i] * adjoint_;
   start_adjoint_ = adjoint_;
   if (is_explicit) start_adjoint_.segment(at_.z(), at_.z_size).setZero();
-  for (std::size_t i = count(); i-- > 0;) is_explicit ? reverse_explicit_stage(i, step) : reverse_stage(i, *step);
+  for (std::size_t i = count(); i-- > 0;)
+    is_explicit ? reverse_explicit_stage(i, step) : reverse_stage(i, *step);
   adjoint_ = start_adjoint_;
 }
 
-// Solves the transposed system of G_z [delta; multipliers] = [0; -error] for mu_, with the adjoint of delta from entry `first` on.
-void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first, const VectorX<double>& correction, int pair) {
+// Solves the transposed system of G_z [delta; multipliers] = [0; -error] for mu_, with the adjoint
+// of delta from entry `first` on.
+void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first,
+                                   const VectorX<double>& correction, int pair) {
   z_.setZero();
   z_.head(at_.n) = adjoint_.segment(first, at_.n);
   step.projection_matrix().lu().solve_transposed_rows<1>(z_);
@@ -185,21 +200,25 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
   weights_.set(RosenbrockTableau::kMaximumStages + pair, direction_, mu_);
 }
 
-void AdjointStep::reverse_projection(const State<double>& start, const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_projection(const State<double>& start,
+                                     const RosenbrockStep<double>& step) {
   if (layout_.m == 0) return;
   const In<double> errors = In<double>(mu_).subspan(layout_.n, layout_.m);
   projected_ = start;
   projected_.q = step.state().q;
   solve_projection(step, at_.v(), step.velocity_correction(), 0);
-  equations_.add_transposed(EquationFunction::kConstraintErrors, projected_, {no_errors_, errors, {}, {}}, adjoint_);
+  equations_.add_transposed(EquationFunction::kConstraintErrors, projected_,
+                            {no_errors_, errors, {}, {}}, adjoint_);
   solve_projection(step, at_.x(), step.position_correction(), 1);
-  equations_.add_transposed(EquationFunction::kConstraintErrors, start, {errors, no_errors_, {}, {}}, adjoint_);
+  equations_.add_transposed(EquationFunction::kConstraintErrors, start,
+                            {errors, no_errors_, {}, {}}, adjoint_);
 }
 
 void AdjointStep::reverse_matrices(const State<double>& start) {
   if (tableau_->is_explicit() && layout_.m == 0) return;
   const ByVariable<std::vector<double>>& weights = weights_.compute();
-  equations_.add_transposed(EquationFunction::kLinearization, start, {weights.position, weights.velocity, weights.rate, time_weights_},
+  equations_.add_transposed(EquationFunction::kLinearization, start,
+                            {weights.position, weights.velocity, weights.rate, time_weights_},
                             adjoint_);
 }
 

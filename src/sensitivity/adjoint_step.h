@@ -11,8 +11,9 @@
 
 namespace codesign {
 
-/// The bilinear forms Theta = sum_k mu_k^T G_y u_k of some pairs of vectors, through which a step depends on the derivatives of the
-/// equations, as the sum of the entries of G_q, G_s, G_v and G_z times weights W = sum_k mu_k u_k^T; doc/theory.md (18c).
+/// The bilinear forms Theta = sum_k mu_k^T G_y u_k of some pairs of vectors, through which a step
+/// depends on the derivatives of the equations, as the sum of the entries of G_q, G_s, G_v and G_z
+/// times weights W = sum_k mu_k u_k^T; doc/theory.md (18c).
 class MatrixWeights {
  public:
   /// @param pairs the largest number of pairs.
@@ -20,7 +21,8 @@ class MatrixWeights {
 
   /// Sets all pairs to zero.
   void clear();
-  /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then one for the integrand's row.
+  /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then one
+  /// for the integrand's row.
   void set(int k, const VectorX<double>& u, const VectorX<double>& mu);
 
   /// W, on the patterns of the derivatives; computed by the call.
@@ -37,32 +39,38 @@ class MatrixWeights {
 
 /// One step of RosenbrockStep differentiated backwards; doc/theory.md (18b), (18c).
 ///
-/// It holds the adjoint psi_y of the state. Each step is reversed in three calls: the stages in reverse order (E^T mu_i = ...), the
-/// projection at its start, and the matrices, which are derivatives of the equations at the unprojected start. Each evaluation of the
-/// equations becomes one transposed product by the state and by the parameters.
+/// It holds the adjoint psi_y of the state. Each step is reversed in three calls: the stages in
+/// reverse order (E^T mu_i = ...), the projection at its start, and the matrices, which are
+/// derivatives of the equations at the unprojected start. Each evaluation of the equations becomes
+/// one transposed product by the state and by the parameters.
 class AdjointStep {
  public:
   AdjointStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
   /// @param parameters all named parameters (Study::parameters order).
-  /// @param adjoint psi_y at the end of the last step, in the order of IncrementLayout, with 1 for psi.
+  /// @param adjoint psi_y at the end of the last step, in the order of IncrementLayout, with 1 for
+  /// psi.
   void start(const std::vector<double>& parameters, const VectorX<double>& adjoint);
 
-  /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start. @param step of an explicit pair receives
-  /// the factorization of a stage.
+  /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start.
+  /// @param step of an explicit pair receives the factorization of a stage.
   void reverse_stages(RosenbrockStep<double>* step);
-  /// Reverses the projection of `start`, the unprojected start of the step, as made by RosenbrockStep::resume(start).
+  /// Reverses the projection of `start`, the unprojected start of the step, as made by
+  /// RosenbrockStep::resume(start).
   void reverse_projection(const State<double>& start, const RosenbrockStep<double>& step);
-  /// Adds Theta_y of (18c): the dependence of stages and projection on `start` through the matrices evaluated there.
+  /// Adds Theta_y of (18c): the dependence of stages and projection on `start` through the matrices
+  /// evaluated there.
   void reverse_matrices(const State<double>& start);
 
   /// psi_y at `start` after reverse_matrices(), in the order of IncrementLayout.
   const VectorX<double>& adjoint() const { return adjoint_; }
 
-  /// Adds the sum of mu^T G_rho over all evaluations since start(), (18d). @param gradient p entries, order of Study::tuned.
+  /// Adds the sum of mu^T G_rho over all evaluations since start(), (18d). @param gradient p
+  /// entries, order of Study::tuned.
   void add_gradient(Out<double> gradient) { equations_.add_gradient(gradient); }
 
-  /// Resets the contributions of the previous step. Needed before a step without stages (the last point) or without projection (the start).
+  /// Resets the contributions of the previous step. Needed before a step without stages (the last
+  /// point) or without projection (the start).
   void clear();
 
  private:
@@ -73,8 +81,10 @@ class AdjointStep {
   void reverse_solve(std::size_t i, const RosenbrockStep<double>& step);
   void reverse_elimination(std::size_t i, double hg);
   void reverse_point(std::size_t i, const RosenbrockStep<double>& step);
-  void solve_projection(const RosenbrockStep<double>& step, int first, const VectorX<double>& correction, int pair);
-  void add_products(const Linearization<double>& derivatives, RowRange rows, const VectorX<double>& mu, VectorX<double>* adjoint) const;
+  void solve_projection(const RosenbrockStep<double>& step, int first,
+                        const VectorX<double>& correction, int pair);
+  void add_products(const Linearization<double>& derivatives, RowRange rows,
+                    const VectorX<double>& mu, VectorX<double>* adjoint) const;
 
   const CompiledSystem& system_;
   const Layout& layout_;
@@ -83,9 +93,10 @@ class AdjointStep {
   CompiledEquations<double> equations_;
   MatrixWeights weights_;
   VectorX<double> adjoint_, start_adjoint_, stage_adjoint_, sum_adjoint_, z_, direction_;
-  VectorX<double> time_weights_;  ///< of the entries of G_t; one per row of G, then one for the integrand's row
-  VectorX<double> mu_;            ///< multipliers of the rows of G, then of the integrand's row
-  VectorX<double> no_errors_;     ///< the weights of Phi or Phi_q v where the other one is reversed
+  VectorX<double>
+      time_weights_;  ///< of the entries of G_t; one per row of G, then one for the integrand's row
+  VectorX<double> mu_;         ///< multipliers of the rows of G, then of the integrand's row
+  VectorX<double> no_errors_;  ///< the weights of Phi or Phi_q v where the other one is reversed
   std::vector<VectorX<double>> increment_adjoints_;
   State<double> projected_;  ///< the start with the corrected positions
 };

@@ -31,8 +31,8 @@ struct TakenStep {
 };
 
 /// Records the steps of an integration with sensitivities.
-Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
-                    std::vector<TakenStep>* steps) {
+Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters,
+                    const std::atomic<bool>* cancel, std::vector<TakenStep>* steps) {
   RosenbrockGradient run(system);
   run.obey(cancel);
   Status status = run.start(parameters, Derivatives::kGradient);
@@ -53,15 +53,18 @@ State<double> real_part(const State<Complex>& state) {
   return {state.t, state.q.real(), state.v.real(), state.s.real(), state.z.real(), state.turns};
 }
 
-/// The numbers of watched signals whose times lie in the last step (at the start: at t = 0), at the same times.
-void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times, RosenbrockIntegrator* integrator,
-                    RosenbrockStep<Complex>* step, VectorX<Complex>* watched) {
+/// The numbers of watched signals whose times lie in the last step (at the start: at t = 0), at the
+/// same times.
+void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times,
+                    RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step,
+                    VectorX<Complex>* watched) {
   const double from = step->previous().t, to = step->state().t, h = step->step_size();
   const WatchLayout layout(system.study());
   State<Complex> state;
   Complex psi;
   for (std::size_t k = 0; k < layout.entries().size(); ++k)
-    for (int place = layout.entries()[k].first; place < layout.entries()[k].first + layout.entries()[k].size(); ++place) {
+    for (int place = layout.entries()[k].first;
+         place < layout.entries()[k].first + layout.entries()[k].size(); ++place) {
       const double time = times[place];
       if (h > 0.0 ? !(time > from && time <= to) : time > 0.0) continue;
       step->interpolate(h > 0.0 ? (time - from) / h : 1.0, &state, &psi);
@@ -74,7 +77,8 @@ void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times, 
 }
 
 /// Carries a complex run over the events of sampled controllers.
-void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step) {
+void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* integrator,
+                 RosenbrockStep<Complex>* step) {
   if (events.empty()) return;
   State<Complex> state = step->state();
   step->equations().jump(events, &state);
@@ -86,8 +90,9 @@ void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* 
 
 /// The run with steps of the same sizes in complex arithmetic.
 /// @param extremes of the real run.
-Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters, const std::vector<TakenStep>& steps,
-                const Extremes& extremes, RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
+Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters,
+                const std::vector<TakenStep>& steps, const Extremes& extremes,
+                RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
                 const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
   Replayed result;
@@ -97,7 +102,8 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   State<Complex> state;
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
   step.start(state);
-  if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
+  if (result.watched.size() > 0)
+    replay_watched(system, extremes.times, integrator, &step, &result.watched);
   ControlClock clock(system.study());
   for (const TakenStep& taken : steps) {
     if (is_set(cancel)) break;
@@ -106,7 +112,8 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
     step.attempt(taken.h);
     step.accept();
     step.track_turns();
-    if (result.watched.size() > 0) replay_watched(system, extremes.times, integrator, &step, &result.watched);
+    if (result.watched.size() > 0)
+      replay_watched(system, extremes.times, integrator, &step, &result.watched);
   }
   result.objective = step.psi() + step.equations().terminal(step.state());
   const WatchLayout layout(system.study());
@@ -127,15 +134,18 @@ Eigen::MatrixXd directions_of(const GradientCheck& check) {
 
 /// parameters + step * direction, with the tuned parameters in the direction.
 template <class T>
-std::vector<T> moved(const MotionStudy& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const T& step) {
+std::vector<T> moved(const MotionStudy& study, const std::vector<double>& parameters,
+                     const Eigen::VectorXd& direction, const T& step) {
   std::vector<T> result(parameters.begin(), parameters.end());
-  for (std::size_t k = 0; k < study.tuned.size(); ++k) result[to_index(study.tuned[k])] += step * direction[to_signed(k)];
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    result[to_index(study.tuned[k])] += step * direction[to_signed(k)];
   return result;
 }
 
 /// The largest step along a direction that changes no tuned parameter by more than its `size`.
 template <class Size>
-double step_along(const MotionStudy& study, const std::vector<double>& parameters, const Eigen::VectorXd& direction, const Size& size) {
+double step_along(const MotionStudy& study, const std::vector<double>& parameters,
+                  const Eigen::VectorXd& direction, const Size& size) {
   double step = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     if (const double component = std::abs(direction[to_signed(k)]); component > 0.0)
@@ -150,50 +160,59 @@ void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
     const MotionStudy& study = system.study();
     const bool along = check->directions.size() > 0;
     const std::string name =
-        along ? "along direction " + std::to_string(k + 1) : "by \"" + study.parameters[to_index(study.tuned[to_index(k)])].name + "\"";
-    check->status = {StatusCode::kNonFiniteGradient, study.duration, "the reference for the gradient " + name + " is not finite"};
+        along ? "along direction " + std::to_string(k + 1)
+              : "by \"" + study.parameters[to_index(study.tuned[to_index(k)])].name + "\"";
+    check->status = {StatusCode::kNonFiniteGradient, study.duration,
+                     "the reference for the gradient " + name + " is not finite"};
     return;
   }
 }
 
-void check_by_complex_step(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
-                           GradientCheck* check) {
+void check_by_complex_step(const CompiledSystem& system, const std::vector<double>& parameters,
+                           const std::atomic<bool>* cancel, GradientCheck* check) {
   RosenbrockIntegrator integrator(system);
   std::vector<TakenStep> steps;
-  check->extreme_reference.setZero(check->reference.size(), check->evaluation.extremes.values.size());
+  check->extreme_reference.setZero(check->reference.size(),
+                                   check->evaluation.extremes.values.size());
   check->status = record_steps(system, parameters, cancel, &steps);
   const Eigen::MatrixXd directions = directions_of(*check);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
-    const double h = step_along(system.study(), parameters, directions.col(k),
-                                [](double value) { return kComplexStep * std::max(1.0, std::abs(value)); });
-    const std::vector<Complex> perturbed = moved(system.study(), parameters, directions.col(k), Complex(0.0, h));
-    const Replayed run = replay(system, perturbed, steps, check->evaluation.extremes, &integrator, parameters, cancel);
+    const double h = step_along(system.study(), parameters, directions.col(k), [](double value) {
+      return kComplexStep * std::max(1.0, std::abs(value));
+    });
+    const std::vector<Complex> perturbed =
+        moved(system.study(), parameters, directions.col(k), Complex(0.0, h));
+    const Replayed run = replay(system, perturbed, steps, check->evaluation.extremes, &integrator,
+                                parameters, cancel);
     check->reference[k] = run.objective.imag() / h;
     check->extreme_reference.row(k) = run.watched.imag().transpose() / h;
     if (is_set(cancel)) check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
   }
 }
 
-/// Reference by Ridders' extrapolated differences [9]. The error of the objective must be far below the differences, so tolerances are
-/// tightened.
-void check_by_differences(const CompiledSystem& system, const std::vector<double>& parameters, const std::atomic<bool>* cancel,
-                          GradientCheck* check) {
+/// Reference by Ridders' extrapolated differences [9]. The error of the objective must be far below
+/// the differences, so tolerances are tightened.
+void check_by_differences(const CompiledSystem& system, const std::vector<double>& parameters,
+                          const std::atomic<bool>* cancel, GradientCheck* check) {
   Study study = system.whole_study();
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
   study.solver.integrator = IntegratorKind::kRosenbrock;
   study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
-  Evaluator evaluator(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
+  Evaluator evaluator(
+      std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
   const Eigen::MatrixXd directions = directions_of(*check);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
     const auto objective = [&](double step) {
-      const Evaluation evaluation = evaluator.evaluate_design(moved(study, parameters, directions.col(k), step), false, cancel);
+      const Evaluation evaluation = evaluator.evaluate_design(
+          moved(study, parameters, directions.col(k), step), false, cancel);
       if (!evaluation.status.ok()) check->status = evaluation.status;
       return evaluation.objective;
     };
-    const double largest =
-        step_along(study, parameters, directions.col(k), [](double value) { return 1e-2 * std::max(std::abs(value), 1e-3); });
+    const double largest = step_along(study, parameters, directions.col(k), [](double value) {
+      return 1e-2 * std::max(std::abs(value), 1e-3);
+    });
     const RiddersDerivative derivative = ridders_derivative(objective, 0.0, largest);
     check->reference[k] = derivative.value;
     check->reference_error[k] = derivative.error;
@@ -202,26 +221,32 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
 
 }  // namespace
 
-GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method, const std::atomic<bool>* cancel) {
+GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
+                             const std::atomic<bool>* cancel) {
   return check_gradient(problem.system(), rho, method, cancel);
 }
 
-GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system, const Eigen::VectorXd& rho, CheckMethod method,
+GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system,
+                             const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {
   return check_design(system, system->parameters(rho), method, cancel);
 }
 
 namespace {
 
-/// The largest difference of a gradient from its reference along `directions`, relative to the sizes that gradient.h names.
+/// The largest difference of a gradient from its reference along `directions`, relative to the
+/// sizes that gradient.h names.
 /// @param floor the smallest size.
-double largest_difference(const Eigen::MatrixXd& directions, const Eigen::VectorXd& gradient, const Eigen::VectorXd& reference,
-                          double floor) {
-  const Eigen::VectorXd along = directions.size() > 0 ? Eigen::VectorXd(directions.transpose() * gradient) : gradient;
+double largest_difference(const Eigen::MatrixXd& directions, const Eigen::VectorXd& gradient,
+                          const Eigen::VectorXd& reference, double floor) {
+  const Eigen::VectorXd along =
+      directions.size() > 0 ? Eigen::VectorXd(directions.transpose() * gradient) : gradient;
   double largest = 0.0;
   for (Eigen::Index k = 0; k < reference.size(); ++k) {
     const double difference = std::abs(along[k] - reference[k]);
-    const double size = directions.size() > 0 ? directions.col(k).cwiseProduct(gradient).cwiseAbs().maxCoeff() : std::abs(reference[k]);
+    const double size = directions.size() > 0
+                            ? directions.col(k).cwiseProduct(gradient).cwiseAbs().maxCoeff()
+                            : std::abs(reference[k]);
     if (difference > 0.0) largest = std::max(largest, difference / std::max(size, floor));
   }
   return largest;
@@ -233,15 +258,18 @@ void compare(GradientCheck* check) {
   if (check->reference.size() == 0) return;
   const auto compare_with = [check](const auto& gradient, const auto& reference, double floor) {
     check->largest_relative_difference =
-        std::max(check->largest_relative_difference, largest_difference(check->directions, gradient, reference, floor));
+        std::max(check->largest_relative_difference,
+                 largest_difference(check->directions, gradient, reference, floor));
   };
-  compare_with(check->evaluation.gradient, check->reference, 1e-3 * check->reference.cwiseAbs().maxCoeff());
-  // Values at the start may have gradients that are zero within rounding, so that differences are compared with the largest gradient of
-  // all.
+  compare_with(check->evaluation.gradient, check->reference,
+               1e-3 * check->reference.cwiseAbs().maxCoeff());
+  // Values at the start may have gradients that are zero within rounding, so that differences are
+  // compared with the largest gradient of all.
   const Eigen::MatrixXd& references = check->extreme_reference;
   if (references.size() == 0) return;
   const double floor = 1e-3 * references.cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < references.cols(); ++k) compare_with(check->evaluation.extremes.gradients.col(k), references.col(k), floor);
+  for (Eigen::Index k = 0; k < references.cols(); ++k)
+    compare_with(check->evaluation.extremes.gradients.col(k), references.col(k), floor);
 }
 
 Eigen::MatrixXd check_directions(const Eigen::VectorXd& gradient, int count) {
@@ -258,12 +286,15 @@ Eigen::MatrixXd check_directions(const Eigen::VectorXd& gradient, int count) {
   return directions;
 }
 
-GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, CheckMethod method,
+GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
+                           const std::vector<double>& parameters, CheckMethod method,
                            const std::atomic<bool>* cancel, const Eigen::MatrixXd& directions) {
-  const auto count = directions.size() > 0 ? directions.cols() : to_signed(system->study().tuned.size());
+  const auto count =
+      directions.size() > 0 ? directions.cols() : to_signed(system->study().tuned.size());
   GradientCheck check;
   check.directions = directions;
-  check.method = system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;
+  check.method =
+      system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;
   check.reference.setZero(count);
   check.reference_error.setZero(count);
   check.evaluation = Evaluator(system).evaluate_design(parameters, true, cancel);

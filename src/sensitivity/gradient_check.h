@@ -6,13 +6,17 @@
 namespace codesign {
 
 /// check_gradient() at values of all named parameters, in the order of Study::parameters.
-/// @param directions becomes GradientCheck::directions; empty: the reference is the derivative by each parameter.
-GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, CheckMethod method,
-                           const std::atomic<bool>* cancel = nullptr, const Eigen::MatrixXd& directions = {});
+/// @param directions becomes GradientCheck::directions; empty: the reference is the derivative by
+/// each parameter.
+GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
+                           const std::vector<double>& parameters, CheckMethod method,
+                           const std::atomic<bool>* cancel = nullptr,
+                           const Eigen::MatrixXd& directions = {});
 
-/// `count` pseudo-random directions, always the same ones, along which each parameter changes the objective by a similar amount, with
-/// either sign; a parameter with a component below a thousandth of the largest counts as if it had that. So at least a third of a relative
-/// error of one component of the gradient shows.
+/// `count` pseudo-random directions, always the same ones, along which each parameter changes the
+/// objective by a similar amount, with either sign; a parameter with a component below a thousandth
+/// of the largest counts as if it had that. So at least a third of a relative error of one
+/// component of the gradient shows.
 Eigen::MatrixXd check_directions(const Eigen::VectorXd& gradient, int count);
 
 /// Sets GradientCheck::largest_relative_difference from the gradient and its reference.

@@ -27,18 +27,24 @@ const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
 
 bool prefers_adjoint(const CompiledSystem& system) {
   const SolverOptions& options = system.study().solver;
-  if (options.integrator != IntegratorKind::kRosenbrock || options.gradient == GradientMethod::kDirect) return false;
+  if (options.integrator != IntegratorKind::kRosenbrock ||
+      options.gradient == GradientMethod::kDirect)
+    return false;
   // The adjoint has no derivatives of the extreme values of watched signals.
   if (!system.watched().empty()) return false;
   // Nor does it go back over the jumps of sampled controllers.
   if (!ControlClock(system.study()).is_empty()) return false;
   if (options.gradient == GradientMethod::kAdjoint) return true;
-  // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does not compute.
-  return options.sensitivity_tolerance <= 0.0 && direct_cost(static_cast<int>(system.study().tuned.size())) > kAdjointCost;
+  // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does
+  // not compute.
+  return options.sensitivity_tolerance <= 0.0 &&
+         direct_cost(static_cast<int>(system.study().tuned.size())) > kAdjointCost;
 }
 
-std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system, Derivatives derivatives) {
-  if (system.study().solver.integrator == IntegratorKind::kIdas) return std::make_unique<IdasGradient>(system);
+std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system,
+                                                     Derivatives derivatives) {
+  if (system.study().solver.integrator == IntegratorKind::kIdas)
+    return std::make_unique<IdasGradient>(system);
   if (derivatives == Derivatives::kGaussNewton) return std::make_unique<RosenbrockGradient>(system);
   if (prefers_adjoint(system)) return std::make_unique<AdjointGradient>(system);
   return std::make_unique<RosenbrockGradient>(system);
@@ -46,15 +52,20 @@ std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& syste
 
 class Evaluator::Implementation {
  public:
-  explicit Implementation(std::shared_ptr<const CompiledSystem> system) : system_(std::move(system)), watched_(system_->study()) {}
+  explicit Implementation(std::shared_ptr<const CompiledSystem> system)
+      : system_(std::move(system)), watched_(system_->study()) {}
 
-  Evaluation evaluate(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
+  Evaluation evaluate(const std::vector<double>& parameters, Derivatives derivatives,
+                      const std::atomic<bool>* cancel) {
     Evaluation evaluation;
-    std::unique_ptr<GradientEngine>& engine = derivatives == Derivatives::kGaussNewton ? root_engine_ : engine_;
+    std::unique_ptr<GradientEngine>& engine =
+        derivatives == Derivatives::kGaussNewton ? root_engine_ : engine_;
     if (!engine) engine = make_gradient_engine(*system_, derivatives);
-    if (const ControllerDescription* rounded = derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->whole_study())) {
+    if (const ControllerDescription* rounded =
+            derivatives == Derivatives::kNone ? nullptr : find_rounded(system_->whole_study())) {
       evaluation.status = {StatusCode::kNonFiniteGradient, 0.0,
-                           "there is no gradient: controllers." + rounded->name + ".quantization rounds a measurement"};
+                           "there is no gradient: controllers." + rounded->name +
+                               ".quantization rounds a measurement"};
       return evaluation;
     }
     const CpuTimer timer;
@@ -66,13 +77,15 @@ class Evaluator::Implementation {
     evaluation.statistics.cpu_seconds = timer.seconds();
     return evaluation;
   }
-  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
+  Evaluation evaluate(const Eigen::VectorXd& rho, Derivatives derivatives,
+                      const std::atomic<bool>* cancel) {
     parameters_at(system_->study(), rho, &parameters_);
     return evaluate(parameters_, derivatives, cancel);
   }
 
  private:
-  void collect(GradientEngine* engine, Derivatives derivatives, const std::atomic<bool>* cancel, Evaluation* evaluation) const {
+  void collect(GradientEngine* engine, Derivatives derivatives, const std::atomic<bool>* cancel,
+               Evaluation* evaluation) const {
     const double time = engine->time();
     evaluation->objective = engine->objective();
     evaluation->extremes = engine->extremes();
@@ -92,11 +105,13 @@ class Evaluator::Implementation {
     for (Eigen::Index k = 0; k < evaluation->gradient.size(); ++k)
       if (!std::isfinite(evaluation->gradient[k])) {
         evaluation->status = {StatusCode::kNonFiniteGradient, time,
-                              "the gradient by \"" + tuned_name(*system_, k) + "\" is not finite, though the objective is"};
+                              "the gradient by \"" + tuned_name(*system_, k) +
+                                  "\" is not finite, though the objective is"};
         return;
       }
     if (!evaluation->jacobian_root.allFinite())
-      evaluation->status = {StatusCode::kNonFiniteGradient, time, "the Jacobian of the residuals is not finite, though the objective is"};
+      evaluation->status = {StatusCode::kNonFiniteGradient, time,
+                            "the Jacobian of the residuals is not finite, though the objective is"};
   }
 
   Status run(GradientEngine* engine, const std::vector<double>& parameters, Derivatives derivatives,
@@ -113,30 +128,35 @@ class Evaluator::Implementation {
   std::shared_ptr<const CompiledSystem> system_;
   WatchLayout watched_;
   std::vector<double> parameters_;  // workspace: all named parameters of one design
-  // Made by the first evaluation. That for kGaussNewton may be of another kind; no result depends on
-  // which evaluations came before.
+  // Made by the first evaluation. That for kGaussNewton may be of another kind; no result depends
+  // on which evaluations came before.
   std::unique_ptr<GradientEngine> engine_, root_engine_;
 };
 
-Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system) : implementation_(std::make_unique<Implementation>(std::move(system))) {}
+Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system)
+    : implementation_(std::make_unique<Implementation>(std::move(system))) {}
 Evaluator::Evaluator(const Problem& problem) : Evaluator(problem.system()) {}
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
 
-Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives, const std::atomic<bool>* cancel) {
+Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives,
+                               const std::atomic<bool>* cancel) {
   return implementation_->evaluate(rho, derivatives, cancel);
 }
 
-Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, bool with_gradient, const std::atomic<bool>* cancel) {
+Evaluation Evaluator::evaluate(const Eigen::VectorXd& rho, bool with_gradient,
+                               const std::atomic<bool>* cancel) {
   return evaluate(rho, gradient_if(with_gradient), cancel);
 }
 
-Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, Derivatives derivatives, const std::atomic<bool>* cancel) {
+Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters,
+                                      Derivatives derivatives, const std::atomic<bool>* cancel) {
   return implementation_->evaluate(parameters, derivatives, cancel);
 }
 
-Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, bool with_gradient, const std::atomic<bool>* cancel) {
+Evaluation Evaluator::evaluate_design(const std::vector<double>& parameters, bool with_gradient,
+                                      const std::atomic<bool>* cancel) {
   return implementation_->evaluate(parameters, gradient_if(with_gradient), cancel);
 }
 

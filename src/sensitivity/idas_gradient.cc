@@ -8,12 +8,14 @@
 namespace codesign {
 
 template <int N>
-IdasTangent::Group<N>::Group(const CompiledSystem& system, LaneRange<N> lanes) : range(lanes), equations(system) {
+IdasTangent::Group<N>::Group(const CompiledSystem& system, LaneRange<N> lanes)
+    : range(lanes), equations(system) {
   state.resize(system.layout());
 }
 
 template <int N>
-void IdasTangent::Group<N>::load(const State<double>& at, const std::vector<State<double>>* directions) {
+void IdasTangent::Group<N>::load(const State<double>& at,
+                                 const std::vector<State<double>>* directions) {
   cast_state(at, &state);
   for (int k = 0; directions && k < range.count; ++k) {
     const State<double>& direction = (*directions)[to_index(range.first + k)];
@@ -39,19 +41,25 @@ void IdasTangent::Group<N>::take(int k, State<double>* direction) const {
 }
 
 IdasTangent::IdasTangent(const CompiledSystem& system)
-    : system_(system), groups_(system), partial_(system.layout().columns() + 1, to_signed(system.study().tuned.size())), matrix_(system) {
+    : system_(system),
+      groups_(system),
+      partial_(system.layout().columns() + 1, to_signed(system.study().tuned.size())),
+      matrix_(system) {
   derivatives_.resize(system.patterns());
 }
 
-void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial, Integrator* integrator,
-                        std::vector<State<double>>* sensitivities, std::vector<double>* scales) {
+void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial,
+                        Integrator* integrator, std::vector<State<double>>* sensitivities,
+                        std::vector<double>* scales) {
   matrix_.settle_as(integrator->assembly().rates_matrix());
   matrix_.forget();
   groups_.for_each([&](auto* group) {
     group->range.seed(system_, parameters, &group->parameters);
     group->equations.set_design(group->parameters);
-    integrator->assembly().extend(group->parameters, initial, &group->equations, &group->extension, &group->state);
-    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*sensitivities)[to_index(group->range.first + k)]);
+    integrator->assembly().extend(group->parameters, initial, &group->equations, &group->extension,
+                                  &group->state);
+    for (int k = 0; k < group->range.count; ++k)
+      group->take(k, &(*sensitivities)[to_index(group->range.first + k)]);
   });
   for (std::size_t k = 0; k < scales->size(); ++k) {
     const double value = std::abs(parameters[to_index(system_.study().tuned[k])]);
@@ -59,7 +67,8 @@ void IdasTangent::start(const std::vector<double>& parameters, const State<doubl
   }
 }
 
-const Linearization<double>& IdasTangent::linearize(const State<double>& state, double kappa, Equations<double>* equations) {
+const Linearization<double>& IdasTangent::linearize(const State<double>& state, double kappa,
+                                                    Equations<double>* equations) {
   kappa_ = kappa;
   equations->linearize(state, &derivatives_);
   groups_.for_each([&](auto* group) {
@@ -69,7 +78,8 @@ const Linearization<double>& IdasTangent::linearize(const State<double>& state, 
     if (kappa > 0.0) {
       group->equations.constraint_errors(group->state, &group->Phi, &group->Phi_rate);
       for (int row = 0; row < system_.layout().m; ++row)
-        group->G[system_.layout().n + row] += 2.0 * kappa * group->Phi_rate[row] + kappa * kappa * group->Phi[row];
+        group->G[system_.layout().n + row] +=
+            2.0 * kappa * group->Phi_rate[row] + kappa * kappa * group->Phi[row];
     }
     for (int k = 0; k < group->range.count; ++k) {
       auto column = partial_.col(group->range.first + k);
@@ -80,7 +90,8 @@ const Linearization<double>& IdasTangent::linearize(const State<double>& state, 
   return derivatives_;
 }
 
-// The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) equals the derivative of Phi'' along (q, v + kappa q, a + 2 kappa v
+// The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) equals the derivative of
+// Phi'' along (q, v + kappa q, a + 2 kappa v
 // + kappa^2 q), because (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
 void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
   const Layout& layout = system_.layout();
@@ -88,7 +99,8 @@ void IdasTangent::derivative(int k, const State<double>& direction, VectorX<doub
   if (kappa_ > 0.0) {
     stabilized_direction_ = direction;
     stabilized_direction_.v += kappa_ * direction.q;
-    stabilized_direction_.z.head(layout.n) += 2.0 * kappa_ * direction.v + kappa_ * kappa_ * direction.q;
+    stabilized_direction_.z.head(layout.n) +=
+        2.0 * kappa_ * direction.v + kappa_ * kappa_ * direction.q;
     directional_derivative(system_, derivatives_, stabilized_direction_, &stabilized_);
     result->segment(layout.n, layout.m) = stabilized_.segment(layout.n, layout.m);
   }
@@ -110,8 +122,10 @@ void IdasTangent::solve_rates(std::vector<State<double>>* directions) {
   }
 }
 
-// One evaluation with lanes gives the derivatives of Phi and Phi_q v along (q, v, s)_rho and the parameter together.
-void IdasTangent::correct(const State<double>& state, VectorX<double> State<double>::*part, std::vector<State<double>>* directions) {
+// One evaluation with lanes gives the derivatives of Phi and Phi_q v along (q, v, s)_rho and the
+// parameter together.
+void IdasTangent::correct(const State<double>& state, VectorX<double> State<double>::*part,
+                          std::vector<State<double>>* directions) {
   const Layout& layout = system_.layout();
   const bool positions = part == &State<double>::q;
   groups_.for_each([&](auto* group) {
@@ -119,26 +133,30 @@ void IdasTangent::correct(const State<double>& state, VectorX<double> State<doub
     group->equations.constraint_errors(group->state, &group->Phi, &group->Phi_rate);
     for (int k = 0; k < group->range.count; ++k) {
       dG_.setZero(layout.columns() + 1);
-      for (int row = 0; row < layout.m; ++row) dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
+      for (int row = 0; row < layout.m; ++row)
+        dG_[layout.n + row] = -(positions ? group->Phi : group->Phi_rate)[row].v[k];
       matrix_.lu().solve(Out<double>(dG_).first(layout.columns()));
       (*directions)[to_index(group->range.first + k)].*part += dG_.head(layout.n);
     }
   });
 }
 
-bool IdasTangent::jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
-                       Equations<double>* equations, std::vector<State<double>>* directions) {
+bool IdasTangent::jump(const std::vector<ControlEvent>& events, const State<double>& before,
+                       const State<double>& behind, Equations<double>* equations,
+                       std::vector<State<double>>* directions) {
   groups_.for_each([&](auto* group) {
     group->load(before, directions);
     group->equations.jump(events, &group->state);
-    for (int k = 0; k < group->range.count; ++k) group->take(k, &(*directions)[to_index(group->range.first + k)]);
+    for (int k = 0; k < group->range.count; ++k)
+      group->take(k, &(*directions)[to_index(group->range.first + k)]);
   });
   if (!factor(behind, equations)) return false;
   solve_rates(directions);
   return true;
 }
 
-bool IdasTangent::project(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions) {
+bool IdasTangent::project(const State<double>& state, Equations<double>* equations,
+                          std::vector<State<double>>* directions) {
   if (!factor(state, equations)) return false;
   correct(state, &State<double>::q, directions);
   correct(state, &State<double>::v, directions);
@@ -147,7 +165,8 @@ bool IdasTangent::project(const State<double>& state, Equations<double>* equatio
 }
 
 template <class Function>
-void IdasTangent::differentiate(const Function& function, const State<double>& state, Equations<double>* equations,
+void IdasTangent::differentiate(const Function& function, const State<double>& state,
+                                Equations<double>* equations,
                                 std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
   gradient->setZero(count());
   if (!factor(state, equations)) {
@@ -162,34 +181,41 @@ void IdasTangent::differentiate(const Function& function, const State<double>& s
   });
 }
 
-void IdasTangent::terminal(const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
-                           Eigen::VectorXd* gradient) {
+void IdasTangent::terminal(const State<double>& state, Equations<double>* equations,
+                           std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
   const auto sum = [](auto* of_group, const auto& lanes) { return of_group->terminal(lanes); };
   differentiate(sum, state, equations, directions, gradient);
 }
 
-void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<double>* equations, std::vector<State<double>>* directions,
-                          Eigen::VectorXd* gradient) {
-  const auto signal = [k](auto* of_group, const auto& lanes) { return of_group->watched(k, lanes); };
+void IdasTangent::watched(std::size_t k, const State<double>& state, Equations<double>* equations,
+                          std::vector<State<double>>* directions, Eigen::VectorXd* gradient) {
+  const auto signal = [k](auto* of_group, const auto& lanes) {
+    return of_group->watched(k, lanes);
+  };
   differentiate(signal, state, equations, directions, gradient);
 }
 
-void IdasTangent::residuals(ObjectivePart part, const State<double>& state, Equations<double>* equations,
-                            std::vector<State<double>>* directions, Eigen::MatrixXd* rows) {
-  const std::vector<ResolvedTerm>& terms = part == ObjectivePart::kTerminal ? system_.terminal() : system_.integral();
+void IdasTangent::residuals(ObjectivePart part, const State<double>& state,
+                            Equations<double>* equations, std::vector<State<double>>* directions,
+                            Eigen::MatrixXd* rows) {
+  const std::vector<ResolvedTerm>& terms =
+      part == ObjectivePart::kTerminal ? system_.terminal() : system_.integral();
   rows->setConstant(count(), to_signed(terms.size()), std::numeric_limits<double>::quiet_NaN());
   if (!factor(state, equations)) return;
   solve_rates(directions);
   groups_.for_each([&](auto* group) {
     group->load(state, directions);
-    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes = group->residuals[to_index(part)];
+    VectorX<typename std::remove_pointer_t<decltype(group)>::Scalar>& in_lanes =
+        group->residuals[to_index(part)];
     group->equations.residuals(part, group->state, &in_lanes);
     for (int k = 0; k < group->range.count; ++k)
-      for (Eigen::Index term = 0; term < rows->cols(); ++term) (*rows)(group->range.first + k, term) = in_lanes[term].v[k];
+      for (Eigen::Index term = 0; term < rows->cols(); ++term)
+        (*rows)(group->range.first + k, term) = in_lanes[term].v[k];
   });
 }
 
-IdasGradient::IdasGradient(const CompiledSystem& system) : system_(system), integrator_(system), watch_(system), residuals_(system) {}
+IdasGradient::IdasGradient(const CompiledSystem& system)
+    : system_(system), integrator_(system), watch_(system), residuals_(system) {}
 
 // The workspace of the sensitivities is allocated only when derivatives are requested.
 Status IdasGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
@@ -216,7 +242,8 @@ Status IdasGradient::start_watches(bool with_gradient) {
   if (watch_.is_empty()) return {};
   SignalWatch::Differentiate differentiate;
   if (with_gradient)
-    differentiate = [this](std::size_t k, const State<double>& state, bool /*reads_rates*/, Eigen::VectorXd* gradient) {
+    differentiate = [this](std::size_t k, const State<double>& state, bool /*reads_rates*/,
+                           Eigen::VectorXd* gradient) {
       integrator_.interpolate_sensitivities(state.t, &directions_);
       tangent_->watched(k, state, &integrator_.equations(), &directions_, gradient);
     };
@@ -236,14 +263,18 @@ const State<double>& IdasGradient::consistent_state() {
   return end_;
 }
 
-double IdasGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(consistent_state()); }
+double IdasGradient::objective() {
+  return integrator_.psi() + integrator_.equations().terminal(consistent_state());
+}
 
 void IdasGradient::take_directions() {
   directions_.resize(to_index(tangent_->count()), integrator_.state());
   for (int k = 0; k < tangent_->count(); ++k) integrator_.sensitivity(k, &directions_[to_index(k)]);
 }
 
-void IdasGradient::jacobian_root(Eigen::MatrixXd* root) { residuals_.finish(consistent_state(), root); }
+void IdasGradient::jacobian_root(Eigen::MatrixXd* root) {
+  residuals_.finish(consistent_state(), root);
+}
 
 void IdasGradient::gradient(Eigen::VectorXd* gradient) {
   take_directions();

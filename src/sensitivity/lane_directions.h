@@ -15,7 +15,8 @@
 
 namespace codesign {
 
-/// N directional derivatives of a vector: an N x size matrix with one column per component, in memory aligned to cache lines.
+/// N directional derivatives of a vector: an N x size matrix with one column per component, in
+/// memory aligned to cache lines.
 template <int N>
 class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
  public:
@@ -40,11 +41,17 @@ class Directions : public Eigen::Map<Eigen::Matrix<double, N, Eigen::Dynamic>> {
 
   /// The N derivatives of one component as a vector of the processor.
   Vector& vector(int column) { return *reinterpret_cast<Vector*>(this->data() + N * column); }
-  const Vector& vector(int column) const { return *reinterpret_cast<const Vector*>(this->data() + N * column); }
+  const Vector& vector(int column) const {
+    return *reinterpret_cast<const Vector*>(this->data() + N * column);
+  }
 
   /// The derivatives of `count` components from the `first` on, N side by side for each.
-  Span<double> part(int first, int count) { return Span<double>(numbers_).subspan(N * first, N * count); }
-  Span<const double> part(int first, int count) const { return Span<const double>(numbers_).subspan(N * first, N * count); }
+  Span<double> part(int first, int count) {
+    return Span<double>(numbers_).subspan(N * first, N * count);
+  }
+  Span<const double> part(int first, int count) const {
+    return Span<const double>(numbers_).subspan(N * first, N * count);
+  }
 
  private:
   LineVector numbers_;
@@ -55,43 +62,51 @@ template <int N>
 struct LaneRange {
   int first = 0, count = 0;
 
-  /// All named parameters (Study::parameters order), with the derivative 1 of rho_(first+k) in lane k. @param lanes overwritten, its memory
-  /// is used again.
-  void seed(const CompiledSystem& system, const std::vector<double>& parameters, std::vector<Lanes<N>>* lanes) const {
+  /// All named parameters (Study::parameters order), with the derivative 1 of rho_(first+k) in lane
+  /// k. @param lanes overwritten, its memory is used again.
+  void seed(const CompiledSystem& system, const std::vector<double>& parameters,
+            std::vector<Lanes<N>>* lanes) const {
     lanes->assign(parameters.begin(), parameters.end());
     for (int k = 0; k < count; ++k) {
       const int tuned = system.study().tuned[to_index(first + k)];
       (*lanes)[to_index(tuned)].v[k] = 1.0;
     }
   }
-  std::vector<Lanes<N>> seed(const CompiledSystem& system, const std::vector<double>& parameters) const {
+  std::vector<Lanes<N>> seed(const CompiledSystem& system,
+                             const std::vector<double>& parameters) const {
     std::vector<Lanes<N>> lanes;
     seed(system, parameters, &lanes);
     return lanes;
   }
 };
 
-/// The lanes `first` .. `first + value - 1` to be divided into groups; each group reserves `reserved` further lanes for its own use.
+/// The lanes `first` .. `first + value - 1` to be divided into groups; each group reserves
+/// `reserved` further lanes for its own use.
 struct LaneCount {
   int value = 0, reserved = 0, first = 0;
 };
 
-/// Divides lanes into groups of eight; a last group of four lanes or fewer is a Group<4>. Without a LaneCount there is one lane per tuned
-/// parameter. Group<N> is constructed from (system, LaneRange<N>, further arguments).
+/// Divides lanes into groups of eight; a last group of four lanes or fewer is a Group<4>. Without a
+/// LaneCount there is one lane per tuned parameter. Group<N> is constructed from (system,
+/// LaneRange<N>, further arguments).
 template <template <int> class Group>
 class LaneGroups {
  public:
   template <class... Arguments>
   explicit LaneGroups(const CompiledSystem& system, const Arguments&... arguments)
-      : LaneGroups(LaneCount{static_cast<int>(system.study().tuned.size())}, system, arguments...) {}
+      : LaneGroups(LaneCount{static_cast<int>(system.study().tuned.size())}, system, arguments...) {
+  }
   template <class... Arguments>
   LaneGroups(LaneCount lanes, const CompiledSystem& system, const Arguments&... arguments) {
     const int end = lanes.first + lanes.value;
     int first = lanes.first;
     const int wide = 8 - lanes.reserved;
     for (; end - first > 4 - lanes.reserved; first += wide)
-      wide_.push_back(std::make_unique<Group<8>>(system, LaneRange<8>{first, std::min(wide, end - first)}, arguments...));
-    if (first < end) narrow_.push_back(std::make_unique<Group<4>>(system, LaneRange<4>{first, end - first}, arguments...));
+      wide_.push_back(std::make_unique<Group<8>>(
+          system, LaneRange<8>{first, std::min(wide, end - first)}, arguments...));
+    if (first < end)
+      narrow_.push_back(
+          std::make_unique<Group<4>>(system, LaneRange<4>{first, end - first}, arguments...));
   }
 
   template <class Action>
@@ -105,11 +120,13 @@ class LaneGroups {
   std::vector<std::unique_ptr<Group<4>>> narrow_;
 };
 
-/// Combines values and directional derivatives in a state of lanes. @param directions in the order of IncrementLayout. @param state must
-/// have the sizes of `values`.
+/// Combines values and directional derivatives in a state of lanes. @param directions in the order
+/// of IncrementLayout. @param state must have the sizes of `values`.
 template <int N>
-void load_lanes(const IncrementLayout& at, const State<double>& values, const Directions<N>& directions, State<Lanes<N>>* state) {
-  const auto load = [&directions](const VectorX<double>& value, int first, VectorX<Lanes<N>>* lanes) {
+void load_lanes(const IncrementLayout& at, const State<double>& values,
+                const Directions<N>& directions, State<Lanes<N>>* state) {
+  const auto load = [&directions](const VectorX<double>& value, int first,
+                                  VectorX<Lanes<N>>* lanes) {
     for (Eigen::Index k = 0; k < value.size(); ++k) {
       (*lanes)[k].a = value[k];
       (*lanes)[k].directions() = directions.col(first + k);

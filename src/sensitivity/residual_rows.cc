@@ -12,14 +12,16 @@
 namespace codesign {
 namespace {
 
-// Gauss's rule with two points on [0, 1]: both have the weight 1/2. Its weights are positive, which their roots require; some weights of
-// the integrators' own quadrature are negative.
+// Gauss's rule with two points on [0, 1]: both have the weight 1/2. Its weights are positive, which
+// their roots require; some weights of the integrators' own quadrature are negative.
 const double kGaussPoints[] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
 constexpr double kGaussWeight = 0.5;
 
 }  // namespace
 
-ResidualRows::ResidualRows(const CompiledSystem& system) : system_(system) { state_.resize(system.layout()); }
+ResidualRows::ResidualRows(const CompiledSystem& system) : system_(system) {
+  state_.resize(system.layout());
+}
 
 Status ResidualRows::start(Integrator* integrator, Differentiate differentiate) {
   integrator_ = integrator;
@@ -38,8 +40,9 @@ Status ResidualRows::check_weights(ObjectivePart part) const {
   for (std::size_t k = 0; k < weights.size(); ++k)
     if (!(weights[k] >= 0.0))
       return {StatusCode::kInvalidDesign, 0.0,
-              std::string("the weight of objective.") + (terminal ? "terminal[" : "integral[") + std::to_string(k) + "] is " +
-                  to_decimal(weights[k]) + " at this design; a sum of squares has weights of 0 or more"};
+              std::string("the weight of objective.") + (terminal ? "terminal[" : "integral[") +
+                  std::to_string(k) + "] is " + to_decimal(weights[k]) +
+                  " at this design; a sum of squares has weights of 0 or more"};
   return {};
 }
 

@@ -9,24 +9,28 @@
 
 namespace codesign {
 
-/// Gathers the Jacobian of the residuals while an integration runs, doc/theory.md (22a): the rows of the integrand at the points of Gauss's
-/// rule in each step, times the roots of their weights in the integral, and the rows of the terminal terms at the end. Only the triangular
-/// root of all rows is kept.
+/// Gathers the Jacobian of the residuals while an integration runs, doc/theory.md (22a): the rows
+/// of the integrand at the points of Gauss's rule in each step, times the roots of their weights in
+/// the integral, and the rows of the terminal terms at the end. Only the triangular root of all
+/// rows is kept.
 class ResidualRows {
  public:
-  /// The derivatives of the residuals of one part of the objective by the tuned parameters at `state`: p rows, one column per term.
-  /// kIntegral: `state` is a point of the dense output of the last step. kTerminal: its end.
-  using Differentiate = std::function<void(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows)>;
+  /// The derivatives of the residuals of one part of the objective by the tuned parameters at
+  /// `state`: p rows, one column per term. kIntegral: `state` is a point of the dense output of the
+  /// last step. kTerminal: its end.
+  using Differentiate =
+      std::function<void(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows)>;
 
   /// @param system must outlive this.
   explicit ResidualRows(const CompiledSystem& system);
 
-  /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight, which has no real root.
+  /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight,
+  /// which has no real root.
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Adds the rows of the step that the integrator has just taken.
   void look();
-  /// R of a study that ends at `state`, the consistent state at the end of the last step. Adds the terminal rows; look() must not be called
-  /// afterwards.
+  /// R of a study that ends at `state`, the consistent state at the end of the last step. Adds the
+  /// terminal rows; look() must not be called afterwards.
   void finish(const State<double>& state, Eigen::MatrixXd* root);
 
  private:

@@ -11,7 +11,8 @@ namespace {
 
 /// Number of lanes that fit into memory: a multiple of eight, at least four.
 int lanes_in_memory(const CompiledSystem& system) {
-  constexpr int kMemory = 128000000, kPerNumber = 375;  // [bytes]; kPerNumber measured on chains of 1000 and 3000 links
+  constexpr int kMemory = 128000000,
+                kPerNumber = 375;  // [bytes]; kPerNumber measured on chains of 1000 and 3000 links
   const int lanes = kMemory / (kPerNumber * IncrementLayout(system.layout()).size());
   return std::max(4, lanes / 8 * 8);
 }
@@ -55,13 +56,15 @@ Status RosenbrockGradient::start_watches() {
   if (watch_.is_empty()) return {};
   SignalWatch::Differentiate derivatives;
   if (with_gradient_)
-    derivatives = [this](std::size_t k, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient) {
+    derivatives = [this](std::size_t k, const State<double>& state, bool reads_rates,
+                         Eigen::VectorXd* gradient) {
       differentiate(k, state, reads_rates, gradient);
     };
   return watch_.start(&integrator_, std::move(derivatives));
 }
 
-void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows) {
+void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State<double>& state,
+                                                 Eigen::MatrixXd* rows) {
   const bool at_end = part == ObjectivePart::kTerminal;
   const auto terms = to_signed((at_end ? system_.terminal() : system_.integral()).size());
   rows->resize(count(), terms);
@@ -75,10 +78,12 @@ void RosenbrockGradient::differentiate_residuals(ObjectivePart part, const State
   });
 }
 
-void RosenbrockGradient::differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient) {
+void RosenbrockGradient::differentiate(std::size_t watched, const State<double>& state,
+                                       bool reads_rates, Eigen::VectorXd* gradient) {
   gradient->resize(count());
   groups_->for_each([&](auto* group) {
-    const auto all = group->step.watched(watched, integrator_.step(), state, reads_rates, integrator_.assembly());
+    const auto all = group->step.watched(watched, integrator_.step(), state, reads_rates,
+                                         integrator_.assembly());
     gradient->segment(group->range.first, group->range.count) = all.head(group->range.count);
   });
 }
@@ -102,7 +107,8 @@ Status RosenbrockGradient::jump() {
   Status status = integrator_.jump();
   if (!status.ok() || integrator_.jump_events().empty()) return status;
   groups_->for_each([this](auto* group) {
-    group->step.jump(integrator_.jump_events(), integrator_.before_jump(), integrator_.state(), integrator_.assembly());
+    group->step.jump(integrator_.jump_events(), integrator_.before_jump(), integrator_.state(),
+                     integrator_.assembly());
   });
   return status;
 }
@@ -111,13 +117,16 @@ Status RosenbrockGradient::advance(double limit) {
   if (with_gradient_)
     if (Status status = jump(); !status.ok()) return status;
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
-  if (status.ok() && with_gradient_) groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+  if (status.ok() && with_gradient_)
+    groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
   if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;
 }
 
-double RosenbrockGradient::objective() { return integrator_.psi() + integrator_.equations().terminal(integrator_.state()); }
+double RosenbrockGradient::objective() {
+  return integrator_.psi() + integrator_.equations().terminal(integrator_.state());
+}
 
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setConstant(count(), std::numeric_limits<double>::quiet_NaN());

@@ -13,9 +13,11 @@
 
 namespace codesign {
 
-/// Gradient by the exact tangent of the Rosenbrock steps (direct sensitivities); doc/theory.md (18), (22).
+/// Gradient by the exact tangent of the Rosenbrock steps (direct sensitivities); doc/theory.md
+/// (18), (22).
 ///
-/// If the tangents of all parameters do not fit into memory, gradient() repeats the run for each further group of parameters.
+/// If the tangents of all parameters do not fit into memory, gradient() repeats the run for each
+/// further group of parameters.
 class RosenbrockGradient final : public GradientEngine {
  public:
   /// @param most_lanes largest number of parameters per run; 0: as many as fit into 128 MB.
@@ -30,7 +32,9 @@ class RosenbrockGradient final : public GradientEngine {
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
-  void jacobian_root(Eigen::MatrixXd* root) override { residuals_.finish(integrator_.state(), root); }
+  void jacobian_root(Eigen::MatrixXd* root) override {
+    residuals_.finish(integrator_.state(), root);
+  }
   const Extremes& extremes() const override { return watch_.extremes(); }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
@@ -39,7 +43,8 @@ class RosenbrockGradient final : public GradientEngine {
  private:
   template <int N>
   struct Group {
-    Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau) : range(lanes), step(system, tableau) {}
+    Group(const CompiledSystem& system, LaneRange<N> lanes, const RosenbrockTableau& tableau)
+        : range(lanes), step(system, tableau) {}
     LaneRange<N> range;
     std::vector<Lanes<N>> parameters;  ///< with the directions of `range`
     TangentStep<N> step;
@@ -47,21 +52,27 @@ class RosenbrockGradient final : public GradientEngine {
   };
 
   int count() const { return static_cast<int>(system_.study().tuned.size()); }
-  /// Number of parameters per run. Rows of watched signals and residuals are collected during one run, which then includes all parameters.
-  int most_lanes() const { return watch_.is_empty() && !with_root_ ? most_lanes_ : std::max(4, count()); }
+  /// Number of parameters per run. Rows of watched signals and residuals are collected during one
+  /// run, which then includes all parameters.
+  int most_lanes() const {
+    return watch_.is_empty() && !with_root_ ? most_lanes_ : std::max(4, count());
+  }
   Status start_watches();
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
   /// Carries state and sensitivities over the events of sampled controllers, theory (51).
   Status jump();
   void collect(Eigen::VectorXd* gradient);
-  void differentiate(std::size_t watched, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient);
-  void differentiate_residuals(ObjectivePart part, const State<double>& state, Eigen::MatrixXd* rows);
+  void differentiate(std::size_t watched, const State<double>& state, bool reads_rates,
+                     Eigen::VectorXd* gradient);
+  void differentiate_residuals(ObjectivePart part, const State<double>& state,
+                               Eigen::MatrixXd* rows);
 
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   const int most_lanes_;
-  int first_ = -1, lanes_ = 0;  ///< first parameter of `groups_`, and number of parameters in `groups_`
+  int first_ = -1,
+      lanes_ = 0;  ///< first parameter of `groups_`, and number of parameters in `groups_`
   std::optional<LaneGroups<Group>> groups_;
   RosenbrockIntegrator::BeforeAccept stages_;
   SignalWatch watch_;

@@ -16,19 +16,24 @@ namespace codesign {
 namespace {
 
 constexpr int kPieces = 4;           // of a step: the slope is computed at their ends
-constexpr double kInside = 1e-10;    // fraction of a step: at its ends a reference may have a kink, so that slopes are taken just inside
-constexpr double kRounding = 1e-14;  // fraction of the duration: where a step ends at a break time, the two may differ by rounding
+constexpr double kInside = 1e-10;    // fraction of a step: at its ends a reference may have a kink,
+                                     // so that slopes are taken just inside
+constexpr double kRounding = 1e-14;  // fraction of the duration: where a step ends at a break time,
+                                     // the two may differ by rounding
 constexpr int kBits = 50;            // accuracy of the instant of an extremum
 constexpr std::uintmax_t kMostIterations = 60;
 
-bool jumps(double before, double after) { return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after)); }
+bool jumps(double before, double after) {
+  return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after));
+}
 
 }  // namespace
 
 Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
   Peak peak{entry.first, values[entry.first] < 0.0 ? -1.0 : 1.0};
   for (int k = entry.first; k < entry.first + entry.size(); ++k)
-    if (std::abs(values[k]) > std::abs(values[peak.place])) peak = {k, values[k] < 0.0 ? -1.0 : 1.0};
+    if (std::abs(values[k]) > std::abs(values[peak.place]))
+      peak = {k, values[k] < 0.0 ? -1.0 : 1.0};
   return peak;
 }
 
@@ -36,8 +41,11 @@ double peak_terms(const MotionStudy& study, const Extremes& extremes, Eigen::Vec
   return peak_terms(study, WatchLayout(study), extremes, gradient);
 }
 
-double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient) {
-  const auto is_peak = [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; };
+double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
+                  Eigen::VectorXd* gradient) {
+  const auto is_peak = [](const WatchedSignal& watched) {
+    return watched.role == WatchedSignal::Role::kPeak;
+  };
   if (std::none_of(study.watched.begin(), study.watched.end(), is_peak)) return 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < study.watched.size(); ++k) {
@@ -51,7 +59,10 @@ double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Ext
 }
 
 SignalWatch::SignalWatch(const CompiledSystem& system)
-    : system_(system), layout_(system.study()), clock_(system.study()), curves_(system.watched().size()) {
+    : system_(system),
+      layout_(system.study()),
+      clock_(system.study()),
+      curves_(system.watched().size()) {
   state_.resize(system.layout());
   rates_.resize(system.layout());
 }
@@ -103,19 +114,21 @@ double SignalWatch::value(std::size_t k, double time) {
   return value;
 }
 
-// The slope is the gradient of the signal times the rates of the dense output; the rates of accelerations and multipliers follow from the
-// derivatives of the equations.
+// The slope is the gradient of the signal times the rates of the dense output; the rates of
+// accelerations and multipliers follow from the derivatives of the equations.
 SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
   Sample result;
   result.time = time;
   if (!status_.ok() || !go_to(k, time)) return result;
   integrator_->interpolate_rates(time, &rates_);
-  if (curves_[k].reads_rates) integrator_->assembly().differentiate_rates(state_, &integrator_->equations(), &rates_);
+  if (curves_[k].reads_rates)
+    integrator_->assembly().differentiate_rates(state_, &integrator_->equations(), &rates_);
   result.value = integrator_->equations().watched_gradient(k, state_, &sparse_);
   result.slope = sparse_.time;
   const Layout& layout = system_.layout();
   for (const auto& e : sparse_.position)
-    result.slope += e.value * (e.column < layout.n ? rates_.q[e.column] : rates_.s[e.column - layout.n]);
+    result.slope +=
+        e.value * (e.column < layout.n ? rates_.q[e.column] : rates_.s[e.column - layout.n]);
   for (const auto& e : sparse_.velocity) result.slope += e.value * rates_.v[e.column];
   for (const auto& e : sparse_.rate) result.slope += e.value * rates_.z[e.column];
   if (!std::isfinite(result.value) || !std::isfinite(result.slope)) status_ = failed(k, time);
@@ -131,14 +144,21 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   if (to < instants.front() - slack || curve.next >= instants.size()) return;
   const double begin = std::max(from, instants.front()), end = std::min(to, instants.back());
   points_.clear();
-  for (int piece = 1; piece < kPieces; ++piece) points_.push_back(from + (to - from) * piece / kPieces);
-  for (std::size_t i = curve.next; i < instants.size() && instants[i] <= end + slack; ++i) points_.push_back(std::min(instants[i], end));
-  points_.erase(std::remove_if(points_.begin(), points_.end(), [&](double t) { return t < begin || t > end; }), points_.end());
+  for (int piece = 1; piece < kPieces; ++piece)
+    points_.push_back(from + (to - from) * piece / kPieces);
+  for (std::size_t i = curve.next; i < instants.size() && instants[i] <= end + slack; ++i)
+    points_.push_back(std::min(instants[i], end));
+  points_.erase(std::remove_if(points_.begin(), points_.end(),
+                               [&](double t) { return t < begin || t > end; }),
+                points_.end());
   points_.push_back(end);
   std::sort(points_.begin(), points_.end());
-  const auto inside = [&](double time) { return std::min(std::max(time, from + slack), to - slack); };
+  const auto inside = [&](double time) {
+    return std::min(std::max(time, from + slack), to - slack);
+  };
   const auto reach = [&](double time, double at) {
-    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack) reach_instant(k, at);
+    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack)
+      reach_instant(k, at);
   };
   if (instants.size() == 1) return reach(end, end);
   reach(begin, begin);
@@ -151,10 +171,15 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
     const Sample next = sample(k, inside(point));
     if (next.time > last.time) search(k, last, next);
     const bool is_break = break_time && point >= to - 2.0 * slack;
-    // Functions of time are those behind a break time from that time on, which rounding may have put behind the end of the step.
-    const double behind = is_break ? std::min(std::max(point, *break_time), system_.study().duration) : point;
-    if (is_break) look_for_jump(k, next, behind, curve.next < instants.size() && instants[curve.next] <= point + slack);
-    // A step ends with the state before the jump of sampled controllers, which the next one begins with.
+    // Functions of time are those behind a break time from that time on, which rounding may have
+    // put behind the end of the step.
+    const double behind =
+        is_break ? std::min(std::max(point, *break_time), system_.study().duration) : point;
+    if (is_break)
+      look_for_jump(k, next, behind,
+                    curve.next < instants.size() && instants[curve.next] <= point + slack);
+    // A step ends with the state before the jump of sampled controllers, which the next one begins
+    // with.
     if (ends_at_jump_ && point == end && end == to) offer(k, next.time);
     reach(point, behind);
     if (is_break) break_time.reset();
@@ -163,9 +188,10 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   curve.end_slope = end < to ? 0.0 : last.slope;
 }
 
-/// A signal may jump where a reference has a kink. Then the value before the jump counts, too, and the one behind it, which at an instant
-/// counts anyway.
-void SignalWatch::look_for_jump(std::size_t k, const Sample& before, double behind, bool is_instant) {
+/// A signal may jump where a reference has a kink. Then the value before the jump counts, too, and
+/// the one behind it, which at an instant counts anyway.
+void SignalWatch::look_for_jump(std::size_t k, const Sample& before, double behind,
+                                bool is_instant) {
   if (!status_.ok()) return;
   const double time = std::min(before.time, behind - kRounding * system_.study().duration);
   if (!jumps(value(k, time), value(k, behind))) return;
@@ -178,8 +204,9 @@ void SignalWatch::search(std::size_t k, const Sample& from, const Sample& to) {
   if (!(from.slope * to.slope < 0.0)) return;
   std::uintmax_t iterations = kMostIterations;
   const auto slope = [&](double time) { return sample(k, time).slope; };
-  const auto found = boost::math::tools::toms748_solve(slope, from.time, to.time, from.slope, to.slope,
-                                                       boost::math::tools::eps_tolerance<double>(kBits), iterations);
+  const auto found = boost::math::tools::toms748_solve(
+      slope, from.time, to.time, from.slope, to.slope,
+      boost::math::tools::eps_tolerance<double>(kBits), iterations);
   if (status_.ok()) offer(k, 0.5 * (found.first + found.second));
 }
 
@@ -191,8 +218,10 @@ void SignalWatch::reach_instant(std::size_t k, double time) {
   if (!status_.ok()) return;
   if (differentiate_) differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
   set(entry.at_instant(instant), time, number);
-  if (instant > 0 && number > extremes_.values[entry.largest(instant - 1)]) set(entry.largest(instant - 1), time, number);
-  if (instant > 0 && number < extremes_.values[entry.smallest(instant - 1)]) set(entry.smallest(instant - 1), time, number);
+  if (instant > 0 && number > extremes_.values[entry.largest(instant - 1)])
+    set(entry.largest(instant - 1), time, number);
+  if (instant > 0 && number < extremes_.values[entry.smallest(instant - 1)])
+    set(entry.smallest(instant - 1), time, number);
   if (instant < entry.windows()) {
     set(entry.largest(instant), time, number);
     set(entry.smallest(instant), time, number);
@@ -207,7 +236,8 @@ void SignalWatch::offer(std::size_t k, double time) {
   if (window < 0 || window >= entry.windows()) return;
   const double number = value(k, time);
   if (!status_.ok()) return;
-  const bool largest = number > extremes_.values[entry.largest(window)], smallest = number < extremes_.values[entry.smallest(window)];
+  const bool largest = number > extremes_.values[entry.largest(window)],
+             smallest = number < extremes_.values[entry.smallest(window)];
   if (!largest && !smallest) return;
   if (differentiate_) differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
   set(largest ? entry.largest(window) : entry.smallest(window), time, number);
@@ -220,7 +250,8 @@ void SignalWatch::set(int place, double time, double number) {
 }
 
 Status SignalWatch::failed(std::size_t k, double time) const {
-  return {StatusCode::kNonFinite, time, "the signal \"" + system_.study().watched[k].signal.text + "\" is not finite"};
+  return {StatusCode::kNonFinite, time,
+          "the signal \"" + system_.study().watched[k].signal.text + "\" is not finite"};
 }
 
 }  // namespace codesign

@@ -18,28 +18,34 @@ struct Peak {
 };
 Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values);
 
-/// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without peaks. @param gradient if not null, their
-/// gradient is added to it. @param layout of the study.
-double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes, Eigen::VectorXd* gradient);
+/// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without
+/// peaks. @param gradient if not null, their gradient is added to it. @param layout of the study.
+double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
+                  Eigen::VectorXd* gradient);
 double peak_terms(const MotionStudy& study, const Extremes& extremes, Eigen::VectorXd* gradient);
 
-/// Finds the numbers of the watched signals, doc/theory.md (21a), while an integration runs: their values at given instants and the
-/// largest and smallest values between them, with derivatives by the tuned parameters.
+/// Finds the numbers of the watched signals, doc/theory.md (21a), while an integration runs: their
+/// values at given instants and the largest and smallest values between them, with derivatives by
+/// the tuned parameters.
 ///
-/// A signal is a function of the dense output, with accelerations and multipliers solved for where it depends on them. Its slope, which is
-/// exact, is computed at several points of each step; where it changes sign, a root finder gives the extremum to rounding. At a smooth
-/// extremum the derivative by a parameter equals the derivative at a fixed time, because the slope is zero.
+/// A signal is a function of the dense output, with accelerations and multipliers solved for where
+/// it depends on them. Its slope, which is exact, is computed at several points of each step; where
+/// it changes sign, a root finder gives the extremum to rounding. At a smooth extremum the
+/// derivative by a parameter equals the derivative at a fixed time, because the slope is zero.
 class SignalWatch {
  public:
-  /// The derivatives of watched signal `k` by the tuned parameters at `state`, a point of the dense output of the last step.
+  /// The derivatives of watched signal `k` by the tuned parameters at `state`, a point of the dense
+  /// output of the last step.
   /// @param reads_rates whether the signal depends on state->z, which is then solved for.
-  using Differentiate = std::function<void(std::size_t k, const State<double>& state, bool reads_rates, Eigen::VectorXd* gradient)>;
+  using Differentiate = std::function<void(std::size_t k, const State<double>& state,
+                                           bool reads_rates, Eigen::VectorXd* gradient)>;
 
   /// @param system must outlive this.
   explicit SignalWatch(const CompiledSystem& system);
 
   bool is_empty() const { return curves_.empty(); }
-  /// Begins a run: to be called after integrator->start(). @param differentiate empty: without derivatives.
+  /// Begins a run: to be called after integrator->start(). @param differentiate empty: without
+  /// derivatives.
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Searches the last step of the integrator.
   Status look();
@@ -51,7 +57,8 @@ class SignalWatch {
   struct Curve {
     bool reads_rates = false;  ///< whether the signal depends on accelerations or multipliers
     std::size_t next = 0;      ///< the next instant
-    double end_slope = 0.0;    ///< slope at the end of the previous step, if that was inside the interval; else 0
+    double end_slope =
+        0.0;  ///< slope at the end of the previous step, if that was inside the interval; else 0
   };
   struct Sample {
     double time = 0.0, value = 0.0, slope = 0.0;  ///< [s], [unit of the signal], [per s]
@@ -71,7 +78,9 @@ class SignalWatch {
   const CompiledSystem& system_;
   const WatchLayout layout_;
   ControlClock clock_;
-  bool begins_at_jump_ = false, ends_at_jump_ = false;  ///< whether sampled controllers act at the begin and at the end of the last step
+  bool begins_at_jump_ = false,
+       ends_at_jump_ =
+           false;  ///< whether sampled controllers act at the begin and at the end of the last step
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
   std::vector<Curve> curves_;

@@ -19,7 +19,8 @@ int points_in_memory(const Layout& layout) {
 
 }  // namespace
 
-StepPath::StepPath(const Layout& layout, int most) : most_(to_index(most > 0 ? most : points_in_memory(layout))) {}
+StepPath::StepPath(const Layout& layout, int most)
+    : most_(to_index(most > 0 ? most : points_in_memory(layout))) {}
 
 void StepPath::clear() {
   sizes_.clear();
@@ -37,13 +38,15 @@ void StepPath::append(double h, const RosenbrockTableau& tableau, const State<do
   if (k % stride_ == 0) push(k, state);
 }
 
-// Doubles the number of points that memory is allocated for, so that a later run with a few more steps needs none. There are at most twice
-// as many as the caller asks for.
+// Doubles the number of points that memory is allocated for, so that a later run with a few more
+// steps needs none. There are at most twice as many as the caller asks for.
 void StepPath::grow(const State<double>& state) {
-  const std::size_t size = kept_.size(), wanted = std::min(std::max(std::size_t{kFewest}, 2 * size), 2 * most_);
+  const std::size_t size = kept_.size(),
+                    wanted = std::min(std::max(std::size_t{kFewest}, 2 * size), 2 * most_);
   kept_.resize(std::max(size + 1, wanted));
   for (std::size_t k = size; k < kept_.size(); ++k) {
-    kept_[k].numbers.reserve(to_index(1 + state.q.size() + state.v.size() + state.s.size() + state.z.size()));
+    kept_[k].numbers.reserve(
+        to_index(1 + state.q.size() + state.v.size() + state.s.size() + state.z.size()));
     kept_[k].turns.reserve(state.turns.size());
   }
 }
@@ -69,12 +72,15 @@ void StepPath::thin_out() {
 
 int StepPath::kept_before(int k) const {
   const auto end = kept_.begin() + to_signed(count_);
-  return std::prev(std::upper_bound(kept_.begin(), end, k, [](int number, const Kept& kept) { return number < kept.k; }))->k;
+  return std::prev(std::upper_bound(kept_.begin(), end, k,
+                                    [](int number, const Kept& kept) { return number < kept.k; }))
+      ->k;
 }
 
 void StepPath::point(int k, State<double>* point) const {
   const auto end = kept_.begin() + to_signed(count_);
-  const Kept& kept = *std::lower_bound(kept_.begin(), end, k, [](const Kept& one, int number) { return one.k < number; });
+  const Kept& kept = *std::lower_bound(kept_.begin(), end, k,
+                                       [](const Kept& one, int number) { return one.k < number; });
   const double* from = kept.numbers.data();
   State<double>& state = *point;
   state.t = *from++;

@@ -9,17 +9,21 @@
 
 namespace codesign {
 
-/// The ends of the steps of an integration, for the backward pass of the adjoint. clear() keeps the memory for the next run.
+/// The ends of the steps of an integration, for the backward pass of the adjoint. clear() keeps the
+/// memory for the next run.
 ///
-/// If the path has more points than `most`, only every second point is stored, then every fourth, and so on. The backward pass repeats the
-/// steps between stored points; it stores their ends with make_room() and keep(), as far as memory allows.
+/// If the path has more points than `most`, only every second point is stored, then every fourth,
+/// and so on. The backward pass repeats the steps between stored points; it stores their ends with
+/// make_room() and keep(), as far as memory allows.
 class StepPath {
  public:
-  /// @param most largest number of stored points of an integration; there is room for as many repeated points. 0: what fits into 32 MB.
+  /// @param most largest number of stored points of an integration; there is room for as many
+  /// repeated points. 0: what fits into 32 MB.
   explicit StepPath(const Layout& layout, int most = 0);
 
   void clear();
-  /// Appends the end of a step of size h [s]; h = 0 for the start. @param tableau the method of the step.
+  /// Appends the end of a step of size h [s]; h = 0 for the start. @param tableau the method of the
+  /// step.
   void append(double h, const RosenbrockTableau& tableau, const State<double>& state);
 
   int size() const { return static_cast<int>(sizes_.size()); }
@@ -34,8 +38,8 @@ class StepPath {
   /// Reads a stored point k. @param point must have the sizes of the layout.
   void point(int k, State<double>* point) const;
 
-  /// Discards the stored points after `from`, unless the whole path is stored. @returns the spacing at which the points between `from` and
-  /// `to` can be stored.
+  /// Discards the stored points after `from`, unless the whole path is stored. @returns the spacing
+  /// at which the points between `from` and `to` can be stored.
   int make_room(int from, int to);
   /// Stores the repeated point k, which must be after all stored points.
   void keep(int k, const State<double>& point);
@@ -54,7 +58,8 @@ class StepPath {
   std::size_t most_;
   std::vector<double> sizes_;  ///< sizes of all steps [s]
   std::vector<const RosenbrockTableau*> tableaus_;
-  std::vector<Kept> kept_;  ///< the stored points, ascending, in the first `count_` entries; the others are spare memory
+  std::vector<Kept> kept_;  ///< the stored points, ascending, in the first `count_` entries; the
+                            ///< others are spare memory
   std::size_t count_ = 0;
   int stride_ = 1;  ///< every stride-th point of the integration is stored
 };

@@ -24,7 +24,8 @@ Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int 
 }  // namespace
 
 template <int N>
-TangentEquations<N>::TangentEquations(const CompiledSystem& system) : layout_(system.layout()), at_(layout_), equations_(system) {
+TangentEquations<N>::TangentEquations(const CompiledSystem& system)
+    : layout_(system.layout()), at_(layout_), equations_(system) {
   const ByVariable<Sparsity>& patterns = system.patterns();
   changes_.position.resize(N * patterns.position.column_index.size());
   changes_.velocity.resize(N * patterns.velocity.column_index.size());
@@ -34,34 +35,40 @@ TangentEquations<N>::TangentEquations(const CompiledSystem& system) : layout_(sy
 }
 
 template <int N>
-void TangentEquations<N>::run(EquationFunction function, const State<double>& state, const Directions<N>& y,
-                              const Out<double> (&results)[4]) {
-  equations_.compiled().tangents(function, state.t, state.turns, {state.q, state.v, state.s, state.z},
-                                 {y.part(at_.x(), at_.n), y.part(at_.v(), at_.n), y.part(at_.s(), at_.states), y.part(at_.z(), at_.z_size)},
+void TangentEquations<N>::run(EquationFunction function, const State<double>& state,
+                              const Directions<N>& y, const Out<double> (&results)[4]) {
+  equations_.compiled().tangents(function, state.t, state.turns,
+                                 {state.q, state.v, state.s, state.z},
+                                 {y.part(at_.x(), at_.n), y.part(at_.v(), at_.n),
+                                  y.part(at_.s(), at_.states), y.part(at_.z(), at_.z_size)},
                                  results);
 }
 
 template <int N>
-const State<Lanes<N>>& TangentEquations<N>::lanes(const State<double>& state, const Directions<N>& y) {
+const State<Lanes<N>>& TangentEquations<N>::lanes(const State<double>& state,
+                                                  const Directions<N>& y) {
   load_lanes(at_, state, y, &state_);
   return state_;
 }
 
 template <int N>
-void TangentEquations<N>::residual(const State<double>& state, const Directions<N>& y, Directions<N>* result) {
+void TangentEquations<N>::residual(const State<double>& state, const Directions<N>& y,
+                                   Directions<N>* result) {
   const int last = layout_.columns();
   result->resize(last + 1);
-  run(EquationFunction::kResidual, state, y, {result->part(0, last), result->part(last, 1), {}, {}});
+  run(EquationFunction::kResidual, state, y,
+      {result->part(0, last), result->part(last, 1), {}, {}});
 }
 
 template <int N>
 void TangentEquations<N>::linearize(const State<double>& state, const Directions<N>& y) {
-  run(EquationFunction::kLinearization, state, y, {changes_.position, changes_.velocity, changes_.rate, time_changes_});
+  run(EquationFunction::kLinearization, state, y,
+      {changes_.position, changes_.velocity, changes_.rate, time_changes_});
 }
 
 template <int N>
-void TangentEquations<N>::constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi,
-                                            Directions<N>* Phi_rate) {
+void TangentEquations<N>::constraint_errors(const State<double>& state, const Directions<N>& y,
+                                            Directions<N>* Phi, Directions<N>* Phi_rate) {
   Phi->resize(layout_.m);
   Phi_rate->resize(layout_.m);
   run(EquationFunction::kConstraintErrors, state, y, {*Phi, *Phi_rate, {}, {}});
@@ -87,7 +94,8 @@ TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTablea
 }
 
 template <int N>
-void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial) {
+void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly,
+                           const State<double>& initial) {
   equations_.equations().set_design(parameters);
   assembly.extend(parameters, initial, &equations_.equations(), &extension_, &start_);
   y_.setZero();
@@ -112,8 +120,8 @@ void TangentStep<N>::take_up(const State<double>& at, const State<Lanes<N>>& lan
 }
 
 template <int N>
-void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind,
-                          const Assembly& assembly) {
+void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<double>& before,
+                          const State<double>& behind, const Assembly& assembly) {
   point_ = equations_.lanes(before, y_);
   equations_.equations().jump(events, &point_);
   assembly.extend_rates(behind.z, &equations_.equations(), &extension_, &point_);
@@ -123,7 +131,8 @@ void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<d
 template <int N>
 void TangentStep<N>::combine(In<double> from, In<double> factors, int first, Out<double> to) const {
   const double* parts[RosenbrockTableau::kMaximumStages];
-  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = stages_[to_index(j)].data() + std::ptrdiff_t{N} * first;
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j)
+    parts[j] = stages_[to_index(j)].data() + std::ptrdiff_t{N} * first;
   codesign::combine(from, factors, parts, to);
 }
 
@@ -135,7 +144,8 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
   RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = tableau_->c[i][j] / h;
   const auto add = [&](const Directions<N>& from, int rate, int first, int size) {
-    combine(from.part(rate, size), In<double>(factors).first(to_signed(i)), first, u.part(first, size));
+    combine(from.part(rate, size), In<double>(factors).first(to_signed(i)), first,
+            u.part(first, size));
   };
   add(stage_y_, at_.z(), at_.v(), at_.n);
   add(stage_y_, at_.v(), at_.x(), at_.n);
@@ -150,8 +160,9 @@ void TangentStep<N>::stage_start(std::size_t i, double h) {
   for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) = hg * u.vector(at_.s() + k);
 }
 
-// (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z, with the integrand's row, for several stages at once: dG is by far the largest array,
-// so it is read as few times as possible. The increments u of the step are known.
+// (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z, with the integrand's row, for several stages
+// at once: dG is by far the largest array, so it is read as few times as possible. The increments u
+// of the step are known.
 template <int N>
 template <std::size_t together>
 void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
@@ -161,12 +172,16 @@ void TangentStep<N>::change_matrices(const RosenbrockStep<double>& step) {
     for (std::size_t k = 0; k < together; ++k) u[k] = step.increments()[first + k];
     for (int row = 0; row <= at_.z_size; ++row) {
       Vector sums[together] = {};
-      add_row_tangents<N, together>(patterns.position, equations_.changes().position, row, u, at_.x(), sums);
-      add_row_tangents<N, together>(patterns.velocity, equations_.changes().velocity, row, u, at_.v(), sums);
-      add_row_tangents<N, together>(patterns.rate, equations_.changes().rate, row, u, at_.z(), sums);
+      add_row_tangents<N, together>(patterns.position, equations_.changes().position, row, u,
+                                    at_.x(), sums);
+      add_row_tangents<N, together>(patterns.velocity, equations_.changes().velocity, row, u,
+                                    at_.v(), sums);
+      add_row_tangents<N, together>(patterns.rate, equations_.changes().rate, row, u, at_.z(),
+                                    sums);
       for (std::size_t k = 0; k < together; ++k)
         matrix_changes_[first + k].vector(row) =
-            sums[k] + (step.step_size() * tableau_->gamma_i[first + k]) * equations_.time_changes().vector(row);
+            sums[k] + (step.step_size() * tableau_->gamma_i[first + k]) *
+                          equations_.time_changes().vector(row);
     }
   }
 }
@@ -176,13 +191,15 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
   const double hg = step.step_size() * tableau_->gamma;
   const ByVariable<Sparsity>& patterns = system_.patterns();
   const Linearization<double>& matrices = step.derivatives();
-  combine(y_.part(0, at_.psi()), In<double>(tableau_->a[i]).first(to_signed(i)), 0, stage_y_.part(0, at_.psi()));
+  combine(y_.part(0, at_.psi()), In<double>(tableau_->a[i]).first(to_signed(i)), 0,
+          stage_y_.part(0, at_.psi()));
   equations_.residual(step.stages()[i], stage_y_, &residual_);
   stage_start(i, step.step_size());
   Directions<N>& u = stages_[i];
   const In<double> x = u.part(at_.x(), at_.x_size), v = u.part(at_.v(), at_.n);
   const Out<double> z = u.part(at_.z(), at_.z_size);
-  for (int row = 0; row < at_.z_size; ++row) u.vector(at_.z() + row) = -(residual_.vector(row) + matrix_changes_[i].vector(row));
+  for (int row = 0; row < at_.z_size; ++row)
+    u.vector(at_.z() + row) = -(residual_.vector(row) + matrix_changes_[i].vector(row));
   step.product().template subtract<N>(matrices, u.part(0, at_.z()), z);
   step.stage_matrix().lu().template solve_rows<N>(z);
   for (int k = 0; k < at_.n; ++k) {
@@ -191,7 +208,8 @@ void TangentStep<N>::stage_tangent(std::size_t i, const RosenbrockStep<double>& 
     u.vector(at_.x() + k) += hg * change;
   }
   for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) += hg * u.vector(at_.sigma() + k);
-  Vector psi = residual_.vector(at_.z_size) + matrix_changes_[i].vector(at_.z_size) + u.vector(at_.psi());
+  Vector psi =
+      residual_.vector(at_.z_size) + matrix_changes_[i].vector(at_.z_size) + u.vector(at_.psi());
   add_row_product<N>(patterns.position, matrices.position, at_.z_size, x, &psi);
   add_row_product<N>(patterns.velocity, matrices.velocity, at_.z_size, v, &psi);
   add_row_product<N>(patterns.rate, matrices.rate, at_.z_size, z, &psi);
@@ -203,7 +221,8 @@ template <int N>
 void TangentStep<N>::explicit_stage(std::size_t i, RosenbrockStep<double>* step) {
   const double h = step->step_size();
   const int z_size = at_.z_size;
-  combine(y_.part(0, at_.z()), In<double>(tableau_->a[i]).first(to_signed(i)), 0, stage_y_.part(0, at_.z()));
+  combine(y_.part(0, at_.z()), In<double>(tableau_->a[i]).first(to_signed(i)), 0,
+          stage_y_.part(0, at_.z()));
   for (int k = 0; k < z_size; ++k) stage_y_.vector(at_.z() + k) = Vector{};
   equations_.residual(step->stages()[i], stage_y_, &residual_);
   const Out<double> z = stage_y_.part(at_.z(), z_size);
@@ -223,7 +242,8 @@ void TangentStep<N>::explicit_stage(std::size_t i, RosenbrockStep<double>* step)
     u.vector(at_.v() + k) = h * stage_y_.vector(at_.z() + k);
   }
   for (int k = 0; k < at_.states; ++k) u.vector(at_.s() + k) = h * stage_y_.vector(at_.sigma() + k);
-  for (int k = 0; k < z_size; ++k) u.vector(at_.z() + k) = stage_y_.vector(at_.z() + k) - y_.vector(at_.z() + k);
+  for (int k = 0; k < z_size; ++k)
+    u.vector(at_.z() + k) = stage_y_.vector(at_.z() + k) - y_.vector(at_.z() + k);
 }
 
 template <int N>
@@ -254,12 +274,13 @@ void TangentStep<N>::attempt(RosenbrockStep<double>* step) {
 template <int N>
 double TangentStep<N>::error(double relative_tolerance) const {
   const Directions<N>& u = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
-  const auto ratio = [](const Eigen::Array<double, N, 1>& squares, const Eigen::Array<double, N, 1>& size) {
+  const auto ratio = [](const Eigen::Array<double, N, 1>& squares,
+                        const Eigen::Array<double, N, 1>& size) {
     // A parameter without influence on the motion has no error.
     return (size > 0.0).select(squares / size, 0.0).maxCoeff();
   };
-  const double largest =
-      std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_), ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
+  const double largest = std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_),
+                                  ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
   return std::sqrt(largest) / relative_tolerance;
 }
 
@@ -269,9 +290,11 @@ void TangentStep<N>::measure() {
   largest_v_ = largest_v_.max(squared_norms(y_, at_.v(), at_.n));
 }
 
-// Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds delta' to the directions at `target`.
+// Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds
+// delta' to the directions at `target`.
 template <int N>
-void TangentStep<N>::project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target) {
+void TangentStep<N>::project(const VectorX<double>& correction, const Directions<N>& errors,
+                             const SparseLu& lu, Out<double> target) {
   assert(target.size() == N * layout_.n);
   for (int row = 0; row < at_.z_size; ++row) {
     Vector sum[1] = {};
@@ -321,29 +344,36 @@ void TangentStep<N>::interpolate(const RosenbrockStep<double>& step, double time
   const double h = step.step_size(), theta = h > 0.0 ? (time - step.previous().t) / h : 1.0;
   const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
   const int size = at_.psi();
-  for (int k = 0; k < size; ++k) stage_y_.vector(k) = (1.0 - theta) * previous_y_.vector(k) + theta * y_.vector(k);
-  combine(stage_y_.part(0, size), In<double>(weights).first(tableau_->stages), 0, stage_y_.part(0, size));
+  for (int k = 0; k < size; ++k)
+    stage_y_.vector(k) = (1.0 - theta) * previous_y_.vector(k) + theta * y_.vector(k);
+  combine(stage_y_.part(0, size), In<double>(weights).first(tableau_->stages), 0,
+          stage_y_.part(0, size));
   if (tableau_->is_explicit())
-    combine(previous_y_.part(at_.z(), at_.z_size), In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), at_.z(),
+    combine(previous_y_.part(at_.z(), at_.z_size),
+            In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), at_.z(),
             stage_y_.part(at_.z(), at_.z_size));
 }
 
 template <int N>
-Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state,
-                                                    bool reads_rates, const Assembly& assembly) {
+Eigen::Matrix<double, N, 1> TangentStep<N>::watched(std::size_t k,
+                                                    const RosenbrockStep<double>& step,
+                                                    const State<double>& state, bool reads_rates,
+                                                    const Assembly& assembly) {
   go_to(step, state, reads_rates, assembly);
   return equations_.equations().watched(k, point_).directions();
 }
 
 template <int N>
-void TangentStep<N>::go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly) {
+void TangentStep<N>::go_to(const RosenbrockStep<double>& step, const State<double>& state,
+                           bool reads_rates, const Assembly& assembly) {
   interpolate(step, state.t);
   point_ = equations_.lanes(state, stage_y_);
   if (reads_rates) assembly.extend_rates(state.z, &equations_.equations(), &extension_, &point_);
 }
 
 template <int N>
-void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
+void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State<double>& state,
+                                 bool reads_rates, const Assembly& assembly,
                                  Directions<N>* signals) {
   go_to(step, state, reads_rates, assembly);
   signals->resize(to_signed(system_.watched().size()));
@@ -352,7 +382,8 @@ void TangentStep<N>::all_watched(const RosenbrockStep<double>& step, const State
 }
 
 template <int N>
-void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals) {
+void TangentStep<N>::integral_residuals(const RosenbrockStep<double>& step,
+                                        const State<double>& state, Directions<N>* residuals) {
   interpolate(step, state.t);
   differentiate_residuals(ObjectivePart::kIntegral, equations_.lanes(state, stage_y_), residuals);
 }
@@ -363,7 +394,8 @@ void TangentStep<N>::terminal_residuals(const State<double>& state, Directions<N
 }
 
 template <int N>
-void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals) {
+void TangentStep<N>::differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state,
+                                             Directions<N>* residuals) {
   VectorX<Lanes<N>>& terms = objective_residuals_[to_index(part)];
   equations_.equations().residuals(part, state, &terms);
   residuals->resize(terms.size());

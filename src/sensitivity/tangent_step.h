@@ -13,8 +13,9 @@
 
 namespace codesign {
 
-/// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by the recorded equations. A prime denotes a
-/// directional derivative; only derivatives are returned, not values. No allocation once warm.
+/// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by the
+/// recorded equations. A prime denotes a directional derivative; only derivatives are returned, not
+/// values. No allocation once warm.
 template <int N>
 class TangentEquations {
  public:
@@ -23,22 +24,26 @@ class TangentEquations {
   /// The equations with lanes, which hold the design with its directions.
   Equations<Lanes<N>>& equations() { return equations_; }
 
-  /// G', one column per row of G, and g' in the last column. @param y directions of the state, in the order of IncrementLayout.
+  /// G', one column per row of G, and g' in the last column. @param y directions of the state, in
+  /// the order of IncrementLayout.
   void residual(const State<double>& state, const Directions<N>& y, Directions<N>* result);
 
-  /// Computes the changes dG_q, dG_v and dG_z, integrand's row included, on CompiledSystem::patterns() with N numbers per entry, and dG_t.
+  /// Computes the changes dG_q, dG_v and dG_z, integrand's row included, on
+  /// CompiledSystem::patterns() with N numbers per entry, and dG_t.
   void linearize(const State<double>& state, const Directions<N>& y);
   const ByVariable<LineVector>& changes() const { return changes_; }
   const Directions<N>& time_changes() const { return time_changes_; }
 
   /// Phi' and (Phi_q v)'.
-  void constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi, Directions<N>* Phi_rate);
+  void constraint_errors(const State<double>& state, const Directions<N>& y, Directions<N>* Phi,
+                         Directions<N>* Phi_rate);
 
   /// The state with its directions in lanes, valid until the next call.
   const State<Lanes<N>>& lanes(const State<double>& state, const Directions<N>& y);
 
  private:
-  void run(EquationFunction function, const State<double>& state, const Directions<N>& y, const Out<double> (&results)[4]);
+  void run(EquationFunction function, const State<double>& state, const Directions<N>& y,
+           const Out<double> (&results)[4]);
 
   const Layout& layout_;
   const IncrementLayout at_;
@@ -48,61 +53,76 @@ class TangentEquations {
   State<Lanes<N>> state_;  ///< of lanes()
 };
 
-/// The exact derivative of RosenbrockStep by N parameters at once, with step sizes held fixed; doc/theory.md (18).
+/// The exact derivative of RosenbrockStep by N parameters at once, with step sizes held fixed;
+/// doc/theory.md (18).
 ///
-/// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated including the derivative of E:
-///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v' + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z),
-/// with dG_x the change of G_x along (y', e_k). E is solved with the factorization of the step. At the stages of an explicit pair, G = 0
-/// gives G_z z' = -G' with G' at fixed z.
+/// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated including the
+/// derivative of E:
+///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v' + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z)
+///   u_z),
+/// with dG_x the change of G_x along (y', e_k). E is solved with the factorization of the step. At
+/// the stages of an explicit pair, G = 0 gives G_z z' = -G' with G' at fixed z.
 template <int N>
 class TangentStep {
  public:
   TangentStep(const CompiledSystem& system, const RosenbrockTableau& tableau);
 
-  /// Whether watched() and integral_residuals() will be called, which need the sensitivities at the beginning of the last step; from the
-  /// next start() on.
+  /// Whether watched() and integral_residuals() will be called, which need the sensitivities at the
+  /// beginning of the last step; from the next start() on.
   void keep_previous(bool keep) { keeps_previous_ = keep; }
-  /// Starts with the initial sensitivities, (20). @param parameters all named parameters, with the directions of the N parameters in the
-  /// lanes.
+  /// Starts with the initial sensitivities, (20). @param parameters all named parameters, with the
+  /// directions of the N parameters in the lanes.
   /// @param assembly that found `initial`. @param step started at `initial`.
-  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly, const State<double>& initial);
+  void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly,
+             const State<double>& initial);
 
-  /// Computes the tangent of the stages of the step's last attempt. @param step of an explicit pair receives the factorization of a stage.
+  /// Computes the tangent of the stages of the step's last attempt. @param step of an explicit pair
+  /// receives the factorization of a stage.
   void attempt(RosenbrockStep<double>* step);
-  /// Scaled error of the last attempt, acceptable up to 1: the largest |u'_last| / (tolerance |y'|) over the parameters, with norms over
-  /// positions or over velocities and the largest |y'| so far.
+  /// Scaled error of the last attempt, acceptable up to 1: the largest |u'_last| / (tolerance |y'|)
+  /// over the parameters, with norms over positions or over velocities and the largest |y'| so far.
   double error(double relative_tolerance) const;
-  /// Accepts the last attempt: computes the tangent of its end and projection. To be called after RosenbrockStep::accept().
+  /// Accepts the last attempt: computes the tangent of its end and projection. To be called after
+  /// RosenbrockStep::accept().
   void accept(const RosenbrockStep<double>& step);
 
-  /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q, v, s)) and of the rates that belong to
-  /// it. @param assembly that solved for the rates of `behind`. @param behind the state after the jump, where the step begins anew.
-  void jump(const std::vector<ControlEvent>& events, const State<double>& before, const State<double>& behind, const Assembly& assembly);
+  /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q,
+  /// v, s)) and of the rates that belong to it. @param assembly that solved for the rates of
+  /// `behind`. @param behind the state after the jump, where the step begins anew.
+  void jump(const std::vector<ControlEvent>& events, const State<double>& before,
+            const State<double>& behind, const Assembly& assembly);
 
-  /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms at `state`, the end of the last step.
+  /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms
+  /// at `state`, the end of the last step.
   Eigen::Matrix<double, N, 1> psi() const { return y_.col(at_.psi()); }
   Eigen::Matrix<double, N, 1> terminal(const State<double>& state);
 
-  /// Derivatives of the k-th watched signal, theory (21a), at `state`, a point of the dense output of the last accepted step, with z solved
-  /// for by `assembly` if the signal depends on it. Only with keep_previous().
-  Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
+  /// Derivatives of the k-th watched signal, theory (21a), at `state`, a point of the dense output
+  /// of the last accepted step, with z solved for by `assembly` if the signal depends on it. Only
+  /// with keep_previous().
+  Eigen::Matrix<double, N, 1> watched(std::size_t k, const RosenbrockStep<double>& step,
+                                      const State<double>& state, bool reads_rates,
                                       const Assembly& assembly);
 
   /// The same for all watched signals, one column per signal.
-  void all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly,
-                   Directions<N>* signals);
+  void all_watched(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
+                   const Assembly& assembly, Directions<N>* signals);
 
-  /// Derivatives of the residuals of the integrand's terms, theory (22a), at a point of the dense output, with the accelerations and
-  /// multipliers of the dense output: one column per term. Only with keep_previous().
-  void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state, Directions<N>* residuals);
+  /// Derivatives of the residuals of the integrand's terms, theory (22a), at a point of the dense
+  /// output, with the accelerations and multipliers of the dense output: one column per term. Only
+  /// with keep_previous().
+  void integral_residuals(const RosenbrockStep<double>& step, const State<double>& state,
+                          Directions<N>* residuals);
   /// The same for the terminal terms at `state`, the end of the last step.
   void terminal_residuals(const State<double>& state, Directions<N>* residuals);
 
-  /// Derivatives of the state at the end of the last accepted step, in the order of IncrementLayout.
+  /// Derivatives of the state at the end of the last accepted step, in the order of
+  /// IncrementLayout.
   const Directions<N>& directions() const { return y_; }
 
  private:
-  /// Takes the directions of `lanes`, which have the same values as `at`, and begins the next step there.
+  /// Takes the directions of `lanes`, which have the same values as `at`, and begins the next step
+  /// there.
   void take_up(const State<double>& at, const State<Lanes<N>>& lanes);
   using Vector = typename Lanes<N>::Vector;
   /// to = from + sum of factors[j] u'_j, for the components of u' from the `first` on.
@@ -119,11 +139,14 @@ class TangentStep {
   /// Sets stage_y_ to the derivatives at `time` within the last step.
   void interpolate(const RosenbrockStep<double>& step, double time);
   /// Sets point_ to the state of the dense output with its derivatives.
-  void go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates, const Assembly& assembly);
-  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state, Directions<N>* residuals);
+  void go_to(const RosenbrockStep<double>& step, const State<double>& state, bool reads_rates,
+             const Assembly& assembly);
+  void differentiate_residuals(ObjectivePart part, const State<Lanes<N>>& state,
+                               Directions<N>* residuals);
   /// Projects the derivatives at the end of a step, (17), as the step does its state.
   void project(const RosenbrockStep<double>& step);
-  void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu, Out<double> target);
+  void project(const VectorX<double>& correction, const Directions<N>& errors, const SparseLu& lu,
+               Out<double> target);
 
   const CompiledSystem& system_;
   const Layout& layout_;
@@ -132,9 +155,11 @@ class TangentStep {
   TangentEquations<N> equations_;
   State<double> projected_;
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_, estimate_;
-  Directions<N> previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
+  Directions<N>
+      previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
   bool keeps_previous_ = false;
-  bool has_changes_ = false;                              ///< whether the changes of the matrices are those with which the next step begins
+  bool has_changes_ =
+      false;  ///< whether the changes of the matrices are those with which the next step begins
   std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
   State<Lanes<N>> start_;                             ///< with the initial sensitivities

@@ -24,7 +24,8 @@ double largest_column(const SparseMatrix& A) {
 void copy_columns(const SparseMatrix& A, const std::vector<int>& columns, Eigen::MatrixXd* to) {
   to->setZero();
   for (std::size_t k = 0; k < columns.size(); ++k)
-    for (SparseMatrix::InnerIterator entry(A, columns[k]); entry; ++entry) (*to)(entry.row(), to_signed(k)) = entry.value();
+    for (SparseMatrix::InnerIterator entry(A, columns[k]); entry; ++entry)
+      (*to)(entry.row(), to_signed(k)) = entry.value();
 }
 
 Eigen::Index count(const std::vector<int>& columns) { return to_signed(columns.size()); }
@@ -34,15 +35,18 @@ std::vector<int> ascending(std::vector<int> columns) {
   return columns;
 }
 
-std::vector<int> first_independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
+std::vector<int> first_independent_columns(const SparseMatrix& A,
+                                           const ColumnPreferences& preferences, double tolerance) {
   std::vector<int> order;
-  for (const std::vector<int>& candidates : preferences) order.insert(order.end(), candidates.begin(), candidates.end());
+  for (const std::vector<int>& candidates : preferences)
+    order.insert(order.end(), candidates.begin(), candidates.end());
   SparseQr qr;
   qr.factor(columns_of(A, order), tolerance * largest_column(A), SparseQr::Ordering::kNatural);
   const std::vector<int> dependent = qr.dependent();
   std::vector<int> chosen;
   for (std::size_t k = 0; k < order.size(); ++k)
-    if (!std::binary_search(dependent.begin(), dependent.end(), static_cast<int>(k))) chosen.push_back(order[k]);
+    if (!std::binary_search(dependent.begin(), dependent.end(), static_cast<int>(k)))
+      chosen.push_back(order[k]);
   return ascending(chosen);
 }
 
@@ -125,7 +129,8 @@ void SparseQr::factor(const SparseMatrix& A, double tolerance, Ordering ordering
   to.columns = A.cols();
   SparseView view(A);
   const int order = ordering == Ordering::kNatural ? SPQR_ORDERING_FIXED : SPQR_ORDERING_COLAMD;
-  to.factors = Implementation::require(SuiteSparseQR_factorize<double>(order, tolerance, view.get(), &to.common));
+  to.factors = Implementation::require(
+      SuiteSparseQR_factorize<double>(order, tolerance, view.get(), &to.common));
 }
 
 std::vector<int> SparseQr::dependent() const {
@@ -133,7 +138,8 @@ std::vector<int> SparseQr::dependent() const {
   const Implementation::Factors* const factors = implementation_->factors;
   if (!factors || factors->rank >= implementation_->columns) return columns;
   for (Eigen::Index k = 0; k < implementation_->columns; ++k)
-    if (factors->Rmap[k] >= factors->rank) columns.push_back(static_cast<int>(factors->Q1fill ? factors->Q1fill[k] : k));
+    if (factors->Rmap[k] >= factors->rank)
+      columns.push_back(static_cast<int>(factors->Q1fill ? factors->Q1fill[k] : k));
   std::sort(columns.begin(), columns.end());
   return columns;
 }
@@ -150,10 +156,14 @@ Eigen::MatrixXd SparseQr::solve(const Eigen::MatrixXd& b) const {
   view.dtype = CHOLMOD_DOUBLE;
   const auto release = [common](cholmod_dense* matrix) { cholmod_l_free_dense(&matrix, common); };
   using Handle = std::unique_ptr<cholmod_dense, decltype(release)>;
-  const Handle rotated(Implementation::require(SuiteSparseQR_qmult<double>(SPQR_QTX, implementation_->factors, &view, common)), release);
-  const Handle x(Implementation::require(SuiteSparseQR_solve<double>(SPQR_RETX_EQUALS_B, implementation_->factors, rotated.get(), common)),
+  const Handle rotated(Implementation::require(SuiteSparseQR_qmult<double>(
+                           SPQR_QTX, implementation_->factors, &view, common)),
+                       release);
+  const Handle x(Implementation::require(SuiteSparseQR_solve<double>(
+                     SPQR_RETX_EQUALS_B, implementation_->factors, rotated.get(), common)),
                  release);
-  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), to_signed(x->nrow), b.cols());
+  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), to_signed(x->nrow),
+                                           b.cols());
 }
 
 struct LeastSquares::Implementation {
@@ -180,7 +190,8 @@ void LeastSquares::factor(const SparseMatrix& A, double tolerance) {
   implementation_->sparse_factors.factor(A, tolerance * largest_column(A));
 }
 
-void LeastSquares::factor(const SparseMatrix& A, const std::vector<int>& columns, double tolerance) {
+void LeastSquares::factor(const SparseMatrix& A, const std::vector<int>& columns,
+                          double tolerance) {
   if (count(columns) > kDense) return factor(columns_of(A, columns), tolerance);
   implementation_->columns = count(columns);
   implementation_->dense = true;
@@ -194,7 +205,8 @@ Eigen::MatrixXd LeastSquares::solve(const Eigen::MatrixXd& b) const {
   return solve(b, &workspace);
 }
 
-Eigen::MatrixXd& LeastSquares::solve(const Eigen::MatrixXd& b, LeastSquaresWorkspace* workspace) const {
+Eigen::MatrixXd& LeastSquares::solve(const Eigen::MatrixXd& b,
+                                     LeastSquaresWorkspace* workspace) const {
   if (b.rows() > 0 && implementation_->columns > 0 && implementation_->dense)
     return implementation_->dense_factors.solve(b, &workspace->dense);
   if (b.rows() == 0 || implementation_->columns == 0)
@@ -204,7 +216,9 @@ Eigen::MatrixXd& LeastSquares::solve(const Eigen::MatrixXd& b, LeastSquaresWorks
   return workspace->other;
 }
 
-const std::vector<int>& IndependentColumns::choose(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
+const std::vector<int>& IndependentColumns::choose(const SparseMatrix& A,
+                                                   const ColumnPreferences& preferences,
+                                                   double tolerance) {
   chosen_.clear();
   if (A.rows() == 0 || A.cols() == 0) return chosen_;
   if (A.cols() <= kDense)
@@ -215,7 +229,8 @@ const std::vector<int>& IndependentColumns::choose(const SparseMatrix& A, const 
   return chosen_;
 }
 
-void IndependentColumns::choose_dense(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
+void IndependentColumns::choose_dense(const SparseMatrix& A, const ColumnPreferences& preferences,
+                                      double tolerance) {
   qr_.matrix(A.rows(), A.cols()) = A;
   qr_.factor(tolerance);
   const Eigen::Index rank = qr_.rank();
@@ -238,7 +253,8 @@ void IndependentColumns::choose_dense(const SparseMatrix& A, const ColumnPrefere
   }
 }
 
-std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance) {
+std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences,
+                                     double tolerance) {
   return IndependentColumns().choose(A, preferences, tolerance);
 }
 
@@ -250,8 +266,8 @@ std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance) {
     std::iota(dependent.begin(), dependent.end(), 0);
   } else if (A.cols() <= 2 * kDense) {
     const PivotedColumns pivots = pivot_columns(Eigen::MatrixXd(A), tolerance);
-    const auto zero =
-        std::find_if(pivots.diagonal.begin(), pivots.diagonal.end(), [tolerance](double pivot) { return !(pivot > tolerance); });
+    const auto zero = std::find_if(pivots.diagonal.begin(), pivots.diagonal.end(),
+                                   [tolerance](double pivot) { return !(pivot > tolerance); });
     dependent.assign(pivots.order.begin() + (zero - pivots.diagonal.begin()), pivots.order.end());
   } else {
     SparseQr qr;

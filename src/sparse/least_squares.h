@@ -17,8 +17,9 @@ struct LeastSquaresWorkspace {
   Eigen::MatrixXd other;  ///< a solution that is not dense, or of nothing
 };
 
-/// Minimizes |A x - b| (2-norm) for a sparse matrix of any rank. Up to 256 columns it uses a complete orthogonal decomposition and returns
-/// the x of least norm; beyond that a sparse QR factorization, whose x has at most as many nonzeros as the rank.
+/// Minimizes |A x - b| (2-norm) for a sparse matrix of any rank. Up to 256 columns it uses a
+/// complete orthogonal decomposition and returns the x of least norm; beyond that a sparse QR
+/// factorization, whose x has at most as many nonzeros as the rank.
 class LeastSquares {
  public:
   LeastSquares();
@@ -28,7 +29,8 @@ class LeastSquares {
 
   /// @param tolerance pivots below this, relative to the largest column of A, count as zero.
   void factor(const SparseMatrix& A, double tolerance);
-  /// The same for some columns of A, in the order given. Allocates nothing where the decomposition is dense and its shape was had before.
+  /// The same for some columns of A, in the order given. Allocates nothing where the decomposition
+  /// is dense and its shape was had before.
   void factor(const SparseMatrix& A, const std::vector<int>& columns, double tolerance);
   /// The solution for each column of b; A.cols() x b.cols(). After factor().
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
@@ -40,16 +42,20 @@ class LeastSquares {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Lists of column indices in order of preference: columns of an earlier list are preferred to columns of a later list.
+/// Lists of column indices in order of preference: columns of an earlier list are preferred to
+/// columns of a later list.
 using ColumnPreferences = std::vector<std::vector<int>>;
 
-/// A maximal set of independent columns that prefers earlier lists; indices in ascending order. Within a list, matrices of up to 256
-/// columns yield the best conditioned columns (pivoted QR), larger ones the first.
-/// Allocates nothing, up to 256 columns, for matrices of shapes that it has had before.
+/// A maximal set of independent columns that prefers earlier lists; indices in ascending order.
+/// Within a list, matrices of up to 256 columns yield the best conditioned columns (pivoted QR),
+/// larger ones the first. Allocates nothing, up to 256 columns, for matrices of shapes that it has
+/// had before.
 class IndependentColumns {
  public:
-  /// @param tolerance as for LeastSquares::factor(). @returns indices that are valid until the next call.
-  const std::vector<int>& choose(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
+  /// @param tolerance as for LeastSquares::factor(). @returns indices that are valid until the next
+  /// call.
+  const std::vector<int>& choose(const SparseMatrix& A, const ColumnPreferences& preferences,
+                                 double tolerance);
 
  private:
   void choose_dense(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
@@ -61,18 +67,22 @@ class IndependentColumns {
   Eigen::MatrixXd projection_;
 };
 /// The same, once.
-std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences, double tolerance);
+std::vector<int> independent_columns(const SparseMatrix& A, const ColumnPreferences& preferences,
+                                     double tolerance);
 
-/// The columns that depend on the others according to a pivoted QR factorization (sparse beyond 512 columns); indices in ascending order.
-/// @param tolerance a column depends on the others if the norm of its remainder is not above this (absolute).
+/// The columns that depend on the others according to a pivoted QR factorization (sparse beyond 512
+/// columns); indices in ascending order.
+/// @param tolerance a column depends on the others if the norm of its remainder is not above this
+/// (absolute).
 std::vector<int> dependent_columns(const SparseMatrix& A, double tolerance);
 
 /// Some columns of a matrix, in the order given.
 SparseMatrix columns_of(const SparseMatrix& A, const std::vector<int>& columns);
 
-/// A rank-revealing QR factorization A E = Q R of a sparse matrix by SuiteSparse's SPQR (multifrontal, with dense kernels; its cost grows
-/// with the fill of R). A column whose remainder after projection onto the columns before it has a norm below the tolerance counts as
-/// dependent (Heath's method).
+/// A rank-revealing QR factorization A E = Q R of a sparse matrix by SuiteSparse's SPQR
+/// (multifrontal, with dense kernels; its cost grows with the fill of R). A column whose remainder
+/// after projection onto the columns before it has a norm below the tolerance counts as dependent
+/// (Heath's method).
 class SparseQr {
  public:
   enum class Ordering {
@@ -91,7 +101,8 @@ class SparseQr {
   /// Indices of the dependent columns, ascending.
   std::vector<int> dependent() const;
 
-  /// For each column of b the x that minimizes |A x - b| with zeros for the dependent columns; A.cols() x b.cols(). @throws std::bad_alloc
+  /// For each column of b the x that minimizes |A x - b| with zeros for the dependent columns;
+  /// A.cols() x b.cols(). @throws std::bad_alloc
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
  private:

@@ -17,7 +17,8 @@ constexpr int kWidest = 8;
 
 }  // namespace
 
-LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start, const std::vector<int>& row_index, bool machine_code)
+LuSchedule::LuSchedule(const LuPattern& pattern, const std::vector<int>& column_start,
+                       const std::vector<int>& row_index, bool machine_code)
     : n_(pattern.row_of.size()),
       row_of_(pattern.row_of),
       column_of_(pattern.column_of),
@@ -35,7 +36,8 @@ bool LuSchedule::rescale(const LuPattern& pattern) {
   // Each entry of A is in a slot of the row of one pivot; source_scale_ has the scale of that row.
   for (std::size_t k = 0; k < n_; ++k) inverse_scale_[k] = 1.0 / pattern.row_scale[k];
   for (std::size_t e = 0; e < source_slot_.size(); ++e) {
-    const auto row = std::upper_bound(start_.begin(), start_.end(), source_slot_[e]) - start_.begin() - 1;
+    const auto row =
+        std::upper_bound(start_.begin(), start_.end(), source_slot_[e]) - start_.begin() - 1;
     source_scale_[e] = inverse_scale_[to_index(static_cast<int>(row))];
   }
   return true;
@@ -62,7 +64,8 @@ void LuSchedule::lay_out(const LuPattern& pattern) {
   factors_.resize(column_.size());
 }
 
-void LuSchedule::place_sources(const std::vector<int>& column_start, const std::vector<int>& row_index) {
+void LuSchedule::place_sources(const std::vector<int>& column_start,
+                               const std::vector<int>& row_index) {
   std::vector<int> pivot_of_row(n_);
   for (std::size_t k = 0; k < n_; ++k) pivot_of_row[to_index(row_of_[k])] = static_cast<int>(k);
   source_slot_.resize(row_index.size());
@@ -71,8 +74,10 @@ void LuSchedule::place_sources(const std::vector<int>& column_start, const std::
     const std::size_t column = to_index(column_of_[k]);
     for (int e = column_start[column]; e < column_start[column + 1]; ++e) {
       const std::size_t pivot = to_index(pivot_of_row[to_index(row_index[to_index(e)])]);
-      const auto first = column_.begin() + start_[pivot], last = column_.begin() + start_[pivot + 1];
-      source_slot_[to_index(e)] = static_cast<int>(std::lower_bound(first, last, static_cast<int>(k)) - column_.begin());
+      const auto first = column_.begin() + start_[pivot],
+                 last = column_.begin() + start_[pivot + 1];
+      source_slot_[to_index(e)] =
+          static_cast<int>(std::lower_bound(first, last, static_cast<int>(k)) - column_.begin());
       source_scale_[to_index(e)] = inverse_scale_[pivot];
     }
   }
@@ -83,7 +88,8 @@ void LuSchedule::list_targets() {
   std::vector<int> slot(n_);
   std::size_t products = 0;
   for (int l : multiplier_)
-    products += to_index(start_[to_index(column_[to_index(l)]) + 1] - diagonal_[to_index(column_[to_index(l)])] - 1);
+    products += to_index(start_[to_index(column_[to_index(l)]) + 1] -
+                         diagonal_[to_index(column_[to_index(l)])] - 1);
   // Lists that are certainly too long for machine code are not even generated.
   if (products > StraightLine::kMostProducts) elimination_ = LazyStraightLine(false);
   if (column_.size() > StraightLine::kMostProducts) solution_ = LazyStraightLine(false);
@@ -96,7 +102,8 @@ void LuSchedule::list_targets() {
     for (int e = start_[k]; e < start_[k + 1]; ++e) slot[to_index(column_[to_index(e)])] = e;
     for (int l = start_[k]; l < diagonal_[k]; ++l) {
       const std::size_t j = to_index(column_[to_index(l)]);
-      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u) target_.push_back(slot[to_index(column_[to_index(u)])]);
+      for (int u = diagonal_[j] + 1; u < start_[j + 1]; ++u)
+        target_.push_back(slot[to_index(column_[to_index(u)])]);
     }
   }
 }
@@ -108,18 +115,21 @@ constexpr int kValues = 0, kRightHandSides = 0, kFactors = 1, kScales = 2, kWork
 
 }  // namespace
 
-// Entry (k, c) of L or U is a scaled entry of A minus the products of the entries of L to its left in row k with the entries of U above it
-// in column c; entries of L are then divided by the pivot of their column.
+// Entry (k, c) of L or U is a scaled entry of A minus the products of the entries of L to its left
+// in row k with the entries of U above it in column c; entries of L are then divided by the pivot
+// of their column.
 std::vector<Sum> LuSchedule::elimination_sums() const {
   std::vector<Sum> sums(factors_.size());
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) sums[to_index(source_slot_[e])].start = {kValues, static_cast<int>(e)};
+  for (std::size_t e = 0; e < source_slot_.size(); ++e)
+    sums[to_index(source_slot_[e])].start = {kValues, static_cast<int>(e)};
   std::size_t next = 0;
   for (std::size_t k = 0; k < n_; ++k) {
     const Place row_scale{kScales, static_cast<int>(k)};
     for (int e = start_[k]; e < start_[k + 1]; ++e) {
       sums[to_index(e)].target = {kFactors, e};
       if (sums[to_index(e)].start.array >= 0) sums[to_index(e)].start_scale = row_scale;
-      if (e < diagonal_[k]) sums[to_index(e)].scale = {kFactors, diagonal_[to_index(column_[to_index(e)])]};
+      if (e < diagonal_[k])
+        sums[to_index(e)].scale = {kFactors, diagonal_[to_index(column_[to_index(e)])]};
     }
     for (int l = start_[k]; l < diagonal_[k]; ++l) {
       const std::size_t j = to_index(column_[to_index(l)]);
@@ -134,15 +144,28 @@ std::vector<Sum> LuSchedule::elimination_sums() const {
 std::vector<Sum> LuSchedule::solution_sums() const {
   std::vector<Sum> sums;
   for (std::size_t k = 0; k < n_; ++k) {
-    Sum sum{{kWork, static_cast<int>(k)}, {kRightHandSides, row_of_[k]}, {kScales, static_cast<int>(k)}, {}, false, {}};
-    for (int e = start_[k]; e < diagonal_[k]; ++e) sum.products.push_back({{kWork, column_[to_index(e)]}, {kFactors, e}});
+    Sum sum{{kWork, static_cast<int>(k)},
+            {kRightHandSides, row_of_[k]},
+            {kScales, static_cast<int>(k)},
+            {},
+            false,
+            {}};
+    for (int e = start_[k]; e < diagonal_[k]; ++e)
+      sum.products.push_back({{kWork, column_[to_index(e)]}, {kFactors, e}});
     sums.push_back(std::move(sum));
   }
   for (std::size_t k = n_; k-- > 0;) {
-    Sum sum{{kRightHandSides, column_of_[k]}, {kWork, static_cast<int>(k)}, {}, {kFactors, diagonal_[k]}, false, {}};
-    // Descending: the component that was computed last is needed last, so that the sum need not wait for it.
+    Sum sum{{kRightHandSides, column_of_[k]},
+            {kWork, static_cast<int>(k)},
+            {},
+            {kFactors, diagonal_[k]},
+            false,
+            {}};
+    // Descending: the component that was computed last is needed last, so that the sum need not
+    // wait for it.
     for (int e = start_[k + 1]; e-- > diagonal_[k] + 1;)
-      sum.products.push_back({{kRightHandSides, column_of_[to_index(column_[to_index(e)])]}, {kFactors, e}});
+      sum.products.push_back(
+          {{kRightHandSides, column_of_[to_index(column_[to_index(e)])]}, {kFactors, e}});
     sums.push_back(std::move(sum));
   }
   return sums;
@@ -160,7 +183,8 @@ LuSchedule::Quality LuSchedule::refactor(In<double> values) {
 LuSchedule::Quality LuSchedule::quality() const {
   Quality quality;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
-  for (int place : multiplier_) quality.growth = std::max(quality.growth, std::abs(factors_[to_index(place)]));
+  for (int place : multiplier_)
+    quality.growth = std::max(quality.growth, std::abs(factors_[to_index(place)]));
   for (int diagonal : diagonal_) {
     const double inverse = std::abs(factors_[to_index(diagonal)]);
     // A vanished pivot has an infinite inverse; inf - inf and NaN - NaN make the growth NaN.
@@ -172,13 +196,15 @@ LuSchedule::Quality LuSchedule::quality() const {
   return quality;
 }
 
-/// Eliminates row by row: for each entry of L in a row, that multiple of the pivot's row of U is subtracted.
-/// @param begin_row (row), called before a row is eliminated. @param target (entry of U) -> the entry that its product is subtracted from;
-/// called in the order of the products.
+/// Eliminates row by row: for each entry of L in a row, that multiple of the pivot's row of U is
+/// subtracted.
+/// @param begin_row (row), called before a row is eliminated. @param target (entry of U) -> the
+/// entry that its product is subtracted from; called in the order of the products.
 template <class BeginRow, class Target>
 void LuSchedule::eliminate_rows(const BeginRow& begin_row, Target target) {
   double* const w = factors_.data();
-  const int *const column = column_.data(), *const diagonal = diagonal_.data(), *const start = start_.data();
+  const int *const column = column_.data(), *const diagonal = diagonal_.data(),
+                   *const start = start_.data();
   for (std::size_t k = 0; k < n_; ++k) {
     begin_row(k);
     for (int l = start[k]; l < diagonal[k]; ++l) {
@@ -194,7 +220,8 @@ void LuSchedule::eliminate_rows(const BeginRow& begin_row, Target target) {
 void LuSchedule::eliminate(In<double> values) {
   const double* const value = values.data();
   std::fill(factors_.begin(), factors_.end(), 0.0);
-  for (std::size_t e = 0; e < source_slot_.size(); ++e) factors_[to_index(source_slot_[e])] = source_scale_[e] * value[e];
+  for (std::size_t e = 0; e < source_slot_.size(); ++e)
+    factors_[to_index(source_slot_[e])] = source_scale_[e] * value[e];
   if (entry_of_.empty()) {
     eliminate_rows([](std::size_t) {}, [next = target_.data()](int) mutable { return *next++; });
     return;
@@ -202,7 +229,9 @@ void LuSchedule::eliminate(In<double> values) {
   const auto note_row = [this](std::size_t k) {
     for (int e = start_[k]; e < start_[k + 1]; ++e) entry_of_[to_index(column_[to_index(e)])] = e;
   };
-  eliminate_rows(note_row, [entry = entry_of_.data(), column = column_.data()](int u) { return entry[column[u]]; });
+  eliminate_rows(note_row, [entry = entry_of_.data(), column = column_.data()](int u) {
+    return entry[column[u]];
+  });
 }
 
 namespace {
@@ -240,13 +269,16 @@ struct Row<1> {
 
 /// x -= sum of factors[e] y[column[e]].
 template <int N>
-void subtract_products(const double* factors, const int* column, int first, int last, const double* y, Row<N>* x) {
-  for (int e = first; e < last; ++e) x->subtract(factors[e], Row<N>(y + std::ptrdiff_t{N} * column[e]));
+void subtract_products(const double* factors, const int* column, int first, int last,
+                       const double* y, Row<N>* x) {
+  for (int e = first; e < last; ++e)
+    x->subtract(factors[e], Row<N>(y + std::ptrdiff_t{N} * column[e]));
 }
 
 /// The same for N = 1, with two partial sums, since each addition must wait for the one before it.
 template <>
-void subtract_products<1>(const double* factors, const int* column, int first, int last, const double* y, Row<1>* x) {
+void subtract_products<1>(const double* factors, const int* column, int first, int last,
+                          const double* y, Row<1>* x) {
   double odd = 0.0;
   int e = first;
   for (; e + 1 < last; e += 2) {
@@ -259,7 +291,8 @@ void subtract_products<1>(const double* factors, const int* column, int first, i
 
 /// y[column[e]] -= factors[e] x.
 template <int N>
-void spread_products(const double* factors, const int* column, int first, int last, const Row<N>& x, double* y) {
+void spread_products(const double* factors, const int* column, int first, int last, const Row<N>& x,
+                     double* y) {
   for (int e = first; e < last; ++e) {
     double* const to = y + std::ptrdiff_t{N} * column[e];
     Row<N> sum(to);
@@ -283,7 +316,8 @@ template <int N>
 void LuSchedule::solve_by_lists(Out<double> in_place) const {
   double *const x = in_place.data(), *const y = work_.data();
   const double* const f = factors_.data();
-  const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
+  const int *const column = column_.data(), *const start = start_.data(),
+                   *const diagonal = diagonal_.data();
   for (std::size_t k = 0; k < n_; ++k) {
     Row<N> sum(x + N * to_index(row_of_[k]));
     sum.scale(inverse_scale_[k]);
@@ -299,13 +333,15 @@ void LuSchedule::solve_by_lists(Out<double> in_place) const {
   }
 }
 
-// R^-1 A = P^T L U Q^T, so A^T x = b is solved with U^T first, then L^T. Their columns are the rows of the stored factors.
+// R^-1 A = P^T L U Q^T, so A^T x = b is solved with U^T first, then L^T. Their columns are the rows
+// of the stored factors.
 template <int N>
 void LuSchedule::solve_transposed(Out<double> in_place) const {
   assert(in_place.size() == to_signed(N * n_));
   double *const x = in_place.data(), *const y = work_.data();
   const double* const f = factors_.data();
-  const int *const column = column_.data(), *const start = start_.data(), *const diagonal = diagonal_.data();
+  const int *const column = column_.data(), *const start = start_.data(),
+                   *const diagonal = diagonal_.data();
   for (std::size_t k = 0; k < n_; ++k) Row<N>(x + N * to_index(column_of_[k])).store(y + N * k);
   for (std::size_t k = 0; k < n_; ++k) {
     Row<N> own(y + N * k);

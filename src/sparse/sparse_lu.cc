@@ -28,13 +28,15 @@ struct SparseLu::Implementation {
   };
 
   std::vector<int> starts, rows;
-  std::vector<Kept> schedules;  ///< the last one is in use; those before the last `chosen` ones were forgotten
-  std::size_t chosen = 0;       ///< since the last forget(), at most kMostSchedules
+  std::vector<Kept>
+      schedules;  ///< the last one is in use; those before the last `chosen` ones were forgotten
+  std::size_t chosen = 0;  ///< since the last forget(), at most kMostSchedules
   std::int64_t full_factorizations = 0;
 
   LuSchedule& schedule() { return schedules.back().schedule; }
 
-  // Earlier pivots are kept since a mechanism that swings returns to positions for which they were chosen.
+  // Earlier pivots are kept since a mechanism that swings returns to positions for which they were
+  // chosen.
   bool refactor(In<double> values) {
     const auto first = schedules.end() - to_signed(chosen);
     for (std::size_t tried = 0; tried < chosen; ++tried) {
@@ -58,12 +60,14 @@ struct SparseLu::Implementation {
   void add(const LuPattern& pattern) {
     if (chosen == kMostSchedules) --chosen;
     const auto last = schedules.end() - to_signed(chosen);
-    const auto known =
-        std::find_if(schedules.begin(), last, [&pattern](Kept& kept) { return !kept.is_settled && kept.schedule.rescale(pattern); });
+    const auto known = std::find_if(schedules.begin(), last, [&pattern](Kept& kept) {
+      return !kept.is_settled && kept.schedule.rescale(pattern);
+    });
     if (known != last) {
       std::rotate(known, known + 1, schedules.end());
     } else {
-      if (schedules.size() == kMostKept) schedules.erase(schedules.begin() + (schedules.front().is_settled ? 1 : 0));
+      if (schedules.size() == kMostKept)
+        schedules.erase(schedules.begin() + (schedules.front().is_settled ? 1 : 0));
       schedules.push_back({LuSchedule(pattern, starts, rows)});
     }
     ++chosen;
@@ -71,7 +75,9 @@ struct SparseLu::Implementation {
 
   /// The distance of the settled schedule from the first one; of the end if there is none.
   std::ptrdiff_t settled() const {
-    return std::find_if(schedules.begin(), schedules.end(), [](const Kept& kept) { return kept.is_settled; }) - schedules.begin();
+    return std::find_if(schedules.begin(), schedules.end(),
+                        [](const Kept& kept) { return kept.is_settled; }) -
+           schedules.begin();
   }
   bool has_settled() const { return settled() < to_signed(schedules.size()); }
 
@@ -103,13 +109,17 @@ SparseLu::~SparseLu() = default;
 SparseLu::SparseLu(SparseLu&&) noexcept = default;
 SparseLu& SparseLu::operator=(SparseLu&&) noexcept = default;
 
-bool SparseLu::factor(In<double> values) { return implementation_->refactor(values) || implementation_->factor(values); }
+bool SparseLu::factor(In<double> values) {
+  return implementation_->refactor(values) || implementation_->factor(values);
+}
 
 void SparseLu::forget() { implementation_->forget(); }
 
 void SparseLu::settle() { implementation_->settle(); }
 
-void SparseLu::settle_as(const SparseLu& other) { implementation_->settle_as(*other.implementation_); }
+void SparseLu::settle_as(const SparseLu& other) {
+  implementation_->settle_as(*other.implementation_);
+}
 
 template <int N>
 void SparseLu::solve_rows(Out<double> x) const {

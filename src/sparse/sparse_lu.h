@@ -9,11 +9,11 @@
 
 namespace codesign {
 
-/// LU factorization of square sparse matrices that share one pattern. Pivots are chosen once (choose_pivots()); later matrices are
-/// refactored with the same pivots (LuSchedule).
+/// LU factorization of square sparse matrices that share one pattern. Pivots are chosen once
+/// (choose_pivots()); later matrices are refactored with the same pivots (LuSchedule).
 ///
-/// If an entry of L exceeds 1e6 or the ratio of the smallest to the largest pivot falls to 1e-17, up to three earlier choices of pivots are
-/// tried, then pivots are chosen anew. Not thread-safe.
+/// If an entry of L exceeds 1e6 or the ratio of the smallest to the largest pivot falls to 1e-17,
+/// up to three earlier choices of pivots are tried, then pivots are chosen anew. Not thread-safe.
 class SparseLu {
  public:
   /// @param column_start, row_index compressed-column pattern of an n x n matrix.
@@ -22,16 +22,18 @@ class SparseLu {
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;
 
-  /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to working precision.
+  /// Factors the matrix with these nonzeros, in the order of row_index. False if it is singular to
+  /// working precision.
   bool factor(In<double> values);
 
-  /// Makes later factorizations independent of all matrices since settle(): the next one begins with the pivots that settle() kept, or
-  /// chooses pivots anew if settle() was never called. To be called at the beginning of a run, so that its last bits do not depend on
-  /// earlier runs.
+  /// Makes later factorizations independent of all matrices since settle(): the next one begins
+  /// with the pivots that settle() kept, or chooses pivots anew if settle() was never called. To be
+  /// called at the beginning of a run, so that its last bits do not depend on earlier runs.
   void forget();
   /// Keeps the present pivots as the pivots with which forget() begins again.
   void settle();
-  /// Takes the settled pivots of another factorization of the same pattern as its own, unless it has some already or `other` has none.
+  /// Takes the settled pivots of another factorization of the same pattern as its own, unless it
+  /// has some already or `other` has none.
   void settle_as(const SparseLu& other);
 
   /// Solves A x = b in place, n numbers.

@@ -37,7 +37,8 @@ std::string term(double factor, const std::string& name) {
 /// `a`, `a and b`, `a, b and c`.
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (std::size_t k = 0; k < words.size(); ++k) text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " and ") + words[k];
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " and ") + words[k];
   return text;
 }
 
@@ -45,7 +46,8 @@ std::string joined(const std::vector<std::string>& words) {
 
 void clear_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian, double magnitude) {
   constexpr double kLeastEffect = 1e-12;
-  const Eigen::VectorXd effects = jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
+  const Eigen::VectorXd effects =
+      jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
   if (effects.size() == 0) return;
   const double least = kLeastEffect * std::max(magnitude, effects.maxCoeff());
   for (Eigen::Index k = 0; k < effects.size(); ++k)
@@ -68,7 +70,9 @@ Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
   found.null_directions = Eigen::MatrixXd::Zero(p, count);
   if (count == 0) return found;
   const Eigen::MatrixXd C =
-      found.rank == 0 ? Eigen::MatrixXd(0, count) : least_norm(columns_of(scaled, independent)).solve(columns_of(scaled, found.dependent));
+      found.rank == 0
+          ? Eigen::MatrixXd(0, count)
+          : least_norm(columns_of(scaled, independent)).solve(columns_of(scaled, found.dependent));
   for (Eigen::Index k = 0; k < count; ++k) {
     const int d = found.dependent[to_index(k)];
     found.null_directions(d, k) = 1.0;
@@ -78,11 +82,13 @@ Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
       if (std::abs(c) > kNegligible) found.null_directions(i, k) = -c * lengths[d] / lengths[i];
     }
   }
-  for (Eigen::Index i = 0; i < p; ++i) found.is_determined[to_index(i)] = found.null_directions.row(i).isZero(0.0);
+  for (Eigen::Index i = 0; i < p; ++i)
+    found.is_determined[to_index(i)] = found.null_directions.row(i).isZero(0.0);
   return found;
 }
 
-std::string combination_of(const Identifiability& found, const std::vector<std::string>& names, Eigen::Index i) {
+std::string combination_of(const Identifiability& found, const std::vector<std::string>& names,
+                           Eigen::Index i) {
   std::string sum = names[to_index(i)];
   for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
     if (const double factor = -found.null_directions(i, k); factor != 0.0)
@@ -92,19 +98,25 @@ std::string combination_of(const Identifiability& found, const std::vector<std::
 
 double combination_value(const Identifiability& found, const Eigen::VectorXd& x, Eigen::Index i) {
   double sum = x[i];
-  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k) sum -= found.null_directions(i, k) * x[found.dependent[to_index(k)]];
+  for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
+    sum -= found.null_directions(i, k) * x[found.dependent[to_index(k)]];
   return sum;
 }
 
-std::vector<std::string> describe_undetermined(const Identifiability& found, const std::vector<std::string>& names) {
+std::vector<std::string> describe_undetermined(const Identifiability& found,
+                                               const std::vector<std::string>& names) {
   std::vector<std::string> sentences;
   const auto name = [&names](Eigen::Index index) { return names[to_index(index)]; };
   for (Eigen::Index i = 0; i < to_signed(names.size()); ++i) {
     std::vector<std::string> involved = {name(i)};
-    if (std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) != found.dependent.end()) continue;
+    if (std::find(found.dependent.begin(), found.dependent.end(), static_cast<int>(i)) !=
+        found.dependent.end())
+      continue;
     for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
-      if (found.null_directions(i, k) != 0.0) involved.push_back(name(found.dependent[to_index(k)]));
-    if (involved.size() > 1) sentences.push_back(joined(involved) + " appear only as " + combination_of(found, names, i));
+      if (found.null_directions(i, k) != 0.0)
+        involved.push_back(name(found.dependent[to_index(k)]));
+    if (involved.size() > 1)
+      sentences.push_back(joined(involved) + " appear only as " + combination_of(found, names, i));
   }
   for (Eigen::Index k = 0; k < found.null_directions.cols(); ++k)
     if ((found.null_directions.col(k).array() != 0.0).count() == 1)

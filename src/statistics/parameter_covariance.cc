@@ -20,8 +20,10 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDraws = 2000;
 constexpr std::uint32_t kSeed = 1;
 
-/// (J^T J)^-1 with zeros for the parameters that depend on others: these are held fixed while the others are determined.
-Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identifiability& identifiability) {
+/// (J^T J)^-1 with zeros for the parameters that depend on others: these are held fixed while the
+/// others are determined.
+Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R,
+                                         const Identifiability& identifiability) {
   const Eigen::Index p = R.cols();
   const auto& dependent = identifiability.dependent;
   std::vector<int> told;
@@ -37,28 +39,34 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R, const Identif
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p, p);
   if (rank == 0) return result;
   const SingularValues svd = singular_values(scaled, SingularVectors::kRight);
-  const Eigen::MatrixXd root = lengths.cwiseInverse().asDiagonal() * svd.V * svd.values.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd root =
+      lengths.cwiseInverse().asDiagonal() * svd.V * svd.values.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd inverse = root * root.transpose();
   for (Eigen::Index i = 0; i < rank; ++i)
-    for (Eigen::Index j = 0; j < rank; ++j) result(told[to_index(i)], told[to_index(j)]) = inverse(i, j);
+    for (Eigen::Index j = 0; j < rank; ++j)
+      result(told[to_index(i)], told[to_index(j)]) = inverse(i, j);
   return result;
 }
 
-/// The contribution of each time to the error of the parameters, N x p: (J^T J)^-1 sum over outputs of J^T r.
-Eigen::MatrixXd contributions(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& inverse) {
+/// The contribution of each time to the error of the parameters, N x p: (J^T J)^-1 sum over outputs
+/// of J^T r.
+Eigen::MatrixXd contributions(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian,
+                              const Eigen::MatrixXd& inverse) {
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(residuals.rows(), jacobian.cols());
   for (Eigen::Index output = 0; output < residuals.cols(); ++output)
-    scores += residuals.col(output).asDiagonal() * jacobian.middleRows(output * residuals.rows(), residuals.rows());
+    scores += residuals.col(output).asDiagonal() *
+              jacobian.middleRows(output * residuals.rows(), residuals.rows());
   return scores * inverse;
 }
 
 void set_symmetric_intervals(double level, ParameterCovariance* result) {
-  result->below = interval_factor(level, result->degrees) * result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  result->below = interval_factor(level, result->degrees) *
+                  result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   result->above = result->below;
 }
 
-void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction, const IntervalOptions& options,
-                ParameterCovariance* result) {
+void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
+                const IntervalOptions& options, ParameterCovariance* result) {
   const LongRunCovariance estimate = long_run_covariance(terms, lengths, options.lag);
   result->covariance = correction * estimate.covariance;
   result->lag = estimate.lag;
@@ -66,11 +74,13 @@ void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, doub
   set_symmetric_intervals(options.level, result);
 }
 
-// The errors of the parameters are distributed like the drawn sums, so that the interval mirrors their quantiles.
-void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction, const IntervalOptions& options,
-                   ParameterCovariance* result) {
+// The errors of the parameters are distributed like the drawn sums, so that the interval mirrors
+// their quantiles.
+void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
+                   const IntervalOptions& options, ParameterCovariance* result) {
   result->lag = options.lag > 0 ? options.lag : automatic_lag(terms, lengths);
-  const Eigen::MatrixXd draws = std::sqrt(correction) * bootstrap_sums(terms, lengths, result->lag, kDraws, kSeed);
+  const Eigen::MatrixXd draws =
+      std::sqrt(correction) * bootstrap_sums(terms, lengths, result->lag, kDraws, kSeed);
   result->covariance = draws.transpose() * draws / (kDraws - 1.0);
   result->below.resize(draws.cols());
   result->above.resize(draws.cols());
@@ -108,12 +118,14 @@ double student_exceeded_with(double tail, double degrees) {
 
 Eigen::MatrixXd ParameterCovariance::correlation() const {
   const Eigen::VectorXd deviations = covariance.diagonal().cwiseSqrt();
-  Eigen::MatrixXd result = deviations.cwiseInverse().asDiagonal() * covariance * deviations.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd result =
+      deviations.cwiseInverse().asDiagonal() * covariance * deviations.cwiseInverse().asDiagonal();
   result.diagonal().setOnes();
   return result;
 }
 
-ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows, double level) {
+ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen::Index rows,
+                                         double level) {
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
@@ -125,13 +137,16 @@ ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen:
   return result;
 }
 
-ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian, const SeriesLengths& lengths,
+ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
+                                         const Eigen::MatrixXd& jacobian,
+                                         const SeriesLengths& lengths,
                                          const IntervalOptions& options, Eigen::Index eliminated) {
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
   const auto rows = static_cast<double>(residuals.size());
-  result.degrees = std::max(1.0, rows - static_cast<double>(result.identifiability.rank + eliminated));
+  result.degrees =
+      std::max(1.0, rows - static_cast<double>(result.identifiability.rank + eliminated));
   result.residual_variance = residuals.squaredNorm() / result.degrees;
   const Eigen::MatrixXd inverse = inverse_of_normal_matrix(R, result.identifiability);
   if (options.noise == NoiseModel::kWhite) {
@@ -140,7 +155,8 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals, const
   } else {
     const Eigen::MatrixXd terms = contributions(residuals, jacobian, inverse);
     const double correction = rows / result.degrees;
-    (options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap)(terms, lengths, correction, options, &result);
+    (options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap)(
+        terms, lengths, correction, options, &result);
   }
   mark_undetermined(&result);
   return result;
@@ -151,8 +167,12 @@ double student_quantile(double p, double degrees) {
   return p > 0.5 ? student_exceeded_with(1.0 - p, degrees) : -student_exceeded_with(p, degrees);
 }
 
-double interval_factor(double level, double degrees) { return student_exceeded_with(0.5 * (1.0 - level), degrees); }
+double interval_factor(double level, double degrees) {
+  return student_exceeded_with(0.5 * (1.0 - level), degrees);
+}
 
-double chi_squared_tail(double x, double degrees) { return boost::math::gamma_q(0.5 * degrees, 0.5 * x, Policy()); }
+double chi_squared_tail(double x, double degrees) {
+  return boost::math::gamma_q(0.5 * degrees, 0.5 * x, Policy());
+}
 
 }  // namespace codesign

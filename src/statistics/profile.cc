@@ -16,7 +16,8 @@ constexpr int kMostEvaluations = 40;  // per side
 /// One side of the optimum, as a function of the distance s from it.
 class Side {
  public:
-  Side(const ProfileProblem& problem, const ProfiledCost& cost, double direction, ProfileInterval* interval)
+  Side(const ProfileProblem& problem, const ProfiledCost& cost, double direction,
+       ProfileInterval* interval)
       : problem_(problem), cost_(cost), direction_(direction), interval_(interval) {}
 
   struct End {
@@ -24,10 +25,12 @@ class Side {
     ProfileEnd kind;
   };
   End find() {
-    const double bound = direction_ > 0.0 ? problem_.upper - problem_.optimum : problem_.optimum - problem_.lower;
+    const double bound =
+        direction_ > 0.0 ? problem_.upper - problem_.optimum : problem_.optimum - problem_.lower;
     const double farthest = std::min(bound, kFarthest * problem_.step);
     double inside = 0.0, inside_height = -std::sqrt(problem_.threshold);
-    for (double s = std::min(problem_.step, bound); evaluations_ < kMostEvaluations; s = std::min(2.0 * s, farthest)) {
+    for (double s = std::min(problem_.step, bound); evaluations_ < kMostEvaluations;
+         s = std::min(2.0 * s, farthest)) {
       if (!(s > inside)) break;
       const std::optional<double> height = height_at(s);
       if (!height) return {inside, ProfileEnd::kFailed};
@@ -40,7 +43,9 @@ class Side {
   }
 
  private:
-  bool is_end(double height) const { return std::abs(height) < kTolerance * std::sqrt(problem_.threshold); }
+  bool is_end(double height) const {
+    return std::abs(height) < kTolerance * std::sqrt(problem_.threshold);
+  }
 
   /// sqrt(excess) - sqrt(threshold): negative inside.
   std::optional<double> height_at(double s) {
@@ -57,7 +62,8 @@ class Side {
   double crossing(double a, double fa, double b, double fb) {
     int stays = 0;
     while (evaluations_ < kMostEvaluations && b - a > kTolerance * b) {
-      const double s = std::clamp((a * fb - b * fa) / (fb - fa), a + 1e-3 * (b - a), b - 1e-3 * (b - a));
+      const double s =
+          std::clamp((a * fb - b * fa) / (fb - fa), a + 1e-3 * (b - a), b - 1e-3 * (b - a));
       const std::optional<double> height = height_at(s);
       if (!height) break;
       if (is_end(*height)) return s;
@@ -87,7 +93,8 @@ class Side {
 
 ProfileInterval profile_interval(const ProfileProblem& problem, const ProfiledCost& cost) {
   ProfileInterval interval;
-  const auto below = Side(problem, cost, -1.0, &interval).find(), above = Side(problem, cost, 1.0, &interval).find();
+  const auto below = Side(problem, cost, -1.0, &interval).find(),
+             above = Side(problem, cost, 1.0, &interval).find();
   interval.lower = problem.optimum - below.distance;
   interval.upper = problem.optimum + above.distance;
   interval.lower_end = below.kind;

@@ -19,23 +19,29 @@ Eigen::VectorXd autoregression(const Eigen::MatrixXd& terms, const SeriesLengths
   Eigen::VectorXd products = Eigen::VectorXd::Zero(terms.cols()), squares = products;
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
-    const auto before = terms.middleRows(begin, length - 1), after = terms.middleRows(begin + 1, length - 1);
+    const auto before = terms.middleRows(begin, length - 1),
+               after = terms.middleRows(begin + 1, length - 1);
     products += (before.array() * after.array()).colwise().sum().matrix().transpose();
     squares += before.colwise().squaredNorm().transpose();
     begin += length;
   }
   Eigen::VectorXd slopes(terms.cols());
   for (Eigen::Index k = 0; k < slopes.size(); ++k)
-    slopes[k] = squares[k] > 0.0 ? std::clamp(products[k] / squares[k], -kMostCorrelated, kMostCorrelated) : 0.0;
+    slopes[k] = squares[k] > 0.0
+                    ? std::clamp(products[k] / squares[k], -kMostCorrelated, kMostCorrelated)
+                    : 0.0;
   return slopes;
 }
 
-/// x_t - slope x_{t-1}; the first row of a series, which has no predecessor, is scaled to the same variance.
-Eigen::MatrixXd whitened(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, const Eigen::VectorXd& slopes) {
+/// x_t - slope x_{t-1}; the first row of a series, which has no predecessor, is scaled to the same
+/// variance.
+Eigen::MatrixXd whitened(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                         const Eigen::VectorXd& slopes) {
   Eigen::MatrixXd result = terms;
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
-    result.middleRows(begin + 1, length - 1) -= terms.middleRows(begin, length - 1) * slopes.asDiagonal();
+    result.middleRows(begin + 1, length - 1) -=
+        terms.middleRows(begin, length - 1) * slopes.asDiagonal();
     result.row(begin) *= (1.0 - slopes.array().square()).sqrt().matrix().asDiagonal();
     begin += length;
   }
@@ -47,26 +53,31 @@ int capped(double lag, Eigen::Index rows) {
   return static_cast<int>(std::clamp(std::floor(lag), 1.0, most));
 }
 
-/// A whole number from 0 to size - 1, made from raw bits: the standard defines their sequence, but not the algorithms of <random>'s
-/// distributions.
+/// A whole number from 0 to size - 1, made from raw bits: the standard defines their sequence, but
+/// not the algorithms of <random>'s distributions.
 Eigen::Index draw_index(Eigen::Index size, std::mt19937* generator) {
   const auto bits = static_cast<std::uint64_t>((*generator)());
   return to_signed((bits * static_cast<std::uint64_t>(size)) >> 32);
 }
 
 /// One series: sums over the rows before k, so that a block is a difference of two.
-Eigen::MatrixXd running_sums(const Eigen::MatrixXd& terms, Eigen::Index begin, Eigen::Index length) {
+Eigen::MatrixXd running_sums(const Eigen::MatrixXd& terms, Eigen::Index begin,
+                             Eigen::Index length) {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(length + 1, terms.cols());
   for (Eigen::Index k = 0; k < length; ++k) sums.row(k + 1) = sums.row(k) + terms.row(begin + k);
   return sums;
 }
 
-/// Adds to each draw the sum over blocks of one series. The last block is cut to the missing length.
-void add_series(const Eigen::MatrixXd& sums, Eigen::Index block, std::mt19937* generator, Eigen::MatrixXd* draws) {
-  const Eigen::Index length = sums.rows() - 1, size = std::min(block, length), starts = length - size + 1;
+/// Adds to each draw the sum over blocks of one series. The last block is cut to the missing
+/// length.
+void add_series(const Eigen::MatrixXd& sums, Eigen::Index block, std::mt19937* generator,
+                Eigen::MatrixXd* draws) {
+  const Eigen::Index length = sums.rows() - 1, size = std::min(block, length),
+                     starts = length - size + 1;
   for (Eigen::Index draw = 0; draw < draws->rows(); ++draw)
     for (Eigen::Index filled = 0; filled < length; filled += size) {
-      const Eigen::Index start = draw_index(starts, generator), part = std::min(size, length - filled);
+      const Eigen::Index start = draw_index(starts, generator),
+                         part = std::min(size, length - filled);
       draws->row(draw) += sums.row(start + part) - sums.row(start);
     }
 }
@@ -83,8 +94,9 @@ int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths) {
   return capped(lag, terms.rows());
 }
 
-// Each term lies in lag + 1 windows of lag + 1 neighbours, and a share 1 - |l| / (lag + 1) of them contains its neighbour at distance l,
-// too. The sum is therefore computed over windows, with zeros before and after the series, in N p^2 operations for any lag.
+// Each term lies in lag + 1 windows of lag + 1 neighbours, and a share 1 - |l| / (lag + 1) of them
+// contains its neighbour at distance l, too. The sum is therefore computed over windows, with zeros
+// before and after the series, in N p^2 operations for any lag.
 Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(terms.cols(), terms.cols());
   Eigen::Index begin = 0;
@@ -102,21 +114,25 @@ Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& 
   return sum / (lag + 1.0);
 }
 
-LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag) {
+LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                                      int lag) {
   const Eigen::VectorXd slopes = autoregression(terms, lengths);
   const Eigen::MatrixXd innovations = whitened(terms, lengths, slopes);
   LongRunCovariance result;
   result.lag = lag > 0 ? capped(lag, terms.rows()) : automatic_lag(innovations, lengths);
   const Eigen::VectorXd recolor = (1.0 - slopes.array()).inverse();
-  result.covariance = recolor.asDiagonal() * bartlett_sum(innovations, lengths, result.lag) * recolor.asDiagonal();
-  // Fixed-b asymptotics for kernels whose width is the fraction b of the sample: mean and degrees of freedom of the estimate.
+  result.covariance =
+      recolor.asDiagonal() * bartlett_sum(innovations, lengths, result.lag) * recolor.asDiagonal();
+  // Fixed-b asymptotics for kernels whose width is the fraction b of the sample: mean and degrees
+  // of freedom of the estimate.
   const double b = (result.lag + 1.0) / static_cast<double>(terms.rows());
   result.covariance /= 1.0 - b + b * b / 3.0;
   result.degrees = 1.5 / b;
   return result;
 }
 
-Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int block, int draws, std::uint32_t seed) {
+Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                               int block, int draws, std::uint32_t seed) {
   std::mt19937 generator(seed);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(draws, terms.cols());
   Eigen::Index begin = 0;
@@ -141,11 +157,13 @@ Whiteness ljung_box(const Eigen::VectorXd& residuals, const SeriesLengths& lengt
   constexpr Eigen::Index kMostLags = 10, kPart = 5;
   const Eigen::Index count = residuals.size();
   Whiteness result;
-  result.lags = lags > 0 ? lags : static_cast<int>(std::clamp<Eigen::Index>(count / kPart, 1, kMostLags));
+  result.lags =
+      lags > 0 ? lags : static_cast<int>(std::clamp<Eigen::Index>(count / kPart, 1, kMostLags));
   Eigen::VectorXd products = Eigen::VectorXd::Zero(result.lags + 1);
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
-    const Eigen::VectorXd centered = residuals.segment(begin, length).array() - residuals.segment(begin, length).mean();
+    const Eigen::VectorXd centered =
+        residuals.segment(begin, length).array() - residuals.segment(begin, length).mean();
     for (Eigen::Index lag = 0; lag < std::min<Eigen::Index>(length, result.lags + 1); ++lag)
       products[lag] += centered.head(length - lag).dot(centered.tail(length - lag));
     begin += length;

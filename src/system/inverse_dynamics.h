@@ -14,20 +14,24 @@ namespace codesign {
 template <class T>
 struct DrivenJoint {
   JointPose<T> pose;
-  T position{0.0}, rate{0.0}, acceleration{0.0};  ///< [rad or m], per s, per s^2; the position is needed of slides only
+  T position{0.0}, rate{0.0},
+      acceleration{0.0};  ///< [rad or m], per s, per s^2; the position is needed of slides only
 };
 
-/// The load tau_k that one joint of the tree must exert for given accelerations of all joints, by the two sweeps of joint_sweep.h;
-/// doc/theory.md (C4). No allocation after construction; not thread-safe.
+/// The load tau_k that one joint of the tree must exert for given accelerations of all joints, by
+/// the two sweeps of joint_sweep.h; doc/theory.md (C4). No allocation after construction; not
+/// thread-safe.
 template <class T>
 class InverseDynamics {
  public:
-  /// @param tree with a driven joint that was grown for prescribed accelerations, or without nodes; must outlive this.
+  /// @param tree with a driven joint that was grown for prescribed accelerations, or without nodes;
+  /// must outlive this.
   explicit InverseDynamics(const DrivenTree& tree);
 
   /// The joint of a node, to be set before load().
   DrivenJoint<T>& joint(std::size_t node) { return joints_[node]; }
-  /// The force [N] or torque [N m] along the driven joint's coordinate, positive along it. @param gravity in ground axes [m/s^2]
+  /// The force [N] or torque [N m] along the driven joint's coordinate, positive along it. @param
+  /// gravity in ground axes [m/s^2]
   T load(const Constants<T>& constants, const Vector3<T>& gravity);
 
  private:
@@ -36,14 +40,15 @@ class InverseDynamics {
   const DrivenTree& tree_;
   std::vector<DrivenJoint<T>> joints_;  ///< one per node, as below
   std::vector<AxesMotion<T>> motions_;  ///< and the ground last
-  std::vector<Wrench<T>> wrenches_;     ///< that joints transmit to the bodies; of moved bodies only
+  std::vector<Wrench<T>> wrenches_;  ///< that joints transmit to the bodies; of moved bodies only
 };
 
-/// The load that balances the weight of all bodies that the driven joint moves, with everything at rest; doc/theory.md (C5).
+/// The load that balances the weight of all bodies that the driven joint moves, with everything at
+/// rest; doc/theory.md (C5).
 /// @param bodies motion of all bodies, the ground last. @returns as InverseDynamics::load()
 template <class T>
-T gravity_load(const DrivenTree& tree, const Constants<T>& constants, const std::vector<BodyKinematics<T>>& bodies,
-               const Vector3<T>& gravity) {
+T gravity_load(const DrivenTree& tree, const Constants<T>& constants,
+               const std::vector<BodyKinematics<T>>& bodies, const Vector3<T>& gravity) {
   T mass(0.0);
   Vector3<T> moment = Vector3<T>::Zero();  // sum of m r
   for (const DrivenTree::Node& node : tree.nodes) {
@@ -54,9 +59,11 @@ T gravity_load(const DrivenTree& tree, const Constants<T>& constants, const std:
   }
   const DrivenTree::Node& joint = tree.nodes[to_index(tree.driven)];
   const PairConstants<T>& pair = constants.pairs[to_index(joint.pair)];
-  const BodyKinematics<T>& base = joint.parent < 0 ? bodies.back() : bodies[to_index(tree.nodes[to_index(joint.parent)].body)];
+  const BodyKinematics<T>& base =
+      joint.parent < 0 ? bodies.back() : bodies[to_index(tree.nodes[to_index(joint.parent)].body)];
   const Vector3<T> axis = base.A * pair.steps[0].axis, point = base.r + base.A * pair.s_i;
-  return -dot<T>(axis, joint.slides ? Vector3<T>(mass * gravity) : cross<T>(Vector3<T>(moment - mass * point), gravity));
+  return -dot<T>(axis, joint.slides ? Vector3<T>(mass * gravity)
+                                    : cross<T>(Vector3<T>(moment - mass * point), gravity));
 }
 
 }  // namespace codesign

@@ -4,10 +4,11 @@
 #include "math/arrays.h"
 
 namespace codesign {
-// A body of the forest carries a loop that shares reactions: at most one for each set of loops. It may stand still, since a displacement
-// of all of them together loads nothing. Only rows of loops and couplings can be dropped: the rows of the tree's joints are independent of
-// each other.
-SharingLayout::SharingLayout(const ReactionSharing& sharing, const Topology& topology, const Layout& layout) {
+// A body of the forest carries a loop that shares reactions: at most one for each set of loops. It
+// may stand still, since a displacement of all of them together loads nothing. Only rows of loops
+// and couplings can be dropped: the rows of the tree's joints are independent of each other.
+SharingLayout::SharingLayout(const ReactionSharing& sharing, const Topology& topology,
+                             const Layout& layout) {
   first = layout.n + layout.constraints();
   body_slot.assign(to_index(layout.bodies), -1);
   row_slot.assign(to_index(layout.constraints()), -1);
@@ -23,10 +24,12 @@ SharingLayout::SharingLayout(const ReactionSharing& sharing, const Topology& top
   };
   for (int k : sharing.pairs) {
     touch(topology.pairs[to_index(k)]);
-    for (int row = layout.pair_row[to_index(k)]; row < layout.pair_end(k); ++row) take_row(row, topology.pairs[to_index(k)].is_loop);
+    for (int row = layout.pair_row[to_index(k)]; row < layout.pair_end(k); ++row)
+      take_row(row, topology.pairs[to_index(k)].is_loop);
   }
   for (int k : sharing.couplings) {
-    for (const CouplingTerm& term : topology.couplings[to_index(k)].terms) touch(topology.pairs[to_index(term.pair)]);
+    for (const CouplingTerm& term : topology.couplings[to_index(k)].terms)
+      touch(topology.pairs[to_index(term.pair)]);
     take_row(layout.coupling_row(k), true);
   }
   for (int body = 0; body < layout.bodies; ++body) {

@@ -14,13 +14,15 @@
 namespace codesign {
 namespace {
 
-/// Above this number of pairs of coordinates that move the same body (a chain of 24 hinges) chains are cut, so that matrices stay sparse,
-/// and the number of coordinates between two cuts; decision 82.
+/// Above this number of pairs of coordinates that move the same body (a chain of 24 hinges) chains
+/// are cut, so that matrices stay sparse, and the number of coordinates between two cuts;
+/// decision 82.
 constexpr int kMostCoupled = 300, kLongestChain = 10;
 
 /// Whether a signal needs the wrenches that joints transmit.
 bool depends_on_reactions(const SignalTerm& term) {
-  return is_reaction(term) || term.quantity == "normal_force" || term.quantity.find("friction") != std::string::npos;
+  return is_reaction(term) || term.quantity == "normal_force" ||
+         term.quantity.find("friction") != std::string::npos;
 }
 
 /// The index of a joint; -1 if no joint has this name.
@@ -30,26 +32,31 @@ int joint_named(const RobotDescription& robot, const std::string& name) {
   return -1;
 }
 
-/// The number of pairs of coordinates that move the same body: the nonzeros of half the mass matrix in joint coordinates.
+/// The number of pairs of coordinates that move the same body: the nonzeros of half the mass matrix
+/// in joint coordinates.
 int coupled_coordinates(const Topology& topology, const Forest& forest) {
   std::vector<int> above(topology.bodies.size(), 0);  // coordinates on the way to each body
   int sum = 0;
   for (int body : forest.order) {
     const Pair& pair = topology.pairs[to_index(forest.pair_above[to_index(body)])];
-    const int own = forest_coordinates(pair), carried = pair.body_i < 0 ? 0 : above[to_index(pair.body_i)];
+    const int own = forest_coordinates(pair),
+              carried = pair.body_i < 0 ? 0 : above[to_index(pair.body_i)];
     above[to_index(body)] = carried + own;
     sum += own * above[to_index(body)];
   }
   return sum;
 }
 
-/// Cuts chains so that no body has more than kLongestChain coordinates between it and a free body or the ground.
+/// Cuts chains so that no body has more than kLongestChain coordinates between it and a free body
+/// or the ground.
 void cut_long_chains(const Topology& topology, std::vector<bool>* cut) {
   const Forest forest = tree_forest(topology, *cut);
   std::vector<int> above(topology.bodies.size(), 0);
   for (int body : forest.order) {
-    const int pair = forest.pair_above[to_index(body)], parent = topology.pairs[to_index(pair)].body_i;
-    const int sum = forest_coordinates(topology.pairs[to_index(pair)]) + (parent < 0 ? 0 : above[to_index(parent)]);
+    const int pair = forest.pair_above[to_index(body)],
+              parent = topology.pairs[to_index(pair)].body_i;
+    const int sum = forest_coordinates(topology.pairs[to_index(pair)]) +
+                    (parent < 0 ? 0 : above[to_index(parent)]);
     (*cut)[to_index(pair)] = sum > kLongestChain;
     above[to_index(body)] = sum > kLongestChain ? 0 : sum;
   }
@@ -57,7 +64,8 @@ void cut_long_chains(const Topology& topology, std::vector<bool>* cut) {
 
 }  // namespace
 
-System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing, const std::vector<int>& drives)
+System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing,
+               const std::vector<int>& drives)
     : robot_(with_start_rotations(robot, study)),
       study_(std::make_shared<const Study>(study)),
       motion_(study_.get()),
@@ -81,20 +89,25 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
 
 std::vector<double> System::parameters() const { return start_parameters(study()); }
 
-std::vector<double> System::parameters(const Eigen::VectorXd& rho) const { return parameters_at(study(), rho); }
+std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
+  return parameters_at(study(), rho);
+}
 
 void System::choose_forest() {
   if (study().solver.coordinates != CoordinatesKind::kJoint) return;
   if (const SignalDescription* signal = mechanism_friction())
     throw InputError({study().solver.coordinates_where, "solver.coordinates",
-                      "a controller that reads the friction of the whole mechanism: not available in joint coordinates", signal->text,
-                      "auto or absolute"});
+                      "a controller that reads the friction of the whole mechanism: not available "
+                      "in joint coordinates",
+                      signal->text, "auto or absolute"});
   layout_.forest = tree_forest(topology_, cut_pairs());
 }
 
 CoordinatesKind System::best_coordinates() const {
-  // In joint coordinates motions can be polynomials, which idas follows exactly in a few steps too long for its quadratures.
-  const bool is_possible = study().solver.integrator != IntegratorKind::kIdas && !mechanism_friction();
+  // In joint coordinates motions can be polynomials, which idas follows exactly in a few steps too
+  // long for its quadratures.
+  const bool is_possible =
+      study().solver.integrator != IntegratorKind::kIdas && !mechanism_friction();
   return is_possible ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
 }
 
@@ -108,7 +121,8 @@ std::vector<const SignalDescription*> System::controller_inputs() const {
   return inputs;
 }
 
-/// An input that reads friction of all joints, which would have to be known before the wrenches on which it depends; null if there is none.
+/// An input that reads friction of all joints, which would have to be known before the wrenches on
+/// which it depends; null if there is none.
 const SignalDescription* System::mechanism_friction() const {
   for (const SignalDescription* input : controller_inputs())
     for (const SignalTerm& term : input->terms)
@@ -116,17 +130,20 @@ const SignalDescription* System::mechanism_friction() const {
   return nullptr;
 }
 
-/// Pairs that have rows in joint coordinates too: those that share reactions, (23), and those whose reactions a controller reads, which are
-/// then multipliers and known before the wrenches of the other joints, to which the controller contributes. And joints that cut long
-/// chains.
+/// Pairs that have rows in joint coordinates too: those that share reactions, (23), and those whose
+/// reactions a controller reads, which are then multipliers and known before the wrenches of the
+/// other joints, to which the controller contributes. And joints that cut long chains.
 std::vector<bool> System::cut_pairs() const {
   std::vector<bool> cut(topology_.pairs.size(), false);
   for (int pair : sharing_.pairs) cut[to_index(pair)] = true;
   for (const SignalDescription* input : controller_inputs())
     for (const SignalTerm& term : input->terms)
       if (depends_on_reactions(term))
-        if (const int pair = topology_.joint_pair[to_index(joint_named(robot_, term.object))]; pair >= 0) cut[to_index(pair)] = true;
-  if (coupled_coordinates(topology_, tree_forest(topology_, cut)) > kMostCoupled) cut_long_chains(topology_, &cut);
+        if (const int pair = topology_.joint_pair[to_index(joint_named(robot_, term.object))];
+            pair >= 0)
+          cut[to_index(pair)] = true;
+  if (coupled_coordinates(topology_, tree_forest(topology_, cut)) > kMostCoupled)
+    cut_long_chains(topology_, &cut);
   return cut;
 }
 
@@ -140,7 +157,9 @@ void System::lay_out_bodies() {
     const bool free = layout_.is_free(body);
     layout_.body_column.push_back(layout_.n);
     layout_.body_norm_row.push_back(free ? norms++ : -1);
-    layout_.n += free ? kBodySize : forest_coordinates(topology_.pairs[to_index(layout_.forest.pair_above[to_index(body)])]);
+    layout_.n += free ? kBodySize
+                      : forest_coordinates(
+                            topology_.pairs[to_index(layout_.forest.pair_above[to_index(body)])]);
   }
 }
 
@@ -158,9 +177,11 @@ void System::lay_out() {
 }
 
 void System::resolve_objective() {
-  const auto resolve = [this](const std::vector<ObjectiveTerm>& terms, std::vector<ResolvedTerm>* resolved) {
+  const auto resolve = [this](const std::vector<ObjectiveTerm>& terms,
+                              std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study().controllers), static_cast<int>(k)});
+      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study().controllers),
+                           static_cast<int>(k)});
     }
   };
   resolve(study().integral, &integral_);
@@ -174,7 +195,8 @@ void System::resolve_controllers() {
   for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
     for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
   observed.insert(observed.end(), watched_.begin(), watched_.end());
-  controllers_ = codesign::resolve_controllers(study(), robot_, topology_, observed, &layout_.states);
+  controllers_ =
+      codesign::resolve_controllers(study(), robot_, topology_, observed, &layout_.states);
 }
 
 void System::check_signals() const {
@@ -184,17 +206,21 @@ void System::check_signals() const {
     for (std::size_t term = 0; term < description.feedback.size(); ++term)
       check_readable(controllers_[k].feedback[term], description.feedback[term].signal);
   }
-  const auto check = [this](const std::vector<ResolvedTerm>& resolved, const std::vector<ObjectiveTerm>& terms) {
-    for (const ResolvedTerm& term : resolved) check_readable(term.signal, terms[to_index(term.description)].signal);
+  const auto check = [this](const std::vector<ResolvedTerm>& resolved,
+                            const std::vector<ObjectiveTerm>& terms) {
+    for (const ResolvedTerm& term : resolved)
+      check_readable(term.signal, terms[to_index(term.description)].signal);
   };
   check(integral_, study().integral);
   check(terminal_, study().terminal);
-  for (std::size_t k = 0; k < watched_.size(); ++k) check_readable(watched_[k], study().watched[k].signal);
+  for (std::size_t k = 0; k < watched_.size(); ++k)
+    check_readable(watched_[k], study().watched[k].signal);
 }
 
 bool System::begins_controllers() const {
-  return std::any_of(controllers_.begin(), controllers_.end(),
-                     [](const Controller& controller) { return controller.states.filter >= 0 || controller.states.held >= 0; });
+  return std::any_of(controllers_.begin(), controllers_.end(), [](const Controller& controller) {
+    return controller.states.filter >= 0 || controller.states.held >= 0;
+  });
 }
 
 void System::collect_loads() {
@@ -207,7 +233,8 @@ void System::collect_loads() {
       load.pair = static_cast<int>(p);
       load.element = static_cast<int>(e);
       load.reaction_friction = pair.friction_joint >= 0 && !contact;
-      load.directional = load.reaction_friction && robot_.joints[to_index(pair.friction_joint)].friction->is_directional;
+      load.directional = load.reaction_friction &&
+                         robot_.joints[to_index(pair.friction_joint)].friction->is_directional;
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[to_index(pair.chain[e].joint)];
         load.constant_friction = !joint.dry_friction.is_zero();
@@ -219,9 +246,12 @@ void System::collect_loads() {
           if (study().loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
       }
       for (std::size_t c = 0; c < controllers_.size(); ++c)
-        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element) load.controllers.push_back(static_cast<int>(c));
+        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element)
+          load.controllers.push_back(static_cast<int>(c));
       const bool driven = !load.controllers.empty() || !load.constant.empty();
-      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop && !driven) continue;
+      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop &&
+          !driven)
+        continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);
     }
@@ -233,17 +263,24 @@ void System::collect_link_loads() {
     const LoadDescription& load = study().loads[k];
     for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
       if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
-        throw InputError({load.where, "loads", "the joint moves only a link without <inertial>, so a load on it has nothing to act on",
+        throw InputError({load.where, "loads",
+                          "the joint moves only a link without <inertial>, so a load on it has "
+                          "nothing to act on",
                           load.joint, "a joint whose child link has an <inertial>"});
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
       if (robot_.links[link].name != load.link) continue;
       const int body = topology_.link_body[link];
       if (body == Topology::kGround)
-        throw InputError({load.where, "loads", "the link is part of the ground, which no load moves", load.link, "a link that moves"});
+        throw InputError({load.where, "loads",
+                          "the link is part of the ground, which no load moves", load.link,
+                          "a link that moves"});
       if (body == Topology::kMassless)
-        throw InputError({load.where, "loads", "the link has no <inertial>, so it is folded into a joint and cannot be loaded", load.link,
-                          "a link with <inertial>"});
-      link_loads_.push_back({static_cast<int>(k), body, static_cast<int>(link), load.in_link_frame});
+        throw InputError(
+            {load.where, "loads",
+             "the link has no <inertial>, so it is folded into a joint and cannot be loaded",
+             load.link, "a link with <inertial>"});
+      link_loads_.push_back(
+          {static_cast<int>(k), body, static_cast<int>(link), load.in_link_frame});
     }
   }
 }
@@ -253,13 +290,18 @@ void System::collect_rotors() {
     const JointDescription& joint = robot_.joints[j];
     if (!joint.actuator || joint.actuator->rotor_inertia.is_zero()) continue;
     const auto refuse = [&joint](const std::string& fault, const std::string& value) {
-      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault, value,
-                        "a link with <inertial>, which holds the rotor's mass and its inertia as if it did not spin"});
+      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault,
+                        value,
+                        "a link with <inertial>, which holds the rotor's mass and its inertia as "
+                        "if it did not spin"});
     };
     const int pair = topology_.joint_pair[j], body = topology_.link_body[to_index(joint.parent)];
-    if (pair < 0) refuse("the joint moves only a link without <inertial>", robot_.links[to_index(joint.child)].name);
+    if (pair < 0)
+      refuse("the joint moves only a link without <inertial>",
+             robot_.links[to_index(joint.child)].name);
     if (body == Topology::kMassless)
-      refuse("the parent link, which carries the rotor, has no <inertial>", robot_.links[to_index(joint.parent)].name);
+      refuse("the parent link, which carries the rotor, has no <inertial>",
+             robot_.links[to_index(joint.parent)].name);
     const std::vector<ChainElement>& chain = topology_.pairs[to_index(pair)].chain;
     for (std::size_t e = 0; e < chain.size(); ++e) {
       if (chain[e].joint != static_cast<int>(j)) continue;
@@ -283,7 +325,8 @@ void System::add_bristle(int pair, int element, int size) {
 void System::collect_bristles() {
   for (const JointLoad& load : loads_)
     if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
-  for (int contact : contacts_) add_bristle(contact, -1, topology_.pairs[to_index(contact)].kind->slip_coordinates);
+  for (int contact : contacts_)
+    add_bristle(contact, -1, topology_.pairs[to_index(contact)].kind->slip_coordinates);
 }
 
 const BristleContact* System::bristle(int pair, int element) const {
@@ -293,7 +336,8 @@ const BristleContact* System::bristle(int pair, int element) const {
 }
 
 void System::find_coordinates() {
-  for (const PairConstants<double>& pair : evaluate_constants(robot_, topology_, parameters()).pairs) {
+  for (const PairConstants<double>& pair :
+       evaluate_constants(robot_, topology_, parameters()).pairs) {
     layout_.turn_slot.push_back(static_cast<int>(layout_.initial_turns.size()));
     layout_.initial_turns.resize(layout_.initial_turns.size() + pair.coordinates.size(), 0.0);
     has_coordinate_.emplace_back();
@@ -301,24 +345,29 @@ void System::find_coordinates() {
       has_coordinate_.back().push_back(c.kind != CoordinateConstants<double>::Kind::kNone);
   }
   layout_.drop_slot = static_cast<int>(layout_.initial_turns.size());
-  layout_.initial_turns.resize(layout_.initial_turns.size() + to_index(sharing_layout_.misses), 0.0);
+  layout_.initial_turns.resize(layout_.initial_turns.size() + to_index(sharing_layout_.misses),
+                               0.0);
   for (const SharedRow& row : sharing_.dropped) {
-    dropped_rows_.push_back(row.pair >= 0 ? layout_.pair_row[to_index(row.pair)] + row.within : layout_.coupling_row(row.coupling));
-    layout_.initial_turns[to_index(layout_.drop_slot + sharing_layout_.miss_slot[to_index(dropped_rows_.back())])] = 1.0;
+    dropped_rows_.push_back(row.pair >= 0 ? layout_.pair_row[to_index(row.pair)] + row.within
+                                          : layout_.coupling_row(row.coupling));
+    layout_.initial_turns[to_index(
+        layout_.drop_slot + sharing_layout_.miss_slot[to_index(dropped_rows_.back())])] = 1.0;
   }
   std::sort(dropped_rows_.begin(), dropped_rows_.end());
   layout_.sign_slot = static_cast<int>(layout_.initial_turns.size());
-  if (layout_.has_forest()) layout_.initial_turns.resize(layout_.initial_turns.size() + topology_.bodies.size(), 1.0);
+  if (layout_.has_forest())
+    layout_.initial_turns.resize(layout_.initial_turns.size() + topology_.bodies.size(), 1.0);
 }
 
 void System::refuse_load(int pair, int element) const {
   const ChainElement& in_chain = topology_.pairs[to_index(pair)].chain[to_index(element)];
   const JointDescription& joint = robot_.joints[to_index(in_chain.joint)];
-  throw InputError(
-      {joint.where, joint.element(),
-       "a controller, load, actuator, spring, damping, stop or stock friction on a joint without a scalar coordinate of its own",
-       topology_.pairs[to_index(pair)].name,
-       "revolute, continuous and prismatic joints; in a ball joint of three hinges those at right angles to each other"});
+  throw InputError({joint.where, joint.element(),
+                    "a controller, load, actuator, spring, damping, stop or stock friction on a "
+                    "joint without a scalar coordinate of its own",
+                    topology_.pairs[to_index(pair)].name,
+                    "revolute, continuous and prismatic joints; in a ball joint of three hinges "
+                    "those at right angles to each other"});
 }
 
 void System::check_couplings() const {
@@ -326,39 +375,57 @@ void System::check_couplings() const {
     for (const CouplingTerm& term : coupling.terms)
       if (!has_coordinate_[to_index(term.pair)][to_index(term.element)])
         throw InputError(
-            {coupling.where, coupling.element(), "a joint of a chain of links without <inertial> has no coordinate in closed form",
-             robot_.joints[to_index(term.joint)].name, "in a ball joint of three hinges, hinges at right angles to each other"});
+            {coupling.where, coupling.element(),
+             "a joint of a chain of links without <inertial> has no coordinate in closed form",
+             robot_.joints[to_index(term.joint)].name,
+             "in a ball joint of three hinges, hinges at right angles to each other"});
 }
 
-void System::check_effort_rate(const SignalReference& term, const SignalDescription& description) const {
+void System::check_effort_rate(const SignalReference& term,
+                               const SignalDescription& description) const {
   for (std::size_t c = 0; c < controllers_.size(); ++c) {
-    if (controllers_[c].pair != term.pair || controllers_[c].element != term.element || controllers_[c].has_output_rate) continue;
+    if (controllers_[c].pair != term.pair || controllers_[c].element != term.element ||
+        controllers_[c].has_output_rate)
+      continue;
     const ControllerDescription& controller = study().controllers[c];
     const bool sampled = controller.realization.is_sampled();
-    throw InputError({description.where, "signal",
-                      "the effort of the joint has no rate: the output of the controller \"" + controller.name + "\" " +
-                          (sampled ? "jumps at its samples" : "contains a signal whose rate is not available"),
-                      description.text, "give the controller a time_constant" + std::string(sampled ? "" : " or a derivative_filter")});
+    throw InputError(
+        {description.where, "signal",
+         "the effort of the joint has no rate: the output of the controller \"" + controller.name +
+             "\" " +
+             (sampled ? "jumps at its samples" : "contains a signal whose rate is not available"),
+         description.text,
+         "give the controller a time_constant" +
+             std::string(sampled ? "" : " or a derivative_filter")});
   }
 }
 
 void System::check_readable(const Signal& signal, const SignalDescription& description) const {
   for (const SignalReference& term : signal) {
-    if (term.kind == SignalKind::kControllerIntegral && controllers_[to_index(term.controller)].state < 0)
-      throw InputError({description.where, "signal", "the controller has no i gain, so that its error is not integrated", description.text,
+    if (term.kind == SignalKind::kControllerIntegral &&
+        controllers_[to_index(term.controller)].state < 0)
+      throw InputError({description.where, "signal",
+                        "the controller has no i gain, so that its error is not integrated",
+                        description.text,
                         "an i gain, or the signal in the objective or in a later controller"});
     if (term.kind == SignalKind::kJointEffortRate) check_effort_rate(term, description);
-    const bool coordinate = term.kind == SignalKind::kJointPosition || term.kind == SignalKind::kJointVelocity ||
-                            term.kind == SignalKind::kJointAcceleration || term.kind == SignalKind::kJointSlidingVelocity;
+    const bool coordinate = term.kind == SignalKind::kJointPosition ||
+                            term.kind == SignalKind::kJointVelocity ||
+                            term.kind == SignalKind::kJointAcceleration ||
+                            term.kind == SignalKind::kJointSlidingVelocity;
     if (!coordinate || has_coordinate_[to_index(term.pair)][to_index(term.element)]) continue;
-    throw InputError({description.where, "signal", "a joint of this chain of links without <inertial> has no coordinate in closed form",
-                      description.text, "in a ball joint of three hinges, hinges at right angles to each other"});
+    throw InputError(
+        {description.where, "signal",
+         "a joint of this chain of links without <inertial> has no coordinate in closed form",
+         description.text,
+         "in a ball joint of three hinges, hinges at right angles to each other"});
   }
 }
 
 void System::refuse_unsupported() const {
   if (topology_.bodies.empty())
-    throw InputError({robot_.links[to_index(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
+    throw InputError({robot_.links[to_index(robot_.root)].where,
+                      "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint", "",
                       "at least one link with <inertial> below a joint that is not fixed"});
 }

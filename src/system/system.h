@@ -23,9 +23,11 @@ struct ResolvedTerm {
   int description = 0;  ///< index into Study::integral or Study::terminal
 };
 
-/// The loads that act along one joint coordinate: which kinds there are, not their numbers; theory (13).
+/// The loads that act along one joint coordinate: which kinds there are, not their numbers; theory
+/// (13).
 struct JointLoad {
-  int pair = -1, element = -1;     ///< the coordinate: index in Topology::pairs and in the pair's chain
+  int pair = -1,
+      element = -1;  ///< the coordinate: index in Topology::pairs and in the pair's chain
   bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
   bool directional = false;        ///< its numbers differ with the sign of the velocity
   bool constant_friction = false;  ///< `<dynamics friction>`
@@ -53,20 +55,24 @@ struct LinkLoad {
   bool turns = false;        ///< whether force and torque turn with the link
 };
 
-/// A mechanism and a study with every name resolved to an index, the same for all designs: topology, layout of the unknowns, loads,
-/// controllers and signals. It determines the equations; the elements (src/elements) evaluate them. Immutable and thread-safe.
+/// A mechanism and a study with every name resolved to an index, the same for all designs:
+/// topology, layout of the unknowns, loads, controllers and signals. It determines the equations;
+/// the elements (src/elements) evaluate them. Immutable and thread-safe.
 class System {
  public:
   /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
-  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row after the rows of the couplings, theory (28).
-  /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a coordinate of their own, and signals,
-  /// controllers or couplings that cannot be resolved.
-  System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {}, const std::vector<int>& drives = {});
+  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row after
+  /// the rows of the couplings, theory (28).
+  /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a
+  /// coordinate of their own, and signals, controllers or couplings that cannot be resolved.
+  System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {},
+         const std::vector<int>& drives = {});
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  /// The coordinates that `solver: {coordinates: auto}` stands for: joint coordinates where they are possible. A system whose study still
-  /// says `auto` has absolute coordinates; make_system() chooses.
+  /// The coordinates that `solver: {coordinates: auto}` stands for: joint coordinates where they
+  /// are possible. A system whose study still says `auto` has absolute coordinates; make_system()
+  /// chooses.
   CoordinatesKind best_coordinates() const;
 
   /// The model, with the study's start rotations of floating joints.
@@ -89,7 +95,8 @@ class System {
   const std::vector<int>& contacts() const { return contacts_; }
   /// The coordinates and contacts whose friction law has states, theory (13e), (13f).
   const std::vector<BristleContact>& bristles() const { return bristles_; }
-  /// The states of the friction law of a joint coordinate, or of a contact (element -1); null if the law has no states.
+  /// The states of the friction law of a joint coordinate, or of a contact (element -1); null if
+  /// the law has no states.
   const BristleContact* bristle(int pair, int element) const;
   /// The friction law of a pair with Pair::friction_joint.
   const FrictionLaw& friction_law(int pair) const;
@@ -99,19 +106,24 @@ class System {
   /// The signals of Study::watched, theory (21a).
   const std::vector<Signal>& watched() const { return watched_; }
 
-  /// Redundant constraints, theory (23): how they are treated, the places of the unknowns, and epsilon [1/kg] (zero without redundancy).
+  /// Redundant constraints, theory (23): how they are treated, the places of the unknowns, and
+  /// epsilon [1/kg] (zero without redundancy).
   const ReactionSharing& sharing() const { return sharing_; }
   const SharingLayout& sharing_layout() const { return sharing_layout_; }
-  const std::vector<int>& dropped_rows() const { return dropped_rows_; }  ///< rows of Phi, ascending
+  const std::vector<int>& dropped_rows() const {
+    return dropped_rows_;
+  }  ///< rows of Phi, ascending
   double compliance() const { return sharing_.compliance; }
 
-  /// @throws InputError if a signal reads the coordinate of a joint in a folded chain that has no closed form, or the integral of a
-  /// controller without one. @param description of the signal, for the message.
+  /// @throws InputError if a signal reads the coordinate of a joint in a folded chain that has no
+  /// closed form, or the integral of a controller without one. @param description of the signal,
+  /// for the message.
   void check_readable(const Signal& signal, const SignalDescription& description) const;
 
   /// Start values of all named parameters, order of Study::parameters.
   std::vector<double> parameters() const;
-  /// All named parameters, the tuned ones at `rho` (order of Study::tuned), the others at their start values.
+  /// All named parameters, the tuned ones at `rho` (order of Study::tuned), the others at their
+  /// start values.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
 
  private:

@@ -30,7 +30,8 @@ int coordinates_of(JointType type) {
 
 namespace {
 
-/// Pose and twist of a joint's child frame relative to the joint frame, which is the child frame at theta = 0.
+/// Pose and twist of a joint's child frame relative to the joint frame, which is the child frame at
+/// theta = 0.
 template <class T>
 struct JointMotion {
   Pose<T> X;
@@ -38,7 +39,8 @@ struct JointMotion {
 };
 
 template <class T>
-JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters, In<T> theta, In<T> rate) {
+JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters,
+                            In<T> theta, In<T> rate) {
   JointMotion<T> m;
   int k = 0;
   visit_steps(joint, parameters, [&](bool turns, const Vector3<T>& axis) {
@@ -50,19 +52,23 @@ JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>&
       m.X.t += u * theta[k];
     ++k;
   });
-  if (joint.type == JointType::kFloating) m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
+  if (joint.type == JointType::kFloating)
+    m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
   return m;
 }
 
 }  // namespace
 
-// The order equals the order of repeated passes over the file, each of which takes the joints whose parent is placed. The queue computes it
-// without one pass per level if a file lists children before parents.
+// The order equals the order of repeated passes over the file, each of which takes the joints whose
+// parent is placed. The queue computes it without one pass per level if a file lists children
+// before parents.
 TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size(), 0) {
   std::vector<std::vector<int>> children(robot.links.size());
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (!robot.joints[k].is_loop) children[to_index(robot.joints[k].parent)].push_back(static_cast<int>(k));
-  // A joint that stands behind its parent's joint in the file is taken in the same pass, else in the next one.
+    if (!robot.joints[k].is_loop)
+      children[to_index(robot.joints[k].parent)].push_back(static_cast<int>(k));
+  // A joint that stands behind its parent's joint in the file is taken in the same pass, else in
+  // the next one.
   using Place = std::pair<int, int>;  // pass, joint
   std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
   for (int k : children[to_index(robot.root)]) next.emplace(0, k);
@@ -70,7 +76,8 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
     const auto [pass, joint] = next.top();
     next.pop();
     joint_order.push_back(joint);
-    for (int k : children[to_index(robot.joints[to_index(joint)].child)]) next.emplace(k > joint ? pass : pass + 1, k);
+    for (int k : children[to_index(robot.joints[to_index(joint)].child)])
+      next.emplace(k > joint ? pass : pass + 1, k);
   }
   for (int k : joint_order) {
     offset[to_index(k)] = size;
@@ -79,7 +86,8 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
 }
 
 template <class T>
-void link_motions(const RobotDescription& robot, const TreeLayout& layout, const std::vector<T>& parameters, const VectorX<T>& theta,
+void link_motions(const RobotDescription& robot, const TreeLayout& layout,
+                  const std::vector<T>& parameters, const VectorX<T>& theta,
                   const VectorX<T>& theta_rate, std::vector<LinkMotion<T>>* result) {
   std::vector<LinkMotion<T>>& links = *result;
   links.assign(robot.links.size(), LinkMotion<T>());
@@ -89,33 +97,40 @@ void link_motions(const RobotDescription& robot, const TreeLayout& layout, const
     LinkMotion<T>& child = links[to_index(joint.child)];
     const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
     const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
-    const JointMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count), In<T>(theta_rate).subspan(first, count));
+    const JointMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count),
+                                          In<T>(theta_rate).subspan(first, count));
     child.X = X_GF * m.X;
     child.omega = parent.omega + X_GF.R * m.omega;
-    child.velocity = parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
+    child.velocity =
+        parent.velocity + cross<T>(parent.omega, child.X.t - parent.X.t) + X_GF.R * m.velocity;
   }
 }
 
-void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout, const std::vector<double>& parameters,
-                       const VectorX<double>& theta, const std::vector<LinkMotion<double>>& links, std::vector<CoordinateTwist>* result) {
+void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
+                       const std::vector<double>& parameters, const VectorX<double>& theta,
+                       const std::vector<LinkMotion<double>>& links,
+                       std::vector<CoordinateTwist>* result) {
   std::vector<CoordinateTwist>& twists = *result;
   twists.resize(to_index(layout.size));
   for (int k : layout.joint_order) {
     const JointDescription& joint = robot.joints[to_index(k)];
     const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
     if (count == 0) continue;
-    const Matrix3<double> R = links[to_index(joint.parent)].X.R * rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
+    const Matrix3<double> R = links[to_index(joint.parent)].X.R *
+                              rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
     double unit[6] = {};
     for (int c = 0; c < count; ++c) {
       unit[c] = 1.0;
-      const JointMotion<double> m = joint_motion(joint, parameters, In<double>(theta).subspan(first, count), unit);
+      const JointMotion<double> m =
+          joint_motion(joint, parameters, In<double>(theta).subspan(first, count), unit);
       twists[to_index(first + c)] = {R * m.omega, R * m.velocity, links[to_index(joint.child)].X.t};
       unit[c] = 0.0;
     }
   }
 }
 
-void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta, State<double>* state) {
+void set_turns(const System& system, const TreeLayout& layout, const VectorX<double>& theta,
+               State<double>* state) {
   for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
     const Pair& pair = system.topology().pairs[p];
     for (std::size_t e = 0; e < pair.chain.size(); ++e) {
@@ -130,7 +145,8 @@ namespace {
 
 /// r and p of one body and their rates, from c on.
 template <class T>
-void place_body(const LinkMotion<T>& link, const Vector3<T>& centre, Eigen::Index c, VectorX<T>* q, VectorX<T>* v) {
+void place_body(const LinkMotion<T>& link, const Vector3<T>& centre, Eigen::Index c, VectorX<T>* q,
+                VectorX<T>* v) {
   const Vector3<T> arm = link.X.R * centre;
   const Vector4<T> p = euler_parameters(link.X.R);
   q->template segment<3>(c) = link.X.t + arm;
@@ -142,16 +158,17 @@ void place_body(const LinkMotion<T>& link, const Vector3<T>& centre, Eigen::Inde
 }  // namespace
 
 template <class T>
-void body_coordinates(const System& system, const Constants<T>& constants, const std::vector<LinkMotion<T>>& links, VectorX<T>* q,
-                      VectorX<T>* v) {
+void body_coordinates(const System& system, const Constants<T>& constants,
+                      const std::vector<LinkMotion<T>>& links, VectorX<T>* q, VectorX<T>* v) {
   const std::vector<Body>& bodies = system.topology().bodies;
   for (VectorX<T>* x : {q, v}) x->resize(kBodySize * to_signed(bodies.size()));
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    place_body(links[to_index(bodies[b].base_link)], constants.bodies[b].centre, to_signed(kBodySize * b), q, v);
+    place_body(links[to_index(bodies[b].base_link)], constants.bodies[b].centre,
+               to_signed(kBodySize * b), q, v);
 }
 
-void set_signs(const System& system, const Constants<double>& constants, const std::vector<LinkMotion<double>>& links,
-               State<double>* state) {
+void set_signs(const System& system, const Constants<double>& constants,
+               const std::vector<LinkMotion<double>>& links, State<double>* state) {
   const Layout& layout = system.layout();
   for (int body : layout.forest.order) {
     const int base = system.topology().bodies[to_index(body)].base_link;
@@ -162,8 +179,9 @@ void set_signs(const System& system, const Constants<double>& constants, const s
 }
 
 template <class T>
-void state_coordinates(const System& system, const TreeLayout& layout, const Constants<T>& constants,
-                       const std::vector<LinkMotion<T>>& links, const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q,
+void state_coordinates(const System& system, const TreeLayout& layout,
+                       const Constants<T>& constants, const std::vector<LinkMotion<T>>& links,
+                       const VectorX<T>& theta, const VectorX<T>& theta_rate, VectorX<T>* q,
                        VectorX<T>* v) {
   const Topology& topology = system.topology();
   const Layout& at = system.layout();
@@ -171,7 +189,8 @@ void state_coordinates(const System& system, const TreeLayout& layout, const Con
   for (std::size_t b = 0; b < topology.bodies.size(); ++b) {
     Eigen::Index c = at.column(static_cast<int>(b));
     if (at.is_free(static_cast<int>(b))) {
-      place_body(links[to_index(topology.bodies[b].base_link)], constants.bodies[b].centre, c, q, v);
+      place_body(links[to_index(topology.bodies[b].base_link)], constants.bodies[b].centre, c, q,
+                 v);
       continue;
     }
     for (const ChainElement& element : topology.pairs[to_index(at.forest.pair_above[b])].chain) {
@@ -184,18 +203,21 @@ void state_coordinates(const System& system, const TreeLayout& layout, const Con
   }
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                                                                       \
-  template void link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&, const VectorX<T>&, const VectorX<T>&, \
-                             std::vector<LinkMotion<T>>*);                                                                            \
-  template void body_coordinates(const System&, const Constants<T>&, const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);    \
-  template void state_coordinates(const System&, const TreeLayout&, const Constants<T>&, const std::vector<LinkMotion<T>>&,           \
-                                  const VectorX<T>&, const VectorX<T>&, VectorX<T>*, VectorX<T>*);
+#define CODESIGN_INSTANTIATE(T)                                                                  \
+  template void link_motions(const RobotDescription&, const TreeLayout&, const std::vector<T>&,  \
+                             const VectorX<T>&, const VectorX<T>&, std::vector<LinkMotion<T>>*); \
+  template void body_coordinates(const System&, const Constants<T>&,                             \
+                                 const std::vector<LinkMotion<T>>&, VectorX<T>*, VectorX<T>*);   \
+  template void state_coordinates(const System&, const TreeLayout&, const Constants<T>&,         \
+                                  const std::vector<LinkMotion<T>>&, const VectorX<T>&,          \
+                                  const VectorX<T>&, VectorX<T>*, VectorX<T>*);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
 int tree_joint(const RobotDescription& robot, const InitialJointState& initial) {
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (robot.joints[k].name == initial.joint && !robot.joints[k].is_loop) return static_cast<int>(k);
+    if (robot.joints[k].name == initial.joint && !robot.joints[k].is_loop)
+      return static_cast<int>(k);
   return -1;
 }
 

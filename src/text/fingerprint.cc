@@ -7,7 +7,9 @@ namespace codesign {
 namespace {
 
 /// What with_checksum() puts behind the text before it.
-std::string checksum_end(const std::string& text) { return ",\"checksum\":\"" + fingerprint(text) + "\"}"; }
+std::string checksum_end(const std::string& text) {
+  return ",\"checksum\":\"" + fingerprint(text) + "\"}";
+}
 
 }  // namespace
 
@@ -15,7 +17,8 @@ std::string fingerprint(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   std::string digits(16, '0');
-  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, hash >>= 4) *digit = "0123456789abcdef"[hash & 0xf];
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, hash >>= 4)
+    *digit = "0123456789abcdef"[hash & 0xf];
   return digits;
 }
 

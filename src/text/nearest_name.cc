@@ -8,7 +8,8 @@ namespace codesign {
 namespace {
 
 std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -21,7 +22,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before_last[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
     before_last.swap(last);
     last.swap(row);
@@ -32,14 +34,16 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
-  // Bounds the time spent on one error message, however many and however long the names in a file or a request are.
+  // Bounds the time spent on one error message, however many and however long the names in a file
+  // or a request are.
   constexpr std::size_t kLongest = 100, kMostLetterPairs = 20000000;
   if (name.size() > kLongest) return "";
   const std::string wanted = lower_case(name);
   std::string nearest;
   std::size_t fewest = 0, letter_pairs = 0;
   for (const std::string& candidate : known) {
-    const std::size_t longer = std::max(name.size(), candidate.size()), allowed = std::max<std::size_t>(2, longer / 3);
+    const std::size_t longer = std::max(name.size(), candidate.size()),
+                      allowed = std::max<std::size_t>(2, longer / 3);
     if (longer > kLongest || longer - std::min(name.size(), candidate.size()) > allowed) continue;
     letter_pairs += name.size() * candidate.size();
     if (letter_pairs > kMostLetterPairs) break;
@@ -53,7 +57,9 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return nearest;
 }
 
-std::string did_you_mean(const std::string& near) { return near.empty() ? "" : ", did you mean \"" + near + "\"?"; }
+std::string did_you_mean(const std::string& near) {
+  return near.empty() ? "" : ", did you mean \"" + near + "\"?";
+}
 
 std::string list_names(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 24;
@@ -66,7 +72,8 @@ std::string list_names(const std::vector<std::string>& names) {
   return list.empty() ? "there are none" : list;
 }
 
-InputError unknown_name(const SourceLocation& where, const std::string& element, const std::string& kind, const std::string& name,
+InputError unknown_name(const SourceLocation& where, const std::string& element,
+                        const std::string& kind, const std::string& name,
                         const std::vector<std::string>& known) {
   const std::string near = nearest_name(name, known);
   const std::string message = "unknown " + kind + did_you_mean(near);

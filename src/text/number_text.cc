@@ -10,7 +10,8 @@
 namespace codesign {
 namespace {
 
-/// A number out of the range of doubles: zero (or a denormal) if too small, as urdfdom reads it; std::nullopt if too large.
+/// A number out of the range of doubles: zero (or a denormal) if too small, as urdfdom reads it;
+/// std::nullopt if too large.
 std::optional<double> underflow(const std::string& text) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
@@ -31,7 +32,8 @@ std::string to_decimal(double value) {
 std::optional<double> parse_number(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
-  if (text.size() > 1 && *begin == '+' && text[1] != '-') ++begin;  // urdfdom accepts a plus sign, from_chars does not
+  if (text.size() > 1 && *begin == '+' && text[1] != '-')
+    ++begin;  // urdfdom accepts a plus sign, from_chars does not
   double value = 0.0;
   const std::from_chars_result result = std::from_chars(begin, end, value);
   if (result.ptr != end) return std::nullopt;
@@ -54,7 +56,8 @@ std::vector<std::string> split_words(const std::string& text) {
 }
 
 bool ends_with(const std::string& text, const std::string& tail) {
-  return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+  return text.size() >= tail.size() &&
+         text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
 }
 
 std::string readable(double value, int digits) {

@@ -7,11 +7,13 @@
 
 namespace codesign {
 
-/// The shortest text that reads back as the same double, independent of the locale: `0.07`, `1e-06`, `inf`, `nan`.
+/// The shortest text that reads back as the same double, independent of the locale: `0.07`,
+/// `1e-06`, `inf`, `nan`.
 std::string to_decimal(double value);
 
-/// The number that the whole of `text` spells, independent of the locale; std::nullopt if it is not a number or too large for a double.
-/// A number too small for a double is 0. `inf` and `nan` are accepted: callers that need a finite number must check.
+/// The number that the whole of `text` spells, independent of the locale; std::nullopt if it is not
+/// a number or too large for a double. A number too small for a double is 0. `inf` and `nan` are
+/// accepted: callers that need a finite number must check.
 std::optional<double> parse_number(const std::string& text);
 
 /// The values as to_decimal() writes them, separated by spaces.

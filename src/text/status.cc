@@ -17,13 +17,15 @@ namespace {
 std::string shortened(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
   std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // do not cut a UTF-8 character
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+    --end;  // do not cut a UTF-8 character
   return text.substr(0, end) + "...";
 }
 
 InputFault shortened(InputFault fault) {
   for (std::string* part : {&fault.element, &fault.value}) *part = shortened(*part, 300);
-  for (std::string* part : {&fault.message, &fault.allowed}) *part = shortened(*part, 1000);  // these may show an element to write
+  for (std::string* part : {&fault.message, &fault.allowed})
+    *part = shortened(*part, 1000);  // these may show an element to write
   return fault;
 }
 
@@ -43,9 +45,12 @@ std::string describe(const InputFault& fault) {
 
 }  // namespace
 
-InputError::InputError(InputFault fault) : std::runtime_error(describe(shortened(fault))), fault_(shortened(std::move(fault))) {}
+InputError::InputError(InputFault fault)
+    : std::runtime_error(describe(shortened(fault))), fault_(shortened(std::move(fault))) {}
 
-Warning warn(const std::string& code, const InputFault& fault) { return {code, InputError(fault).what(), fault.where}; }
+Warning warn(const std::string& code, const InputFault& fault) {
+  return {code, InputError(fault).what(), fault.where};
+}
 
 void append(const Warnings& more, Warnings* warnings) {
   std::set<std::pair<std::string, std::string>> known;
@@ -56,10 +61,13 @@ void append(const Warnings& more, Warnings* warnings) {
 
 SourceText read_source(const std::string& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError({{path, 0}, "", "this is a folder", "", "a file"});
-  if (!std::filesystem::exists(path, error)) throw InputError({{path, 0}, "", "there is no such file", "", ""});
+  if (std::filesystem::is_directory(path, error))
+    throw InputError({{path, 0}, "", "this is a folder", "", "a file"});
+  if (!std::filesystem::exists(path, error))
+    throw InputError({{path, 0}, "", "there is no such file", "", ""});
   std::ifstream file(path, std::ios::binary);
-  if (file && file.peek() == std::ifstream::traits_type::eof()) throw InputError({{path, 1}, "", "the file is empty", "", ""});
+  if (file && file.peek() == std::ifstream::traits_type::eof())
+    throw InputError({{path, 1}, "", "the file is empty", "", ""});
   if (!file) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
   // Devices and pipes may never end.
   constexpr std::size_t kMost = 32000000;
@@ -67,7 +75,8 @@ SourceText read_source(const std::string& path) {
   std::array<char, 65536> block;
   while (file.read(block.data(), block.size()), file.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-    if (text.size() > kMost) throw InputError({{path, 1}, "", "the file is too large", "", "at most 32 MB"});
+    if (text.size() > kMost)
+      throw InputError({{path, 1}, "", "the file is too large", "", "at most 32 MB"});
   }
   if (file.bad()) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
   return {path, text};

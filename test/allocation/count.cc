@@ -19,7 +19,8 @@ std::int64_t allocations() { return count; }
 
 }  // namespace codesign
 
-// The allocation functions of glibc, under the names that remain available when a program replaces malloc() and the others.
+// The allocation functions of glibc, under the names that remain available when a program replaces
+// malloc() and the others.
 extern "C" {
 
 void* __libc_malloc(std::size_t size);

@@ -5,7 +5,8 @@
 
 namespace codesign {
 
-/// How often this program has allocated memory so far, by malloc(), calloc(), realloc() or memalign(); operator new and Eigen call these.
+/// How often this program has allocated memory so far, by malloc(), calloc(), realloc() or
+/// memalign(); operator new and Eigen call these.
 std::int64_t allocations();
 
 }  // namespace codesign

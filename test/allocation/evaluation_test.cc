@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// A worker that has evaluated one design evaluates others without allocating anything but the vectors of its results.
+// A worker that has evaluated one design evaluates others without allocating anything but the
+// vectors of its results.
 #include "allocation/count.h"
 #include "engine/thread_engine.h"
 #include "integration/rounded_linkages.h"
@@ -8,17 +9,22 @@
 namespace codesign {
 namespace {
 
-/// Cases of the gradient and further ones: `chain` has an expression for nearly every number; `slider_crank`, `slider_crank_haug` and
-/// `governor` are closed loops to be assembled; `four_bar` and the rounded ones have redundant rows, which the latter drop; `servo`,
-/// `feed_axis` (sampled) and `arm_limits` (way-points, watched signals) have controllers.
+/// Cases of the gradient and further ones: `chain` has an expression for nearly every number;
+/// `slider_crank`, `slider_crank_haug` and `governor` are closed loops to be assembled; `four_bar`
+/// and the rounded ones have redundant rows, which the latter drop; `servo`, `feed_axis` (sampled)
+/// and `arm_limits` (way-points, watched signals) have controllers.
 std::vector<GradientCase> evaluation_cases() {
   std::vector<GradientCase> cases = gradient_cases();
-  for (const char* name : {"slider_crank", "feed_axis", "arm_limits", "vendor_arm"}) cases.push_back(shipped_case(name, 0.05));
-  cases.push_back(from_texts("two_rounded_four_bars", rounded::two_four_bars(),
-                             rounded::study(rounded::two_four_bars_start(), "j1_a/velocity", 0.05, 1e-6)));
-  cases.push_back(from_texts("rounded_parallel_arms", rounded::parallel_arms(),
-                             rounded::study(rounded::parallel_arms_start(), "m1/velocity", 0.02, 1e-6)));
-  cases.push_back(from_texts("rounded_bennett", rounded::bennett(), rounded::study(rounded::bennett_start(), "t1/velocity", 0.02, 1e-6)));
+  for (const char* name : {"slider_crank", "feed_axis", "arm_limits", "vendor_arm"})
+    cases.push_back(shipped_case(name, 0.05));
+  cases.push_back(
+      from_texts("two_rounded_four_bars", rounded::two_four_bars(),
+                 rounded::study(rounded::two_four_bars_start(), "j1_a/velocity", 0.05, 1e-6)));
+  cases.push_back(
+      from_texts("rounded_parallel_arms", rounded::parallel_arms(),
+                 rounded::study(rounded::parallel_arms_start(), "m1/velocity", 0.02, 1e-6)));
+  cases.push_back(from_texts("rounded_bennett", rounded::bennett(),
+                             rounded::study(rounded::bennett_start(), "t1/velocity", 0.02, 1e-6)));
   return cases;
 }
 
@@ -26,7 +32,8 @@ std::vector<GradientCase> evaluation_cases() {
 std::int64_t vectors_of(const Evaluation& e) {
   std::int64_t count = 0;
   for (const Eigen::Index size :
-       {e.gradient.size(), e.jacobian_root.size(), e.extremes.values.size(), e.extremes.times.size(), e.extremes.gradients.size()})
+       {e.gradient.size(), e.jacobian_root.size(), e.extremes.values.size(),
+        e.extremes.times.size(), e.extremes.gradients.size()})
     if (size > 0) ++count;
   return count;
 }
@@ -34,7 +41,8 @@ std::int64_t vectors_of(const Evaluation& e) {
 /// The parameters of the k-th design: the tuned ones are k permille above their start values.
 std::vector<double> design(const CompiledSystem& system, int k) {
   std::vector<double> parameters = system.parameters();
-  for (int tuned : system.study().tuned) parameters[static_cast<std::size_t>(tuned)] *= 1.0 + 1e-3 * k;
+  for (int tuned : system.study().tuned)
+    parameters[static_cast<std::size_t>(tuned)] *= 1.0 + 1e-3 * k;
   return parameters;
 }
 
@@ -75,12 +83,17 @@ TEST_P(WarmWorker, AsksForNoMemoryForAnObjective) { expect_no_allocation(Derivat
 
 TEST_P(WarmWorker, AsksForAGradientOnly) { expect_no_allocation(Derivatives::kGradient); }
 
-TEST_P(WarmWorker, AsksForAGradientAndARootOnly) { expect_no_allocation(Derivatives::kGaussNewton); }
+TEST_P(WarmWorker, AsksForAGradientAndARootOnly) {
+  expect_no_allocation(Derivatives::kGaussNewton);
+}
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, WarmWorker,
-                         ::testing::Combine(::testing::Range(std::size_t{0}, evaluation_cases().size()), ::testing::ValuesIn(kWays)),
+                         ::testing::Combine(::testing::Range(std::size_t{0},
+                                                             evaluation_cases().size()),
+                                            ::testing::ValuesIn(kWays)),
                          [](const auto& instance) {
-                           return evaluation_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param).name;
+                           return evaluation_cases().at(std::get<0>(instance.param)).name + "_" +
+                                  std::get<1>(instance.param).name;
                          });
 
 // The public door, which takes the tuned parameters alone.
@@ -91,7 +104,8 @@ TEST(WarmEvaluator, AsksForAGradientOnly) {
   for (int k = 0; k < 3; ++k) {
     const std::vector<double> parameters = design(*system, k);
     for (Eigen::Index p = 0; p < rho.size(); ++p)
-      rho[p] = parameters[static_cast<std::size_t>(system->study().tuned[static_cast<std::size_t>(p)])];
+      rho[p] =
+          parameters[static_cast<std::size_t>(system->study().tuned[static_cast<std::size_t>(p)])];
     const std::int64_t before = allocations();
     const Evaluation evaluation = evaluator.evaluate(rho, Derivatives::kGradient);
     const std::int64_t count = allocations() - before;

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The loop over time steps allocates no memory after a first run, which brings every workspace to its size.
+// The loop over time steps allocates no memory after a first run, which brings every workspace to
+// its size.
 #include "allocation/count.h"
 #include "integration/integrator.h"
 #include "sensitivity/gradient_cases.h"
@@ -31,7 +32,8 @@ TEST_P(StepLoop, OfASimulationAsksForNoMemory) {
   const auto integrator = make_integrator(*system);
   for (const bool warm : {false, true}) {
     ASSERT_TRUE(integrator->start(system->parameters()).ok());
-    const std::int64_t count = allocations_of_steps(integrator.get(), test.study.duration, [&] { return integrator->state().t; });
+    const std::int64_t count = allocations_of_steps(integrator.get(), test.study.duration,
+                                                    [&] { return integrator->state().t; });
     if (warm) {
       EXPECT_EQ(count, 0);
     }
@@ -46,7 +48,8 @@ std::int64_t allocations_once_warm(const CompiledSystem& system, Derivatives der
   std::int64_t count = 0;
   for (int run = 0; run < 2; ++run) {
     EXPECT_TRUE(engine->start(system.parameters(), derivatives).ok());
-    count = allocations_of_steps(engine.get(), system.study().duration, [&] { return engine->time(); });
+    count =
+        allocations_of_steps(engine.get(), system.study().duration, [&] { return engine->time(); });
     engine->gradient(&gradient);
     if (derivatives == Derivatives::kGaussNewton) engine->jacobian_root(&root);
   }
@@ -55,7 +58,8 @@ std::int64_t allocations_once_warm(const CompiledSystem& system, Derivatives der
 
 TEST_P(StepLoop, OfAGradientAsksForNoMemory) {
   for (const char* gradient : {"direct", "adjoint"})
-    EXPECT_EQ(allocations_once_warm(*test.compile(method, gradient), Derivatives::kGradient), 0) << gradient;
+    EXPECT_EQ(allocations_once_warm(*test.compile(method, gradient), Derivatives::kGradient), 0)
+        << gradient;
 }
 
 TEST_P(StepLoop, OfTheJacobianOfResidualsAsksForNoMemory) {
@@ -63,7 +67,8 @@ TEST_P(StepLoop, OfTheJacobianOfResidualsAsksForNoMemory) {
 }
 
 /// The number of allocations in gradient() after a run that ended at `time`.
-std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSystem& system, double time) {
+std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSystem& system,
+                                     double time) {
   Eigen::VectorXd result;
   EXPECT_TRUE(engine->start(system.parameters(), Derivatives::kGradient).ok());
   allocations_of_steps(engine, time, [&] { return engine->time(); });
@@ -75,16 +80,21 @@ std::int64_t allocations_of_way_back(GradientEngine* engine, const CompiledSyste
 TEST_P(StepLoop, BackwardsAsksForTheGradientOnly) {
   const auto system = test.compile(method, "adjoint");
   const auto engine = make_gradient_engine(*system);
-  // Twice: the second way back begins with the variant of the recording that the first one found last, and makes its code.
+  // Twice: the second way back begins with the variant of the recording that the first one found
+  // last, and makes its code.
   for (int k = 0; k < 2; ++k) allocations_of_way_back(engine.get(), *system, test.study.duration);
-  for (double share : {1.0, 0.25}) EXPECT_EQ(allocations_of_way_back(engine.get(), *system, share * test.study.duration), 1) << share;
+  for (double share : {1.0, 0.25})
+    EXPECT_EQ(allocations_of_way_back(engine.get(), *system, share * test.study.duration), 1)
+        << share;
 }
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, StepLoop,
-                         ::testing::Combine(::testing::Range(std::size_t{0}, gradient_cases().size()),
+                         ::testing::Combine(::testing::Range(std::size_t{0},
+                                                             gradient_cases().size()),
                                             ::testing::Values("rodas4", "rodas5p", "dopri5")),
                          [](const auto& instance) {
-                           return gradient_cases().at(std::get<0>(instance.param)).name + "_" + std::get<1>(instance.param);
+                           return gradient_cases().at(std::get<0>(instance.param)).name + "_" +
+                                  std::get<1>(instance.param);
                          });
 
 }  // namespace

@@ -18,7 +18,8 @@ double largest_gap(Compiled* c) {
 }
 
 TEST(AssemblyContinuation, TheStudysCoordinateStaysAndTheOthersClose) {
-  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"), kSoft);
+  Compiled c(four_bar(),
+             let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"), kSoft);
   ASSERT_TRUE(c.start().ok());
   // Somewhere else on the way, with the coupler a little off.
   TreeCoordinates from{c.assembly.theta(), Eigen::VectorXd::Zero(3)};
@@ -32,7 +33,9 @@ TEST(AssemblyContinuation, TheStudysCoordinateStaysAndTheOthersClose) {
   EXPECT_NEAR(c.assembly.theta()[2], -1.1, 1e-11);
   EXPECT_LT(largest_gap(&c), 1e-11);
   TreeCoordinates found;
-  ASSERT_EQ(tree_coordinates(c.system, c.assembly.tree(), c.state, c.assembly.theta(), &c.equations, &found), "");
+  ASSERT_EQ(tree_coordinates(c.system, c.assembly.tree(), c.state, c.assembly.theta(), &c.equations,
+                             &found),
+            "");
   EXPECT_NEAR(found.rate[0], 0.7, 1e-12);
   EXPECT_NEAR(found.rate[2], -0.7, 1e-11);
   // The next start is the study's again.
@@ -41,9 +44,12 @@ TEST(AssemblyContinuation, TheStudysCoordinateStaysAndTheOthersClose) {
 }
 
 TEST(AssemblyContinuation, PositionsThatFitTheStartAloneAreReleased) {
-  Compiled c(four_bar(),
-             let_go("{left_hinge: {position: 0.6}, right_hinge: {position: 0.6}, left_pin: {position: -0.6}}", "left_hinge/velocity"),
-             kSoft);
+  Compiled c(
+      four_bar(),
+      let_go(
+          "{left_hinge: {position: 0.6}, right_hinge: {position: 0.6}, left_pin: {position: -0.6}}",
+          "left_hinge/velocity"),
+      kSoft);
   ASSERT_TRUE(c.start().ok());
   TreeCoordinates from{c.assembly.theta(), Eigen::VectorXd::Zero(3)};
   from.theta << 0.7, 0.72, -0.71;
@@ -55,30 +61,40 @@ TEST(AssemblyContinuation, PositionsThatFitTheStartAloneAreReleased) {
 std::string crank_rocker() {
   const auto link = [](const std::string& name) {
     return "<link name='" + name +
-           "'><inertial><origin xyz='0.05 0 0'/><mass value='1'/><inertia ixx='0.001' ixy='0' ixz='0' iyy='0.01' iyz='0' izz='0.01'/>"
+           "'><inertial><origin xyz='0.05 0 0'/><mass value='1'/><inertia ixx='0.001' ixy='0' "
+           "ixz='0' iyy='0.01' iyz='0' izz='0.01'/>"
            "</inertial></link>";
   };
-  const auto hinge = [](const std::string& name, const std::string& parent, const std::string& child, const std::string& origin) {
-    return "<joint name='" + name + "' type='continuous'><parent link='" + parent + "'/><child link='" + child + "'/><origin " + origin +
-           "/><axis xyz='0 0 1'/></joint>";
+  const auto hinge = [](const std::string& name, const std::string& parent,
+                        const std::string& child, const std::string& origin) {
+    return "<joint name='" + name + "' type='continuous'><parent link='" + parent +
+           "'/><child link='" + child + "'/><origin " + origin + "/><axis xyz='0 0 1'/></joint>";
   };
-  return "<robot name='four' xmlns:codesign='urn:t'><codesign:parameter name='a' value='0.08'/><codesign:parameter name='b' value='0.25'/>"
-         "<codesign:parameter name='c' value='0.3'/><codesign:parameter name='d' value='0.3'/><link name='ground'/>" +
-         link("crank") + link("coupler") + link("rocker") + hinge("crank_pin", "ground", "crank", "xyz='0 0 0'") +
+  return "<robot name='four' xmlns:codesign='urn:t'><codesign:parameter name='a' "
+         "value='0.08'/><codesign:parameter name='b' value='0.25'/>"
+         "<codesign:parameter name='c' value='0.3'/><codesign:parameter name='d' "
+         "value='0.3'/><link name='ground'/>" +
+         link("crank") + link("coupler") + link("rocker") +
+         hinge("crank_pin", "ground", "crank", "xyz='0 0 0'") +
          hinge("coupler_pin", "crank", "coupler", "xyz='0.08 0 0' codesign:xyz='${a} 0 0'") +
          hinge("rocker_pin", "ground", "rocker", "xyz='0.3 0 0' codesign:xyz='${d} 0 0'") +
-         "<loop name='end_pin' type='revolute'><predecessor link='coupler'><origin xyz='0.25 0 0' codesign:xyz='${b} 0 0'/></predecessor>"
-         "<successor link='rocker'><origin xyz='0.3 0 0' codesign:xyz='${c} 0 0'/></successor><axis xyz='0 0 1'/></loop></robot>";
+         "<loop name='end_pin' type='revolute'><predecessor link='coupler'><origin xyz='0.25 0 0' "
+         "codesign:xyz='${b} 0 0'/></predecessor>"
+         "<successor link='rocker'><origin xyz='0.3 0 0' codesign:xyz='${c} 0 "
+         "0'/></successor><axis xyz='0 0 1'/></loop></robot>";
 }
 
 std::string crank_at(double position, double coupler, double rocker) {
-  return let_go("{crank_pin: {position: " + std::to_string(position) + "}, coupler_pin: {guess: " + std::to_string(coupler) +
+  return let_go("{crank_pin: {position: " + std::to_string(position) +
+                    "}, coupler_pin: {guess: " + std::to_string(coupler) +
                     "}, rocker_pin: {guess: " + std::to_string(rocker) + "}}",
                 "rocker_pin/velocity", "parameters: {a: {}, b: {}, c: {}, d: {}}\n");
 }
 
 /// The design at `way` between the model's (0) and a smaller linkage (1).
-std::vector<double> design_at(double way) { return {0.08 + way * 0.01, 0.25 - way * 0.12, 0.3 - way * 0.19, 0.3 - way * 0.16}; }
+std::vector<double> design_at(double way) {
+  return {0.08 + way * 0.01, 0.25 - way * 0.12, 0.3 - way * 0.19, 0.3 - way * 0.16};
+}
 
 /// The joints' positions along the way, as far as the loop can be closed.
 std::vector<Eigen::VectorXd> along_the_way(Compiled* c, int steps, bool from_the_end = false) {
@@ -105,19 +121,24 @@ TEST(AssemblyContinuation, PositionsAreContinuousInTheDesign) {
     if (!c.assembly.warnings().empty()) {
       ++jumps_without;
       EXPECT_EQ(c.assembly.warnings()[0].code, "branch_continued");
-      for (const char* part : {"end_pin", "initial_state: {", "rocker_pin: {guess: ", "a = 0.09, b = 0.13"})
-        EXPECT_NE(c.assembly.warnings()[0].message.find(part), std::string::npos) << c.assembly.warnings()[0].message;
+      for (const char* part :
+           {"end_pin", "initial_state: {", "rocker_pin: {guess: ", "a = 0.09, b = 0.13"})
+        EXPECT_NE(c.assembly.warnings()[0].message.find(part), std::string::npos)
+            << c.assembly.warnings()[0].message;
     }
   }
   EXPECT_GT(jumps_without, 0) << "the study's guesses alone lead elsewhere";
 }
 
 TEST(AssemblyContinuation, ThePositionDoesNotDependOnDesignsSolvedBefore) {
-  Compiled forward(crank_rocker(), crank_at(2.0943951, 1.0, 1.5), kSoft), backward(crank_rocker(), crank_at(2.0943951, 1.0, 1.5), kSoft);
-  std::vector<Eigen::VectorXd> there = along_the_way(&forward, 20), back = along_the_way(&backward, 20, true);
+  Compiled forward(crank_rocker(), crank_at(2.0943951, 1.0, 1.5), kSoft),
+      backward(crank_rocker(), crank_at(2.0943951, 1.0, 1.5), kSoft);
+  std::vector<Eigen::VectorXd> there = along_the_way(&forward, 20),
+                               back = along_the_way(&backward, 20, true);
   ASSERT_EQ(there.size(), back.size());
   std::reverse(back.begin(), back.end());
-  for (std::size_t k = 0; k < there.size(); ++k) EXPECT_EQ(there[k], back[k]) << "to the last bit, " << k;
+  for (std::size_t k = 0; k < there.size(); ++k)
+    EXPECT_EQ(there[k], back[k]) << "to the last bit, " << k;
 }
 
 TEST(AssemblyContinuation, TheGuessesOfTheWarningLeadToThePosition) {
@@ -136,7 +157,8 @@ TEST(AssemblyContinuation, TheGuessesOfTheWarningLeadToThePosition) {
 }
 
 TEST(AssemblyContinuation, WhereTheLoopOpensOnTheWayTheWarningSaysSo) {
-  // A crank as long as this does not turn fully at the model's design: on the way from b = 0.25 to 0.7 the loop cannot be closed at 0.5.
+  // A crank as long as this does not turn fully at the model's design: on the way from b = 0.25 to
+  // 0.7 the loop cannot be closed at 0.5.
   Compiled c(crank_rocker(), crank_at(3.1, 1.0, 1.5), kSoft);
   ASSERT_TRUE(c.start().ok());
   EXPECT_FALSE(c.start({0.08, 0.75, 0.3, 0.3}).ok());
@@ -144,26 +166,32 @@ TEST(AssemblyContinuation, WhereTheLoopOpensOnTheWayTheWarningSaysSo) {
   ASSERT_EQ(c.assembly.warnings().size(), 1U);
   EXPECT_EQ(c.assembly.warnings()[0].code, "branch_lost");
   for (const char* part : {"end_pin", "guess: ", "b = 0.75", "d = -0.9"})
-    EXPECT_NE(c.assembly.warnings()[0].message.find(part), std::string::npos) << c.assembly.warnings()[0].message;
+    EXPECT_NE(c.assembly.warnings()[0].message.find(part), std::string::npos)
+        << c.assembly.warnings()[0].message;
 }
 
 TEST(AssemblyContinuation, AStretchedLinkageBendsByItself) {
   // Three bars in a line, 0.1 longer than the gap that they bridge.
-  const std::string stretched = robot(bar("one") + bar("two") + bar("three") + hinge("h1", "ground", "one", "0 0 0") +
-                                      hinge("h2", "one", "two", "0 0 -1") + hinge("h3", "two", "three", "0 0 -1") +
-                                      "<loop name='end' type='continuous'><predecessor link='three'><origin xyz='0 0 -1'/></predecessor>"
-                                      "<successor link='ground'><origin xyz='0 0 -2.9'/></successor><axis xyz='0 1 0'/></loop>");
+  const std::string stretched = robot(
+      bar("one") + bar("two") + bar("three") + hinge("h1", "ground", "one", "0 0 0") +
+      hinge("h2", "one", "two", "0 0 -1") + hinge("h3", "two", "three", "0 0 -1") +
+      "<loop name='end' type='continuous'><predecessor link='three'><origin xyz='0 0 "
+      "-1'/></predecessor>"
+      "<successor link='ground'><origin xyz='0 0 -2.9'/></successor><axis xyz='0 1 0'/></loop>");
   Compiled c(stretched, let_go("{}", "h1/velocity"), kSoft);
   ASSERT_TRUE(c.start().ok());
   ASSERT_EQ(c.assembly.warnings().size(), 1U);
   EXPECT_EQ(c.assembly.warnings()[0].code, "guessed_start");
-  EXPECT_NE(c.assembly.warnings()[0].message.find("h1: {guess: 0.01}"), std::string::npos) << c.assembly.warnings()[0].message;
+  EXPECT_NE(c.assembly.warnings()[0].message.find("h1: {guess: 0.01}"), std::string::npos)
+      << c.assembly.warnings()[0].message;
   EXPECT_LT(largest_gap(&c), 1e-11);
   const Eigen::VectorXd theta = c.assembly.theta();
   ASSERT_TRUE(c.start().ok());
   EXPECT_EQ(c.assembly.theta(), theta);
   // With the guesses that the warning shows there is none.
-  Compiled guessed(stretched, let_go("{h1: {guess: 0.01}, h2: {guess: 0.01}, h3: {guess: 0.01}}", "h1/velocity"), kSoft);
+  Compiled guessed(
+      stretched, let_go("{h1: {guess: 0.01}, h2: {guess: 0.01}, h3: {guess: 0.01}}", "h1/velocity"),
+      kSoft);
   ASSERT_TRUE(guessed.start().ok());
   EXPECT_TRUE(guessed.assembly.warnings().empty());
   EXPECT_LT((guessed.assembly.theta() - theta).cwiseAbs().maxCoeff(), 1e-12);

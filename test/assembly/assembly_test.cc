@@ -13,17 +13,23 @@ namespace {
 using C = std::complex<double>;
 constexpr double kCompliance = 1e-9;
 
-/// Two links, of length 1 and `length` (the right one), on ground hinges 1.2 apart; a loop joins their tips.
+/// Two links, of length 1 and `length` (the right one), on ground hinges 1.2 apart; a loop joins
+/// their tips.
 std::string triangle(const std::string& distance = "1.2") {
-  return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.5' upper='2'/><link name='ground'/>" +
+  return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' "
+         "lower='0.5' upper='2'/><link name='ground'/>" +
          bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
          hinge("right_hinge", "ground", "right", distance + " 0 0") +
-         "<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 -1'/></predecessor>"
-         "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 ${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
+         "<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 "
+         "-1'/></predecessor>"
+         "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 "
+         "${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
 }
 
 TEST(Assembly, GivenPositionsStayAndTheLoopIsClosed) {
-  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"), kCompliance);
+  Compiled c(four_bar(),
+             let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"),
+             kCompliance);
   ASSERT_TRUE(c.start().ok());
   // A parallelogram: the other bar turns along, the coupler stays level.
   EXPECT_NEAR(c.assembly.theta()[0], 0.6, 1e-15);
@@ -37,7 +43,10 @@ TEST(Assembly, GivenPositionsStayAndTheLoopIsClosed) {
 
 TEST(Assembly, ATimeAndPositionsToBeginWithTakeThePlaceOfTheStudys) {
   const double below = std::asin(0.6), above = 3.141592653589793 - below;
-  Compiled c(triangle(), let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"), kCompliance);
+  Compiled c(
+      triangle(),
+      let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"),
+      kCompliance);
   c.assembly.begin_at(1.5, Eigen::Vector2d(-2.6, 2.6));
   ASSERT_TRUE(c.start().ok());
   EXPECT_EQ(c.state.t, 1.5);
@@ -51,10 +60,12 @@ TEST(Assembly, ATimeAndPositionsToBeginWithTakeThePlaceOfTheStudys) {
 TEST(Assembly, ExtraStatesBeginWhereTheStudySays) {
   const RobotDescription robot = read_urdf({"test.urdf", pendulum()});
   Study study = read_study({"test.yaml",
-                            "duration: 1.0\ncontrollers: {servo: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, "
+                            "duration: 1.0\ncontrollers: {servo: {type: pid, input: "
+                            "hinge/position, setpoint: 0.0, output: hinge, "
                             "gains: {i: 2.0}}}\nparameters: {start: {initial: 0.75}}\n"},
                            robot);
-  study.initial_extra_states = {Quantity(0.75, std::make_shared<const Expression>("start", std::vector<std::string>{"start"}))};
+  study.initial_extra_states = {Quantity(
+      0.75, std::make_shared<const Expression>("start", std::vector<std::string>{"start"}))};
   const CompiledSystem system(robot, study);
   Equations<double> equations(system);
   Assembly assembly(system);
@@ -76,7 +87,9 @@ TEST(Assembly, AGuessChoosesTheBranch) {
   const double below = std::asin(0.6), above = 3.141592653589793 - below;
   for (double angle : {below, above}) {
     const std::string guess = angle == below ? "0.5" : "2.6";
-    Compiled c(triangle(), let_go("{left_hinge: {guess: -" + guess + "}, right_hinge: {guess: " + guess + "}}", "left_hinge/velocity"),
+    Compiled c(triangle(),
+               let_go("{left_hinge: {guess: -" + guess + "}, right_hinge: {guess: " + guess + "}}",
+                      "left_hinge/velocity"),
                kCompliance);
     ASSERT_TRUE(c.start().ok());
     EXPECT_NEAR(c.assembly.theta()[0], -angle, 1e-12);
@@ -93,7 +106,10 @@ TEST(Assembly, ALoopThatCannotBeClosedIsAStatusThatNamesIt) {
 }
 
 TEST(Assembly, ObeysACancel) {
-  Compiled c(triangle(), let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"), kCompliance);
+  Compiled c(
+      triangle(),
+      let_go("{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}", "left_hinge/velocity"),
+      kCompliance);
   const std::atomic<bool> cancel{true};
   c.assembly.obey(&cancel);
   EXPECT_EQ(c.start().code, StatusCode::kCancelled);
@@ -104,7 +120,8 @@ TEST(Assembly, ObeysACancel) {
 }
 
 TEST(Assembly, VelocitiesThatContradictEachOtherAreAStatus) {
-  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}",
+  Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: "
+                                "{velocity: 2.0}, left_pin: {velocity: 0.0}}",
                                 "left_hinge/velocity"));
   EXPECT_EQ(c.start().code, StatusCode::kInitialVelocityFailed);
 }
@@ -122,7 +139,8 @@ TEST(Assembly, AccelerationsAndReactionsBalance) {
 }
 
 TEST(Assembly, InitialSensitivitiesAreThoseOfTheAssembledStart) {
-  const std::string study = let_go("{left_hinge: {guess: -0.6}, right_hinge: {guess: 0.6}}", "left_hinge/velocity");
+  const std::string study =
+      let_go("{left_hinge: {guess: -0.6}, right_hinge: {guess: 0.6}}", "left_hinge/velocity");
   Compiled c(triangle(), study, kCompliance);
   ASSERT_TRUE(c.start().ok());
   Equations<C> extended(c.system);
@@ -137,7 +155,8 @@ TEST(Assembly, InitialSensitivitiesAreThoseOfTheAssembledStart) {
   EXPECT_GT(q_rho.norm(), 0.1) << "a length changes the assembly";
   EXPECT_LT((q_rho - (plus.state.q - minus.state.q) / (2.0 * h)).norm(), 1e-8);
   const Eigen::VectorXd z_rho = moved.z.imag() / step;
-  EXPECT_LT((z_rho - (plus.state.z - minus.state.z) / (2.0 * h)).norm(), 1e-6 * (1.0 + z_rho.norm()));
+  EXPECT_LT((z_rho - (plus.state.z - minus.state.z) / (2.0 * h)).norm(),
+            1e-6 * (1.0 + z_rho.norm()));
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ Eigen::MatrixXd by_motions(Compiled* c) {
   State<double> state = c->state;
   for (int k = 0; k < tree.size; ++k) {
     const VectorX<double> unit = VectorX<double>::Unit(tree.size, k);
-    body_coordinates(c->system, c->equations.constants(), link_motions(c->system.robot(), tree, parameters, c->assembly.theta(), unit),
+    body_coordinates(c->system, c->equations.constants(),
+                     link_motions(c->system.robot(), tree, parameters, c->assembly.theta(), unit),
                      &state.q, &state.v);
     c->equations.constraint_errors(state, &errors, &rates);
     expected.col(k) = loops.part_of(rates);
@@ -30,7 +31,8 @@ Eigen::MatrixXd by_motions(Compiled* c) {
 
 void expect_jacobian(Compiled* c) {
   ASSERT_TRUE(c->start().ok());
-  const Eigen::MatrixXd jacobian = c->assembly.loops().evaluate(c->system.parameters(), c->assembly.theta(), c->equations);
+  const Eigen::MatrixXd jacobian =
+      c->assembly.loops().evaluate(c->system.parameters(), c->assembly.theta(), c->equations);
   EXPECT_LT((jacobian - by_motions(c)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -42,14 +44,16 @@ TEST(LoopJacobian, IsTheRateOfTheRowsByEachCoordinate) {
 TEST(LoopJacobian, OfSpatialLoopsAndCouplings) {
   Compiled ring(bricard(), let_go(bricard_start(1.2, 0.7), "turn1/velocity"), 1e-8);
   expect_jacobian(&ring);
-  const std::string geared = robot(bar("a") + bar("b") + hinge("first", "ground", "a", "0 0 0") +
-                                   hinge("second", "ground", "b", "0 1 0", "<mimic joint='first' multiplier='2'/>"));
+  const std::string geared =
+      robot(bar("a") + bar("b") + hinge("first", "ground", "a", "0 0 0") +
+            hinge("second", "ground", "b", "0 1 0", "<mimic joint='first' multiplier='2'/>"));
   Compiled gear(geared, let_go("{first: {position: 0.3}}", "first/velocity"));
   expect_jacobian(&gear);
 }
 
 TEST(LoopJacobian, KnowsOnlyTheCoordinatesOnTheWayAroundALoop) {
-  const std::string hung = four_bar_with(bar("bob") + hinge("bob_hinge", "coupler", "bob", "0 0 -0.6"));
+  const std::string hung =
+      four_bar_with(bar("bob") + hinge("bob_hinge", "coupler", "bob", "0 0 -0.6"));
   Compiled c(hung, let_go("{left_hinge: {position: 0.6}}", "bob_hinge/velocity"), 1e-8);
   ASSERT_TRUE(c.start().ok());
   EXPECT_EQ(c.assembly.loops().coordinates().size(), 3U);
@@ -59,14 +63,16 @@ TEST(LoopJacobian, KnowsOnlyTheCoordinatesOnTheWayAroundALoop) {
 TEST(LoopJacobian, ScaledItIsTheSameForALargeMechanismAndASmallOne) {
   Compiled c(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"), 1e-8);
   ASSERT_TRUE(c.start().ok());
-  const SparseMatrix jacobian = c.assembly.loops().evaluate(c.system.parameters(), c.assembly.theta(), c.equations);
+  const SparseMatrix jacobian =
+      c.assembly.loops().evaluate(c.system.parameters(), c.assembly.theta(), c.equations);
   const LoopScales scales = c.assembly.loops().scales(jacobian, c.equations);
   const Eigen::MatrixXd scaled = scales.rows.asDiagonal() * jacobian * scales.columns.asDiagonal();
   EXPECT_NEAR(scaled.cwiseAbs().maxCoeff(), 1.0, 1e-12);
 }
 
 TEST(LoopJacobian, LoopsThatShareCoordinatesAreOnePart) {
-  Compiled row(four_bar_row(3), let_go("{bar0_hinge: {position: 0.6}}", "bar0_hinge/velocity"), 1e-8);
+  Compiled row(four_bar_row(3), let_go("{bar0_hinge: {position: 0.6}}", "bar0_hinge/velocity"),
+               1e-8);
   ASSERT_EQ(row.assembly.loops().parts().size(), 1U);
   const LoopJacobian::Part part = row.assembly.loops().parts().front();
   EXPECT_EQ(part.rows.size(), 15U);

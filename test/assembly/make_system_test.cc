@@ -25,10 +25,12 @@ InputFault fault(const std::string& urdf, const std::string& study) {
 }
 
 std::string loop_at(double x) {
-  return robot(bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
-               hinge("right_hinge", "ground", "right", std::to_string(x) + " 0 0") +
-               "\n<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 -1'/></predecessor>"
-               "<successor link='right'><origin xyz='0 0 -1'/></successor><axis xyz='0 1 0'/></loop>");
+  return robot(
+      bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
+      hinge("right_hinge", "ground", "right", std::to_string(x) + " 0 0") +
+      "\n<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 "
+      "-1'/></predecessor>"
+      "<successor link='right'><origin xyz='0 0 -1'/></successor><axis xyz='0 1 0'/></loop>");
 }
 
 const std::string kApart = "{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}";
@@ -40,27 +42,37 @@ Warnings warnings_of(const std::string& urdf, const std::string& study) {
   return warnings;
 }
 
-/// A parallelogram with friction in three of its hinges. @param mass_at where the mass of the coupler is, across the plane [m].
-/// @param loop the type of the loop. @param slides whether the right hinge can slide along its axis.
-std::string rubbing_four_bar(const std::string& mass_at, const std::string& loop = "continuous", bool slides = false) {
+/// A parallelogram with friction in three of its hinges. @param mass_at where the mass of the
+/// coupler is, across the plane [m].
+/// @param loop the type of the loop. @param slides whether the right hinge can slide along its
+/// axis.
+std::string rubbing_four_bar(const std::string& mass_at, const std::string& loop = "continuous",
+                             bool slides = false) {
   std::string text = four_bar(pin_friction());
-  const auto replace = [&text](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
-  replace("<loop name='right_pin' type='continuous'>", "<loop name='right_pin' type='" + loop + "'>" + pin_friction());
-  replace("<axis xyz='0 1 0'/></joint><loop", std::string("<axis xyz='0 1 0'/>") + pin_friction() + "</joint><loop");
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("<loop name='right_pin' type='continuous'>",
+          "<loop name='right_pin' type='" + loop + "'>" + pin_friction());
+  replace("<axis xyz='0 1 0'/></joint><loop",
+          std::string("<axis xyz='0 1 0'/>") + pin_friction() + "</joint><loop");
   if (mass_at != "0") {
     const std::size_t coupler = text.find("<link name='coupler'>");
     text.replace(text.find("0 0 -0.5", coupler), 8, "0 " + mass_at + " -0.5");
   }
   if (slides) {  // the right hinge gets an axial play, by a massless link
     replace("<joint name='right_hinge' type='continuous'><parent link='ground'/>",
-            "<link name='sleeve'/><joint name='play' type='prismatic'><parent link='ground'/><child link='sleeve'/><axis xyz='0 1 0'/>"
-            "<limit effort='0' velocity='0'/></joint><joint name='right_hinge' type='continuous'><parent link='sleeve'/>");
+            "<link name='sleeve'/><joint name='play' type='prismatic'><parent "
+            "link='ground'/><child link='sleeve'/><axis xyz='0 1 0'/>"
+            "<limit effort='0' velocity='0'/></joint><joint name='right_hinge' "
+            "type='continuous'><parent link='sleeve'/>");
   }
   return text;
 }
 
 std::string only_friction_warning(const std::string& urdf) {
-  const Warnings warnings = warnings_of(urdf, let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
+  const Warnings warnings =
+      warnings_of(urdf, let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
   EXPECT_EQ(warnings.size(), 1U);
   if (warnings.empty()) return "";
   EXPECT_EQ(warnings[0].code, "undetermined_friction");
@@ -69,25 +81,28 @@ std::string only_friction_warning(const std::string& urdf) {
 
 TEST(MakeSystem, TheAdviceOfUndeterminedFrictionDeterminesIt) {
   const std::string message = only_friction_warning(rubbing_four_bar("0.2"));
-  for (const char* part : {"'left_hinge', 'left_pin', 'right_pin' depends", "least norm", "'right_pin' as codesign:spherical and '",
-                           "' as codesign:cylindrical"})
+  for (const char* part : {"'left_hinge', 'left_pin', 'right_pin' depends", "least norm",
+                           "'right_pin' as codesign:spherical and '", "' as codesign:cylindrical"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
   // One joint is not enough, two are.
   EXPECT_NE(only_friction_warning(rubbing_four_bar("0.2", "codesign:spherical")), "");
-  EXPECT_TRUE(
-      warnings_of(rubbing_four_bar("0.2", "codesign:spherical", true), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))
-          .empty());
+  EXPECT_TRUE(warnings_of(rubbing_four_bar("0.2", "codesign:spherical", true),
+                          let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))
+                  .empty());
 }
 
 TEST(MakeSystem, UndeterminedFrictionWithoutEffectSaysSo) {
   const std::string message = only_friction_warning(rubbing_four_bar("0"));
   EXPECT_NE(message.find("changes friction by less than 1e-3"), std::string::npos) << message;
-  EXPECT_EQ(only_friction_warning(rubbing_four_bar("0.2")).find("changes friction by less"), std::string::npos);
+  EXPECT_EQ(only_friction_warning(rubbing_four_bar("0.2")).find("changes friction by less"),
+            std::string::npos);
 }
 
 TEST(MakeSystem, OnlyRedundantConstraintsMakeItCompliant) {
   EXPECT_EQ(make(double_pendulum(), let_go("{}", "elbow/velocity"))->compliance(), 0.0);
-  EXPECT_GT(make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))->compliance(), 0.0);
+  EXPECT_GT(make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))
+                ->compliance(),
+            0.0);
 }
 
 TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
@@ -96,21 +111,25 @@ TEST(MakeSystem, ALoopThatCannotBeClosedIsNamedWithItsPlace) {
   EXPECT_EQ(refused.where.file, "test.urdf");
   EXPECT_EQ(refused.where.line, 2);
   EXPECT_EQ(refused.element, "<loop name=\"tip\">");
-  // Two bars of 1 m cannot span 2.5 m; the closest position of the search is near the stretched one.
+  // Two bars of 1 m cannot span 2.5 m; the closest position of the search is near the stretched
+  // one.
   const std::string label = "misses by ";
   ASSERT_EQ(refused.value.substr(0, label.size()), label);
   EXPECT_NEAR(std::stod(refused.value.substr(label.size())), 500.0, 10.0) << "mm";
   EXPECT_NE(refused.allowed.find("closure_tolerance"), std::string::npos);
 }
 
-// Positions of all joints around a loop are rounded numbers: the miss is within closure_tolerance, which is not the way out.
+// Positions of all joints around a loop are rounded numbers: the miss is within closure_tolerance,
+// which is not the way out.
 TEST(MakeSystem, PositionsOfAllJointsOfALoopAreTooMany) {
   const auto start = [](const std::string& others) {
-    return let_go("{left_hinge: {position: 0.6}, right_hinge: {" + others + ": 0.6001}, left_pin: {" + others + ": -0.6}}",
+    return let_go("{left_hinge: {position: 0.6}, right_hinge: {" + others +
+                      ": 0.6001}, left_pin: {" + others + ": -0.6}}",
                   "left_hinge/velocity");
   };
   const InputFault refused = fault(four_bar(), start("position"));
-  EXPECT_NE(refused.message.find("leave no joint free to close the loop"), std::string::npos) << refused.message;
+  EXPECT_NE(refused.message.find("leave no joint free to close the loop"), std::string::npos)
+      << refused.message;
   EXPECT_NE(refused.allowed.find("the others a guess"), std::string::npos) << refused.allowed;
   EXPECT_EQ(refused.allowed.find("closure_tolerance"), std::string::npos) << refused.allowed;
   EXPECT_NO_THROW(make(four_bar(), start("guess")));
@@ -118,19 +137,23 @@ TEST(MakeSystem, PositionsOfAllJointsOfALoopAreTooMany) {
 
 TEST(MakeSystem, SomethingMustMove) {
   const std::string study = let_go("{}", "ground/position/x");
-  for (const char* content :
-       {"", "<link name='frame'/><joint name='j' type='continuous'><parent link='ground'/><child link='frame'/></joint>"})
+  for (const char* content : {"",
+                              "<link name='frame'/><joint name='j' type='continuous'><parent "
+                              "link='ground'/><child link='frame'/></joint>"})
     EXPECT_NE(fault(robot(content), study).message.find("nothing moves"), std::string::npos);
 }
 
 TEST(MakeSystem, ContradictingVelocitiesAreBadInput) {
-  const std::string study = let_go("{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: {velocity: 0.0}}",
-                                   "left_hinge/velocity");
+  const std::string study = let_go(
+      "{left_hinge: {position: 0.6, velocity: 1.0}, right_hinge: {velocity: 2.0}, left_pin: "
+      "{velocity: 0.0}}",
+      "left_hinge/velocity");
   EXPECT_EQ(fault(four_bar(), study).element, "initial_state");
 }
 
 TEST(CountEquations, OfAFourBarDrawnInThePlane) {
-  const auto system = make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
+  const auto system =
+      make(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
   Status status;
   const Counts counts = count_equations(*system, {}, &status);
   ASSERT_TRUE(status.ok()) << status.cause;
@@ -146,7 +169,8 @@ TEST(CountEquations, OfAFourBarDrawnInThePlane) {
 
 TEST(CountEquations, EachParameterHasItsSensitivities) {
   const std::string study =
-      "duration: 1.0\ncontrollers: {hold: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, gains: {p: \"${Kp}\", i: "
+      "duration: 1.0\ncontrollers: {hold: {type: pid, input: hinge/position, setpoint: 0.0, "
+      "output: hinge, gains: {p: \"${Kp}\", i: "
       "1.0}}}\n"
       "parameters: {Kp: {initial: 1.0}}\nobjective: {integral: [{signal: hinge/velocity}]}\n";
   Status status;

@@ -12,7 +12,8 @@
 namespace codesign {
 namespace {
 
-/// The largest acceleration at one state, and the largest difference between the library and the articulated-body algorithm.
+/// The largest acceleration at one state, and the largest difference between the library and the
+/// articulated-body algorithm.
 struct Comparison {
   double size = 0.0, difference = 0.0;
 };
@@ -38,7 +39,9 @@ Comparison compare(const Robot& robot, const char* solver, double phase) {
   Comparison comparison;
   for (Eigen::Index k = 0; k < n; ++k) {
     comparison.size = std::max(comparison.size, std::abs(expected[k]));
-    comparison.difference = std::max(comparison.difference, std::abs(frame.joints[static_cast<std::size_t>(k)].acceleration - expected[k]));
+    comparison.difference =
+        std::max(comparison.difference,
+                 std::abs(frame.joints[static_cast<std::size_t>(k)].acceleration - expected[k]));
   }
   return comparison;
 }
@@ -58,23 +61,41 @@ TEST(ArticulatedBody, AcceleratesTreesAsAbsoluteCoordinatesDo) {
   }
 }
 
-// A bar on a hinge about y: I q'' = -m g l sin q - c q' - f tanh(4 q' / 0.01) with I about the hinge.
+// A bar on a hinge about y: I q'' = -m g l sin q - c q' - f tanh(4 q' / 0.01) with I about the
+// hinge.
 TEST(ArticulatedBody, SwingsAPendulum) {
   const double length = 0.3, mass = 2.0, q = 0.5, v = -0.004;
-  const Robot robot{"pendulum", 1.0, 1e-6, {{"bar", -1, 'y', false, {}, {}, mass, {0, 0, -length}, {0.1, 0.1, 0.6}, 0.2, 0.3, 0.0}}};
+  const Robot robot{
+      "pendulum",
+      1.0,
+      1e-6,
+      {{"bar", -1, 'y', false, {}, {}, mass, {0, 0, -length}, {0.1, 0.1, 0.6}, 0.2, 0.3, 0.0}}};
   double a = 0.0;
   ArticulatedBody(robot).accelerations(&q, &v, &a);
   const double I = mass * (0.1 * 0.1 + 0.6 * 0.6) / 12.0 + mass * length * length;
-  EXPECT_NEAR(a, (-mass * 9.81 * length * std::sin(q) - 0.2 * v - 0.3 * std::tanh(400.0 * v)) / I, 1e-12);
+  EXPECT_NEAR(a, (-mass * 9.81 * length * std::sin(q) - 0.2 * v - 0.3 * std::tanh(400.0 * v)) / I,
+              1e-12);
 }
 
-// A mass on a slide along x that is turned to point down, and a turntable that does not matter to it.
+// A mass on a slide along x that is turned to point down, and a turntable that does not matter to
+// it.
 TEST(ArticulatedBody, LetsASliderFall) {
   const Robot robot{"slide",
                     1.0,
                     1e-6,
                     {{"table", -1, 'z', false, {}, {}, 1.0, {}, {0.1, 0.1, 0.1}, 0.0, 0.0, 0.0},
-                     {"mass", 0, 'x', true, {0, 0, 1}, {0, 1.5707963267948966, 0}, 2.0, {}, {0.1, 0.1, 0.1}, 0.5, 0.0, 0.0}}};
+                     {"mass",
+                      0,
+                      'x',
+                      true,
+                      {0, 0, 1},
+                      {0, 1.5707963267948966, 0},
+                      2.0,
+                      {},
+                      {0.1, 0.1, 0.1},
+                      0.5,
+                      0.0,
+                      0.0}}};
   const double q[] = {0.2, 0.1}, v[] = {0.0, 3.0};
   double a[2];
   ArticulatedBody(robot).accelerations(q, v, a);

@@ -14,12 +14,14 @@
 namespace codesign {
 namespace {
 
-/// Each kernel against the equations of motion, at a generic point that does not satisfy the constraints.
+/// Each kernel against the equations of motion, at a generic point that does not satisfy the
+/// constraints.
 class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
  protected:
   ConstraintKernelsTest()
       : problem_(load()),
-        constants_(evaluate_constants(problem_.robot(), problem_.system()->topology(), problem_.parameters())),
+        constants_(evaluate_constants(problem_.robot(), problem_.system()->topology(),
+                                      problem_.parameters())),
         kernels_(*problem_.system(), constants_),
         n_(kernels_.columns()),
         m_(kernels_.rows()),
@@ -29,7 +31,8 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
         Phi_q_(m_, n_) {
     for (int k = 0; k < n_; ++k) q_[k] = std::sin(1.0 + 7.0 * k), v_[k] = std::cos(2.0 + 5.0 * k);
     for (int k = 0; k < m_; ++k) lambda_[k] = std::sin(3.0 + 11.0 * k);
-    for (int k = 0; k < n_; ++k) Phi_q_.col(k) = errors<double>(q_, Eigen::VectorXd::Unit(n_, k)).second;
+    for (int k = 0; k < n_; ++k)
+      Phi_q_.col(k) = errors<double>(q_, Eigen::VectorXd::Unit(n_, k)).second;
   }
 
   static Problem load() {
@@ -42,7 +45,9 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
     study.text.replace(study.text.find(solver), solver.size(), solver + "coordinates: absolute, ");
     return load({read_source(source + "/urdf/" + GetParam() + ".urdf"), study});
   }
-  static Problem load(const GeneratedCase& generated) { return load_problem(generated.urdf, {}, generated.study); }
+  static Problem load(const GeneratedCase& generated) {
+    return load_problem(generated.urdf, {}, generated.study);
+  }
 
   /// Phi and Phi_q v by the equations of motion.
   template <class T>
@@ -60,7 +65,8 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
   }
   template <class Vector>
   static void expect_near(const Vector& actual, const Vector& expected) {
-    EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), 1e-12 * (1.0 + expected.cwiseAbs().maxCoeff()));
+    EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(),
+              1e-12 * (1.0 + expected.cwiseAbs().maxCoeff()));
   }
 
   Problem problem_;
@@ -82,7 +88,8 @@ TEST_P(ConstraintKernelsTest, Jacobian) {
   std::vector<double> values(entries.size());
   kernels_.jacobian(q_.data(), values.data());
   Eigen::MatrixXd Phi_q = Eigen::MatrixXd::Zero(m_, n_);
-  for (std::size_t k = 0; k < entries.size(); ++k) Phi_q(entries[k].row, entries[k].column) += values[k];
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    Phi_q(entries[k].row, entries[k].column) += values[k];
   expect_near(Phi_q, Phi_q_);
 }
 
@@ -108,7 +115,8 @@ TEST_P(ConstraintKernelsTest, Curvature) {
 
 TEST_P(ConstraintKernelsTest, ProgramsRecordedAndDerived) {
   const auto entries = static_cast<Eigen::Index>(kernels_.entries().size());
-  std::vector<Eigen::VectorXd> expected = {Eigen::VectorXd(entries), Eigen::VectorXd(m_), Eigen::VectorXd(n_), Eigen::VectorXd(m_)};
+  std::vector<Eigen::VectorXd> expected = {Eigen::VectorXd(entries), Eigen::VectorXd(m_),
+                                           Eigen::VectorXd(n_), Eigen::VectorXd(m_)};
   kernels_.jacobian(q_.data(), expected[0].data());
   kernels_.jacobian_times(q_.data(), v_.data(), expected[1].data());
   kernels_.transposed_times(q_.data(), lambda_.data(), expected[2].data());
@@ -116,12 +124,14 @@ TEST_P(ConstraintKernelsTest, ProgramsRecordedAndDerived) {
   for (int k = 0; k < kKernelOperations; ++k)
     for (const auto make : {&KernelProgram::recorded, &KernelProgram::derived}) {
       Eigen::VectorXd results = Eigen::VectorXd::Zero(expected[static_cast<std::size_t>(k)].size());
-      make(static_cast<KernelOperation>(k), *problem_.system(), constants_).run(q_.data(), v_.data(), lambda_.data(), results.data());
+      make(static_cast<KernelOperation>(k), *problem_.system(), constants_)
+          .run(q_.data(), v_.data(), lambda_.data(), results.data());
       expect_near(results, expected[static_cast<std::size_t>(k)]);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, ConstraintKernelsTest, testing::Values("slider_crank_haug", "chain", "ladder", "ring"));
+INSTANTIATE_TEST_SUITE_P(Mechanisms, ConstraintKernelsTest,
+                         testing::Values("slider_crank_haug", "chain", "ladder", "ring"));
 
 }  // namespace
 }  // namespace codesign

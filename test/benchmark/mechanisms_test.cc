@@ -11,7 +11,9 @@
 namespace codesign {
 namespace {
 
-Problem load(const GeneratedCase& generated) { return load_problem(generated.urdf, {}, generated.study); }
+Problem load(const GeneratedCase& generated) {
+  return load_problem(generated.urdf, {}, generated.study);
+}
 
 Counts counts_of(const Problem& problem) {
   Status status;
@@ -45,7 +47,8 @@ TEST(Mechanisms, StackedFourBarsHaveThreeRedundantConstraintsEach) {
     EXPECT_EQ(counts.bodies, 9);
     EXPECT_EQ(counts.degrees_of_freedom, 3);
     EXPECT_EQ(counts.redundant_constraints, 9);
-    EXPECT_EQ(problem.warnings().size(), with_friction ? 1U : 0U) << "undetermined_friction, of all cranks";
+    EXPECT_EQ(problem.warnings().size(), with_friction ? 1U : 0U)
+        << "undetermined_friction, of all cranks";
   }
 }
 
@@ -59,8 +62,10 @@ TEST(Mechanisms, ABricardRingMovesThoughCountingSaysItDoesNot) {
 TEST(Mechanisms, EveryParameterOfAChainMatters) {
   const Problem problem = load(parametric_chain(2, 8));
   EXPECT_EQ(problem.tuned_names(),
-            (std::vector<std::string>{"length_0", "mass_0", "radius_0", "friction_0", "length_1", "mass_1", "radius_1", "friction_1"}));
-  const GradientCheck check = check_gradient(problem.system(), problem.start(), CheckMethod::kComplexStep);
+            (std::vector<std::string>{"length_0", "mass_0", "radius_0", "friction_0", "length_1",
+                                      "mass_1", "radius_1", "friction_1"}));
+  const GradientCheck check =
+      check_gradient(problem.system(), problem.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-9);
   EXPECT_GT(check.evaluation.gradient.cwiseAbs().minCoeff(), 1e-6);
@@ -69,7 +74,8 @@ TEST(Mechanisms, EveryParameterOfAChainMatters) {
 TEST(Mechanisms, TheChainsAreTheSameAtTheStart) {
   const Problem plain = load(open_chain(3)), parametric = load(parametric_chain(3, 2));
   EXPECT_EQ(parametric.study().tuned.size(), 2U);
-  EXPECT_NEAR(Evaluator(plain).evaluate({}, false).objective, Evaluator(parametric).evaluate(parametric.start(), false).objective, 1e-9);
+  EXPECT_NEAR(Evaluator(plain).evaluate({}, false).objective,
+              Evaluator(parametric).evaluate(parametric.start(), false).objective, 1e-9);
 }
 
 }  // namespace

@@ -10,10 +10,14 @@ namespace {
 
 const Table kTable{"speed", "Speed", {"what", "µs"}, {{"a", "1"}, {"longer", "23.5"}}};
 
-TEST(Table, AlignsTextByCharacters) { EXPECT_EQ(to_text(kTable), "== Speed\nwhat      µs\na          1\nlonger  23.5\n"); }
+TEST(Table, AlignsTextByCharacters) {
+  EXPECT_EQ(to_text(kTable), "== Speed\nwhat      µs\na          1\nlonger  23.5\n");
+}
 
 TEST(Table, MarkdownStandsBetweenMarkers) {
-  EXPECT_EQ(to_markdown(kTable), "<!-- table: speed -->\n| what | µs |\n|---|---:|\n| a | 1 |\n| longer | 23.5 |\n<!-- end: speed -->\n");
+  EXPECT_EQ(to_markdown(kTable),
+            "<!-- table: speed -->\n| what | µs |\n|---|---:|\n| a | 1 |\n| longer | 23.5 |\n<!-- "
+            "end: speed -->\n");
 }
 
 TEST(Table, ThreeDigits) {

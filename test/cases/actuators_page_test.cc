@@ -16,7 +16,8 @@ std::string block(const std::string& page, const std::string& language) {
 
 TEST(ActuatorsPage, TheArmDoesWhatThePageSays) {
   const std::string page = read_source(source_dir() + "/doc/actuators.md").text;
-  const Problem problem = load_problem({"arm.urdf", block(page, "xml")}, {}, {"arm.yaml", block(page, "yaml")});
+  const Problem problem =
+      load_problem({"arm.urdf", block(page, "xml")}, {}, {"arm.yaml", block(page, "yaml")});
   Simulation simulation(problem.system(), problem.parameters());
   Frame frame;
   ASSERT_TRUE(simulation.start().ok());

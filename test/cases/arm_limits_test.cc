@@ -9,10 +9,13 @@
 namespace codesign {
 namespace {
 
-/// The limits of the case in the order of its `path`: efforts of shoulder and elbow [N m], speeds of shoulder and elbow [rad/s].
+/// The limits of the case in the order of its `path`: efforts of shoulder and elbow [N m], speeds
+/// of shoulder and elbow [rad/s].
 const std::vector<double> kLimits{18.0, 5.8, 2.25, 2.5};
 
-double magnitude(const WatchedResult& watched) { return std::max(std::abs(watched.smallest), std::abs(watched.largest)); }
+double magnitude(const WatchedResult& watched) {
+  return std::max(std::abs(watched.smallest), std::abs(watched.largest));
+}
 
 TEST(ArmLimits, TheBoundsAreTheLimitsOfTheUrdf) {
   const Shipped shipped("arm_limits");
@@ -39,7 +42,8 @@ TEST(ArmLimits, TheTunedArmKeepsItsLimitsAtAllTimes) {
   EXPECT_NEAR(result.objective, 2.79816, 1e-4);
   EXPECT_LE(result.evaluations, 40);
   ASSERT_EQ(result.watched.size(), kLimits.size());
-  for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, 1e-8) << watched.signal;
+  for (const WatchedResult& watched : result.watched)
+    EXPECT_LE(watched.violation, 1e-8) << watched.signal;
   EXPECT_NEAR(magnitude(result.watched[0]), 18.0, 1e-6) << "the bound is active";
   // Samples of the same design stay within the limits, too.
   std::vector<std::string> signals;
@@ -47,24 +51,27 @@ TEST(ArmLimits, TheTunedArmKeepsItsLimitsAtAllTimes) {
   Simulation simulation(problem, problem.parameters(result.rho), signals);
   const Status status = simulate(&simulation, 2.0, 1001, [&](const Frame& frame) {
     for (std::size_t k = 0; k < kLimits.size(); ++k)
-      EXPECT_LE(std::abs(frame.signals[k]), kLimits[k] + 1e-6) << signals[k] << " at " << frame.time;
+      EXPECT_LE(std::abs(frame.signals[k]), kLimits[k] + 1e-6)
+          << signals[k] << " at " << frame.time;
     return true;
   });
   EXPECT_TRUE(status.ok()) << status.cause;
 }
 
 TEST(ArmLimits, WithoutLimitsTheSameTuningExceedsAllOfThem) {
-  const OptimizationResult result = optimize(shipped_problem("arm_limits", {}, {{"limit_share", 100.0}}));
+  const OptimizationResult result =
+      optimize(shipped_problem("arm_limits", {}, {{"limit_share", 100.0}}));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_NEAR(result.objective, 1.49643, 1e-3);
   ASSERT_EQ(result.watched.size(), kLimits.size());
-  for (std::size_t k = 0; k < kLimits.size(); ++k) EXPECT_GT(magnitude(result.watched[k]), kLimits[k]) << result.watched[k].signal;
+  for (std::size_t k = 0; k < kLimits.size(); ++k)
+    EXPECT_GT(magnitude(result.watched[k]), kLimits[k]) << result.watched[k].signal;
 }
 
 TEST(ArmLimits, OtherAlgorithmsEndAtTheSamePoint) {
   for (const char* algorithm : {"mma", "ccsaq"}) {
-    const OptimizationResult result =
-        optimize(shipped_problem("arm_limits", {{"algorithm: slsqp", std::string("algorithm: ") + algorithm}}));
+    const OptimizationResult result = optimize(shipped_problem(
+        "arm_limits", {{"algorithm: slsqp", std::string("algorithm: ") + algorithm}}));
     ASSERT_TRUE(result.status.ok()) << algorithm << ": " << result.status.cause;
     EXPECT_NEAR(result.objective, 2.79816, 1e-3) << algorithm;
   }

@@ -8,7 +8,9 @@ namespace {
 
 /// The case as one would write it for a drive without samples and delay.
 Problem continuous_axis() {
-  return shipped_problem("feed_axis", {{"    sample_time: 0.004\n", ""}, {"    sample_time: 0.001\n", ""}, {"    delay: 0.0005\n", ""}});
+  return shipped_problem("feed_axis", {{"    sample_time: 0.004\n", ""},
+                                       {"    sample_time: 0.001\n", ""},
+                                       {"    delay: 0.0005\n", ""}});
 }
 
 /// The objective of the sampled axis at the gains of a result.
@@ -39,14 +41,16 @@ TEST(FeedAxis, GainsTunedWithoutSamplesDoNotHoldOnTheSampledDrive) {
 
 TEST(FeedAxis, BothIntegratorsAgree) {
   const auto run = [](const std::string& solver) {
-    const Problem problem = shipped_problem("feed_axis", {{"integrator: rosenbrock, method: rodas5p", solver}});
+    const Problem problem =
+        shipped_problem("feed_axis", {{"integrator: rosenbrock, method: rodas5p", solver}});
     const Evaluation evaluation = Evaluator(problem).evaluate(problem.start(), true);
     EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
     return evaluation;
   };
   const Evaluation a = run("integrator: rosenbrock, method: rodas5p"), b = run("integrator: idas");
   EXPECT_NEAR(a.objective, b.objective, 1e-6 * a.objective);
-  EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(), 1e-5 * a.gradient.cwiseAbs().maxCoeff());
+  EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(),
+            1e-5 * a.gradient.cwiseAbs().maxCoeff());
 }
 
 }  // namespace

@@ -7,8 +7,9 @@ namespace {
 
 // Few starts, to save time; doc/case_studies.md has the result of all.
 TEST(GovernorMultistart, TwoStartsFindTheirWayIntoTheValley) {
-  const Problem problem = shipped_problem(
-      "governor_multistart", {{"starts: 8, screen: 48", "starts: 2, screen: 4"}, {"max_evaluations: 120", "max_evaluations: 25"}});
+  const Problem problem =
+      shipped_problem("governor_multistart", {{"starts: 8, screen: 48", "starts: 2, screen: 4"},
+                                              {"max_evaluations: 120", "max_evaluations: 25"}});
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   ASSERT_EQ(result.starts.size(), 2U);
@@ -25,7 +26,8 @@ TEST(GovernorMultistart, TheBestDesignKeepsItsObjectiveAtTightTolerances) {
   const Shipped shipped("governor");
   Eigen::VectorXd rho(7);
   rho << 0.15, 0.06, 0.2913452155, 0.03, 0.02, 0.2021834058, 0.04;
-  const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, false);
+  const Evaluation evaluation =
+      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, false);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective, 0.58578, 1e-5);
 }

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Joint coordinates against absolute ones, doc/theory.md (56), (57): the same motions, reactions, friction, objective and gradient.
+// Joint coordinates against absolute ones, doc/theory.md (56), (57): the same motions, reactions,
+// friction, objective and gradient.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,24 +17,30 @@ namespace {
 constexpr double kDuration = 0.2;
 constexpr int kSamples = 5;
 
-/// Every signal that depends on the formulation: reactions of joints that are not folded, energies, powers, motions of links.
+/// Every signal that depends on the formulation: reactions of joints that are not folded, energies,
+/// powers, motions of links.
 std::vector<SignalDescription> signals_of(const RobotDescription& robot, const Topology& topology) {
   std::vector<std::string> texts;
-  for (const char* name : {"kinetic_energy", "potential_energy", "friction_power", "damping_power", "actuator_power", "load_power"})
+  for (const char* name : {"kinetic_energy", "potential_energy", "friction_power", "damping_power",
+                           "actuator_power", "load_power"})
     texts.push_back(std::string("mechanism/") + name);
   for (std::size_t k = 0; k < robot.joints.size(); ++k) {
     const int pair = topology.joint_pair[k];
     if (pair < 0 || topology.pairs[static_cast<std::size_t>(pair)].chain.size() > 1) continue;
     for (const char* quantity : {"reaction_force", "reaction_torque"})
-      for (const char* axis : {"x", "y", "z"}) texts.push_back(robot.joints[k].name + "/" + quantity + "/" + axis);
+      for (const char* axis : {"x", "y", "z"})
+        texts.push_back(robot.joints[k].name + "/" + quantity + "/" + axis);
   }
   for (const Body& body : topology.bodies)
     for (const char* quantity : {"position", "velocity", "angular_velocity"})
-      for (const char* axis : {"x", "y", "z"}) texts.push_back(body.name + "/" + quantity + "/" + axis);
+      for (const char* axis : {"x", "y", "z"})
+        texts.push_back(body.name + "/" + quantity + "/" + axis);
   for (const Body& body : topology.bodies)
-    for (const char* axis : {"w", "x", "y", "z"}) texts.push_back(body.name + "/orientation/" + axis);
+    for (const char* axis : {"w", "x", "y", "z"})
+      texts.push_back(body.name + "/orientation/" + axis);
   std::vector<SignalDescription> signals;
-  for (const std::string& text : texts) signals.push_back(parse_signal(text, {"test", 0}, "signal"));
+  for (const std::string& text : texts)
+    signals.push_back(parse_signal(text, {"test", 0}, "signal"));
   return signals;
 }
 
@@ -44,15 +51,18 @@ struct Numbers {
 
 Numbers numbers_of(const Frame& frame) {
   Numbers n;
-  for (const JointSample& joint : frame.joints) n.motion.insert(n.motion.end(), {joint.position, joint.velocity});
+  for (const JointSample& joint : frame.joints)
+    n.motion.insert(n.motion.end(), {joint.position, joint.velocity});
   for (const LinkSample& link : frame.links) {
     const Eigen::Matrix3d axes = link.orientation.toRotationMatrix();
     n.motion.insert(n.motion.end(), link.position.data(), link.position.data() + 3);
     n.motion.insert(n.motion.end(), axes.data(), axes.data() + 9);
   }
-  for (const JointSample& joint : frame.joints) n.friction.insert(n.friction.end(), {joint.acceleration, joint.effort});
+  for (const JointSample& joint : frame.joints)
+    n.friction.insert(n.friction.end(), {joint.acceleration, joint.effort});
   for (const FrictionSample& friction : frame.frictions) {
-    n.friction.insert(n.friction.end(), {friction.friction, friction.normal_force, friction.sliding_velocity});
+    n.friction.insert(n.friction.end(),
+                      {friction.friction, friction.normal_force, friction.sliding_velocity});
     for (const Eigen::Vector3d& x : {friction.position, friction.force, friction.torque})
       n.friction.insert(n.friction.end(), x.data(), x.data() + 3);
   }
@@ -60,9 +70,11 @@ Numbers numbers_of(const Frame& frame) {
   return n;
 }
 
-void expect_near(const std::vector<double>& joint, const std::vector<double>& absolute, double tolerance, double size, const char* what) {
+void expect_near(const std::vector<double>& joint, const std::vector<double>& absolute,
+                 double tolerance, double size, const char* what) {
   ASSERT_EQ(joint.size(), absolute.size());
-  for (std::size_t k = 0; k < joint.size(); ++k) EXPECT_NEAR(joint[k], absolute[k], tolerance * (1.0 + size)) << what << " " << k;
+  for (std::size_t k = 0; k < joint.size(); ++k)
+    EXPECT_NEAR(joint[k], absolute[k], tolerance * (1.0 + size)) << what << " " << k;
 }
 
 double size_of(const std::vector<double>& x) {
@@ -73,9 +85,11 @@ double size_of(const std::vector<double>& x) {
 
 /// A mechanism and study in one kind of coordinates.
 struct Formulation {
-  Formulation(const std::string& urdf, std::string study, const char* coordinates) : robot(read_urdf({"test.urdf", urdf})) {
+  Formulation(const std::string& urdf, std::string study, const char* coordinates)
+      : robot(read_urdf({"test.urdf", urdf})) {
     study += std::string("solver: {coordinates: ") + coordinates +
-             ", method: rodas5p, relative_tolerance: 1.0e-12, absolute_tolerance: 1.0e-12, maximum_steps: 1000000}\n";
+             ", method: rodas5p, relative_tolerance: 1.0e-12, absolute_tolerance: 1.0e-12, "
+             "maximum_steps: 1000000}\n";
     system = make_system(robot, read_study({"test.yaml", study}, robot));
   }
 
@@ -100,13 +114,16 @@ std::string study_of(const CoordinatesCase& c) {
   std::string text = "duration: " + std::to_string(kDuration) + "\n" + c.study;
   if (c.has_parameters) text += "parameters: {size: {tune: true}, mass: {tune: true}}\n";
   return text +
-         "objective: {integral: [{signal: mechanism/kinetic_energy}, {signal: mechanism/potential_energy, weight: 0.1}, {signal: " + link +
-         "/orientation/x, weight: 0.3}]}\n";
+         "objective: {integral: [{signal: mechanism/kinetic_energy}, {signal: "
+         "mechanism/potential_energy, weight: 0.1}, {signal: " +
+         link + "/orientation/x, weight: 0.3}]}\n";
 }
 
 class JointCoordinates : public ::testing::TestWithParam<CoordinatesCase> {
  protected:
-  JointCoordinates() : joint(GetParam().urdf, study_of(GetParam()), "joint"), absolute(GetParam().urdf, study_of(GetParam()), "absolute") {}
+  JointCoordinates()
+      : joint(GetParam().urdf, study_of(GetParam()), "joint"),
+        absolute(GetParam().urdf, study_of(GetParam()), "absolute") {}
 
   Formulation joint, absolute;
 };
@@ -125,7 +142,8 @@ TEST_P(JointCoordinates, RunsAreThoseOfAbsoluteCoordinates) {
   for (std::size_t k = 0; k < in_joint.size(); ++k) {
     const Numbers a = numbers_of(in_joint[k]), b = numbers_of(in_absolute[k]);
     const double tolerance = k == 0 ? GetParam().start : GetParam().friction;
-    expect_near(a.motion, b.motion, k == 0 ? 1e-12 : std::max(1e-9, 0.1 * GetParam().start), size_of(b.motion), "motion");
+    expect_near(a.motion, b.motion, k == 0 ? 1e-12 : std::max(1e-9, 0.1 * GetParam().start),
+                size_of(b.motion), "motion");
     expect_near(a.friction, b.friction, tolerance, friction, "acceleration or friction");
     expect_near(a.signals, b.signals, tolerance, signals, "signal");
     if (HasFailure()) break;
@@ -135,9 +153,11 @@ TEST_P(JointCoordinates, RunsAreThoseOfAbsoluteCoordinates) {
 TEST_P(JointCoordinates, ObjectiveAndGradientAreThoseOfAbsoluteCoordinates) {
   const auto evaluate = [this](const Formulation& in) {
     std::vector<double> start;
-    for (int k : in.system->study().tuned) start.push_back(in.system->parameters()[static_cast<std::size_t>(k)]);
-    return Evaluator(in.system).evaluate(Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size())),
-                                         GetParam().has_parameters);
+    for (int k : in.system->study().tuned)
+      start.push_back(in.system->parameters()[static_cast<std::size_t>(k)]);
+    return Evaluator(in.system).evaluate(
+        Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size())),
+        GetParam().has_parameters);
   };
   const Evaluation a = evaluate(joint), b = evaluate(absolute);
   ASSERT_TRUE(a.status.ok()) << a.status.cause;
@@ -148,12 +168,18 @@ TEST_P(JointCoordinates, ObjectiveAndGradientAreThoseOfAbsoluteCoordinates) {
       << a.gradient.transpose() << " and " << b.gradient.transpose();
 }
 
-const auto name_of = [](const ::testing::TestParamInfo<CoordinatesCase>& instance) { return instance.param.name; };
+const auto name_of = [](const ::testing::TestParamInfo<CoordinatesCase>& instance) {
+  return instance.param.name;
+};
 
-INSTANTIATE_TEST_SUITE_P(Types, JointCoordinates, ::testing::ValuesIn(joint_coordinates::types()), name_of);
-INSTANTIATE_TEST_SUITE_P(Rings, JointCoordinates, ::testing::ValuesIn(joint_coordinates::rings()), name_of);
-INSTANTIATE_TEST_SUITE_P(Frictions, JointCoordinates, ::testing::ValuesIn(joint_coordinates::frictions()), name_of);
-INSTANTIATE_TEST_SUITE_P(Loads, JointCoordinates, ::testing::ValuesIn(joint_coordinates::loads()), name_of);
+INSTANTIATE_TEST_SUITE_P(Types, JointCoordinates, ::testing::ValuesIn(joint_coordinates::types()),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Rings, JointCoordinates, ::testing::ValuesIn(joint_coordinates::rings()),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Frictions, JointCoordinates,
+                         ::testing::ValuesIn(joint_coordinates::frictions()), name_of);
+INSTANTIATE_TEST_SUITE_P(Loads, JointCoordinates, ::testing::ValuesIn(joint_coordinates::loads()),
+                         name_of);
 
 /// A shipped case with tight tolerances in one kind of coordinates.
 Shipped tight(const std::string& name, CoordinatesKind coordinates) {
@@ -176,7 +202,8 @@ TEST_P(ShippedInJointCoordinates, ObjectiveAndGradientAreTheSame) {
     EXPECT_EQ(system->layout().has_forest(), coordinates == CoordinatesKind::kJoint);
     return Evaluator(system).evaluate(shipped.start(), true);
   };
-  const Evaluation joint = evaluate(CoordinatesKind::kJoint), absolute = evaluate(CoordinatesKind::kAbsolute);
+  const Evaluation joint = evaluate(CoordinatesKind::kJoint),
+                   absolute = evaluate(CoordinatesKind::kAbsolute);
   ASSERT_TRUE(joint.status.ok()) << joint.status.cause;
   ASSERT_TRUE(absolute.status.ok()) << absolute.status.cause;
   EXPECT_NEAR(joint.objective, absolute.objective, 1e-9 * std::abs(absolute.objective));
@@ -187,20 +214,23 @@ TEST_P(ShippedInJointCoordinates, TheGradientIsThatOfTheComplexStep) {
   Shipped shipped(GetParam());
   shipped.study.solver.coordinates = CoordinatesKind::kJoint;
   shipped.study.duration = std::min(shipped.study.duration, 0.3);
-  const GradientCheck check = check_gradient(make_system(shipped.robot, shipped.study), shipped.start(), CheckMethod::kComplexStep);
+  const GradientCheck check = check_gradient(make_system(shipped.robot, shipped.study),
+                                             shipped.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ShippedInJointCoordinates,
-                         ::testing::Values("slider_crank", "slider_crank_haug", "governor", "two_link_arm", "gantry", "feed_axis",
-                                           "arm_limits", "inverted_pendulum"),
+                         ::testing::Values("slider_crank", "slider_crank_haug", "governor",
+                                           "two_link_arm", "gantry", "feed_axis", "arm_limits",
+                                           "inverted_pendulum"),
                          [](const auto& instance) { return instance.param; });
 
 TEST(JointCoordinates, ARunGoesOnWithOtherDimensions) {
   for (const std::string name : {"revolute", "planar", "spherical_loop"}) {
     const std::vector<CoordinatesCase> cases = joint_coordinates::types();
-    const auto c = std::find_if(cases.begin(), cases.end(), [&](const CoordinatesCase& each) { return each.name == name; });
+    const auto c = std::find_if(cases.begin(), cases.end(),
+                                [&](const CoordinatesCase& each) { return each.name == name; });
     const auto run = [&](const char* coordinates) {
       const Formulation in(c->urdf, study_of(*c), coordinates);
       std::vector<double> parameters = in.system->parameters();
@@ -228,11 +258,13 @@ TEST(JointCoordinates, TheAdjointGivesTheDirectGradient) {
     shipped.study.solver.sensitivity_tolerance = 0.0;
     const auto gradient = [&](GradientMethod method) {
       shipped.study.solver.gradient = method;
-      const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+      const Evaluation evaluation =
+          Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
       EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
       return evaluation.gradient;
     };
-    const Eigen::VectorXd direct = gradient(GradientMethod::kDirect), adjoint = gradient(GradientMethod::kAdjoint);
+    const Eigen::VectorXd direct = gradient(GradientMethod::kDirect),
+                          adjoint = gradient(GradientMethod::kAdjoint);
     EXPECT_LT((direct - adjoint).norm(), 1e-9 * direct.norm()) << name;
   }
 }
@@ -245,13 +277,17 @@ TEST(JointCoordinates, IdasAgrees) {
     const auto evaluate = [&](IntegratorKind integrator) {
       shipped.study.solver.integrator = integrator;
       shipped.study.solver.relative_tolerance = shipped.study.solver.absolute_tolerance = 1e-9;
-      const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+      const Evaluation evaluation =
+          Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
       EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
       return evaluation;
     };
-    const Evaluation rosenbrock = evaluate(IntegratorKind::kRosenbrock), idas = evaluate(IntegratorKind::kIdas);
-    EXPECT_NEAR(idas.objective, rosenbrock.objective, 1e-6 * std::abs(rosenbrock.objective)) << name;
-    EXPECT_LT((idas.gradient - rosenbrock.gradient).norm(), 1e-5 * rosenbrock.gradient.norm()) << name;
+    const Evaluation rosenbrock = evaluate(IntegratorKind::kRosenbrock),
+                     idas = evaluate(IntegratorKind::kIdas);
+    EXPECT_NEAR(idas.objective, rosenbrock.objective, 1e-6 * std::abs(rosenbrock.objective))
+        << name;
+    EXPECT_LT((idas.gradient - rosenbrock.gradient).norm(), 1e-5 * rosenbrock.gradient.norm())
+        << name;
   }
 }
 
@@ -273,22 +309,29 @@ void expect_refused(const std::string& urdf, const std::string& study, const std
 
 TEST(JointCoordinates, WhatTheyCannotDoIsRefusedWithAReasonAndAutoFallsBack) {
   expect_refused(double_pendulum(pin_friction()),
-                 "duration: 1.0\ncontrollers: {hold: {type: pid, input: mechanism/friction_power, output: elbow, setpoint: 0.0, gains: {p: "
+                 "duration: 1.0\ncontrollers: {hold: {type: pid, input: mechanism/friction_power, "
+                 "output: elbow, setpoint: 0.0, gains: {p: "
                  "1.0}}}\nobjective: {integral: [{signal: lower/position/x}]}\n",
                  "a controller that reads the friction of the whole mechanism");
-  expect_refused(four_bar_with("<coupling name='gear'><predecessor link='left'/><successor link='right'/><ratio value='1'/></coupling>"),
-                 "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\n", "couplings with redundant constraints");
+  expect_refused(four_bar_with("<coupling name='gear'><predecessor link='left'/><successor "
+                               "link='right'/><ratio value='1'/></coupling>"),
+                 "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\n",
+                 "couplings with redundant constraints");
 }
 
 TEST(JointCoordinates, RedundantLoopsAndReactionsThatControllersReadKeepRows) {
-  const std::string objective = "objective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: joint}\n";
+  const std::string objective =
+      "objective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: joint}\n";
   const auto system = system_of(double_pendulum(),
-                                "duration: 1.0\ncontrollers: {hold: {type: pid, input: shoulder/reaction_force/x, output: elbow, setpoint: "
+                                "duration: 1.0\ncontrollers: {hold: {type: pid, input: "
+                                "shoulder/reaction_force/x, output: elbow, setpoint: "
                                 "0.0, gains: {p: 1.0}}}\n" +
                                     objective);
   EXPECT_TRUE(system->layout().is_cut(0));
   EXPECT_FALSE(system->layout().is_cut(1));
-  EXPECT_FALSE(system_of(four_bar(), "duration: 1.0\nobjective: {integral: [{signal: left/position/x}]}\nsolver: {coordinates: joint}\n")
+  EXPECT_FALSE(system_of(four_bar(),
+                         "duration: 1.0\nobjective: {integral: [{signal: "
+                         "left/position/x}]}\nsolver: {coordinates: joint}\n")
                    ->layout()
                    .has_forest());
 }
@@ -296,7 +339,8 @@ TEST(JointCoordinates, RedundantLoopsAndReactionsThatControllersReadKeepRows) {
 TEST(JointCoordinates, LongChainsAreCut) {
   const auto cuts = [](int count) {
     const auto system =
-        system_of(joint_coordinates::chain_of(count), "duration: 1.0\nobjective: {integral: [{signal: bar0/position/x}]}\n");
+        system_of(joint_coordinates::chain_of(count),
+                  "duration: 1.0\nobjective: {integral: [{signal: bar0/position/x}]}\n");
     EXPECT_TRUE(system->layout().has_forest());
     int sum = 0;
     for (int pair = 0; pair < count; ++pair) sum += system->layout().is_cut(pair) ? 1 : 0;
@@ -310,11 +354,14 @@ TEST(JointCoordinates, LongChainsAreCut) {
 TEST(JointCoordinates, APointMassOnAHingeMovesAsInAbsoluteOnes) {
   const std::string model =
       robot(bar("upper") + hinge("shoulder", "ground", "upper", "0 0 0") +
-            "<link name='bob'><inertial><origin xyz='0 0 -0.5'/><mass value='1'/><inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/>"
+            "<link name='bob'><inertial><origin xyz='0 0 -0.5'/><mass value='1'/><inertia ixx='0' "
+            "iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/>"
             "</inertial></link>" +
             hinge("elbow", "upper", "bob", "0 0 -1"));
-  const std::string study = "duration: 1.0\nobjective: {integral: [{signal: bob/position/x}]}\nsolver: {coordinates: ";
-  for (const char* coordinates : {"joint", "absolute"}) EXPECT_NO_THROW(system_of(model, study + coordinates + "}\n")) << coordinates;
+  const std::string study =
+      "duration: 1.0\nobjective: {integral: [{signal: bob/position/x}]}\nsolver: {coordinates: ";
+  for (const char* coordinates : {"joint", "absolute"})
+    EXPECT_NO_THROW(system_of(model, study + coordinates + "}\n")) << coordinates;
 }
 
 TEST(JointCoordinates, AnUnknownKindIsRefused) {
@@ -325,7 +372,9 @@ TEST(JointCoordinates, AnUnknownKindIsRefused) {
 }
 
 TEST(JointCoordinates, HaveOneCoordinatePerJointAndNoMultipliers) {
-  const std::string study = "duration: 1.0\nobjective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: auto}\n";
+  const std::string study =
+      "duration: 1.0\nobjective: {integral: [{signal: lower/position/x}]}\nsolver: {coordinates: "
+      "auto}\n";
   const auto system = system_of(double_pendulum(), study);
   const Layout& layout = system->layout();
   EXPECT_EQ(layout.n, 2);

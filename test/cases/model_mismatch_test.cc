@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The paper's model mismatch: gains tuned with and without friction, used without friction and on a surface with another friction law.
+// The paper's model mismatch: gains tuned with and without friction, used without friction and on a
+// surface with another friction law.
 #include <cmath>
 
 #include "assembly/make_system.h"
@@ -11,11 +12,13 @@ namespace codesign {
 namespace {
 
 using Gains = std::vector<double>;
-/// The optima that test/cases/inverted_pendulum_test.cc finds: under Brown and McPhee's friction (0.4, 0.3), and without.
+/// The optima that test/cases/inverted_pendulum_test.cc finds: under Brown and McPhee's friction
+/// (0.4, 0.3), and without.
 const Gains kWith = {546.115, 623.979, 90.071}, kWithout = {427.73, 1.11, 65.22};
 
 struct Motion {
-  std::vector<double> error, force;  ///< magnitudes of the error and the force of both controllers, at eleven instants
+  std::vector<double> error,
+      force;  ///< magnitudes of the error and the force of both controllers, at eleven instants
 };
 
 Motion run(const Shipped& shipped, const Gains& gains) {
@@ -34,7 +37,8 @@ Motion run(const Shipped& shipped, const Gains& gains) {
 }
 
 TEST(ModelMismatch, GainsTunedWithoutFrictionLeaveALastingOffsetOnTheRoughSurface) {
-  const Shipped smooth("inverted_pendulum_frictionless"), rough("inverted_pendulum", "inverted_pendulum_gonthier");
+  const Shipped smooth("inverted_pendulum_frictionless"),
+      rough("inverted_pendulum", "inverted_pendulum_gonthier");
   ASSERT_EQ(rough.robot.joints[0].friction->model, FrictionModel::kGonthier);
   // Without friction, the gains tuned without friction settle sooner and need less force.
   const Motion smooth_with = run(smooth, kWith), smooth_without = run(smooth, kWithout);
@@ -47,7 +51,8 @@ TEST(ModelMismatch, GainsTunedWithoutFrictionLeaveALastingOffsetOnTheRoughSurfac
   EXPECT_NEAR(rough_without.error[5], rough_without.error.back(), 0.001);
 }
 
-// Steady motion: friction mu_d N against the plate, the rod tilted by e, so that both accelerate at g e/L: Kp e = mu_d N + m g e/L.
+// Steady motion: friction mu_d N against the plate, the rod tilted by e, so that both accelerate at
+// g e/L: Kp e = mu_d N + m g e/L.
 TEST(ModelMismatch, TheOffsetIsTheOneThatStaticsDemands) {
   const double mass = 7.2, height = 0.665, load = 0.4 * mass * 9.81;
   const Motion rough = run(Shipped("inverted_pendulum", "inverted_pendulum_gonthier"), kWithout);
@@ -58,7 +63,8 @@ TEST(ModelMismatch, TheRoughSurfaceHasAGradientToo) {
   Shipped rough("inverted_pendulum", "inverted_pendulum_gonthier");
   rough.study.solver.relative_tolerance = 1e-7;
   rough.study.solver.absolute_tolerance = 1e-8;
-  const GradientCheck check = check_gradient(make_system(rough.robot, rough.study), rough.start(), CheckMethod::kComplexStep);
+  const GradientCheck check = check_gradient(make_system(rough.robot, rough.study), rough.start(),
+                                             CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-8);
 }

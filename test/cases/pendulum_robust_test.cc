@@ -9,15 +9,19 @@ namespace codesign {
 namespace {
 
 /// The case with other numbers in its study, each `pattern` replaced.
-Problem pendulum_with(const std::vector<std::pair<std::string, std::string>>& changes, const ParameterSettings& settings = {}) {
+Problem pendulum_with(const std::vector<std::pair<std::string, std::string>>& changes,
+                      const ParameterSettings& settings = {}) {
   return shipped_problem("pendulum_robust", changes, settings);
 }
 
-double worst_of(const Ensemble& ensemble, const Eigen::Vector3d& gains) { return ensemble.evaluate(gains, false).total.objective; }
+double worst_of(const Ensemble& ensemble, const Eigen::Vector3d& gains) {
+  return ensemble.evaluate(gains, false).total.objective;
+}
 
 TEST(PendulumRobust, AtTheNominalCoefficientItIsTheShippedPendulum) {
   const std::vector<std::pair<std::string, std::string>> exact = {
-      {"relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7", "relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11"},
+      {"relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7",
+       "relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11"},
       {"samples: 32", "samples: 1"}};
   const Ensemble robust(pendulum_with(exact));
   EXPECT_NEAR(worst_of(robust, {750.0, 200.0, 10.0}) / 8249.6225551550, 1.0, 1e-8);
@@ -46,7 +50,8 @@ TEST(PendulumRobust, TheWorstCaseOnFreshSamplesIsBetterThanThatOfTheNominalGains
   EXPECT_LE(robust.objective, 3716.0);
   const Eigen::Vector3d gains(576.53, 779.75, 97.72);
   for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(robust.rho[k], gains[k], 0.01 * gains[k]) << k;
-  const OptimizationResult nominal = optimize(pendulum_with({{"validate: 1000", "validate: 100"}, {"samples: 32", "samples: 1"}}));
+  const OptimizationResult nominal =
+      optimize(pendulum_with({{"validate: 1000", "validate: 100"}, {"samples: 32", "samples: 1"}}));
   ASSERT_TRUE(robust.validation && nominal.validation);
   EXPECT_EQ(robust.validation->failed + nominal.validation->failed, 0);
   EXPECT_LT(robust.validation->worst, nominal.validation->worst);

@@ -13,7 +13,8 @@ constexpr double kOptimum = 0.0351318094;
 
 OptimizationResult search(const std::string& algorithm, double tolerance) {
   const std::string folder = source_dir() + "/benchmark/stops/";
-  const Problem problem = load_problem(read_source(folder + "cart_pole.urdf"), {}, read_source(folder + "cart_pole_shape.yaml"));
+  const Problem problem = load_problem(read_source(folder + "cart_pole.urdf"), {},
+                                       read_source(folder + "cart_pole_shape.yaml"));
   OptimizerOptions options = problem.optimizer_options();
   options.algorithm = algorithm;
   options.relative_tolerance = tolerance;
@@ -21,8 +22,9 @@ OptimizationResult search(const std::string& algorithm, double tolerance) {
 }
 
 bool warns(const OptimizationResult& result) {
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-                     [](const Warning& one) { return one.code == "not_stationary" || one.code == "max_evaluations_reached"; });
+  return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Warning& one) {
+    return one.code == "not_stationary" || one.code == "max_evaluations_reached";
+  });
 }
 
 TEST(ShapeSearch, AutoEndsAtTheOptimum) {
@@ -38,7 +40,8 @@ TEST(ShapeSearch, AutoEndsAtTheOptimum) {
 TEST(ShapeSearch, LbfgsEndsAtTheOptimumOrWarns) {
   const OptimizationResult result = search("lbfgs", 1e-4);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_TRUE(result.objective < 1.001 * kOptimum || warns(result)) << result.objective << " " << result.termination;
+  EXPECT_TRUE(result.objective < 1.001 * kOptimum || warns(result))
+      << result.objective << " " << result.termination;
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ struct Shipped {
   Eigen::VectorXd start() const {
     Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
     for (std::size_t k = 0; k < study.tuned.size(); ++k)
-      rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
+      rho[static_cast<Eigen::Index>(k)] =
+          study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
     return rho;
   }
 
@@ -52,7 +53,8 @@ struct Shipped {
 };
 
 /// A shipped case as a problem. @param changes texts of its study, each with its replacement.
-inline Problem shipped_problem(const std::string& name, const std::vector<std::pair<std::string, std::string>>& changes,
+inline Problem shipped_problem(const std::string& name,
+                               const std::vector<std::pair<std::string, std::string>>& changes,
                                const ParameterSettings& settings = {}) {
   const std::string root = source_dir();
   SourceText study = read_source(root + "/config/" + name + ".yaml");
@@ -69,26 +71,32 @@ inline Problem shipped_problem(const std::string& name, const std::vector<std::p
 /// Counts of the paper's table.
 inline void expect_counts(const Shipped& shipped, const std::vector<int>& table) {
   Status status;
-  const Counts c = count_equations(*make_system(shipped.robot, shipped.study), shipped.parameters(), &status);
+  const Counts c =
+      count_equations(*make_system(shipped.robot, shipped.study), shipped.parameters(), &status);
   ASSERT_TRUE(status.ok()) << status.cause;
-  EXPECT_EQ((std::vector<int>{c.coordinates, c.first_order_equations, c.degrees_of_freedom, c.constraints, c.dynamic_equations,
-                              c.parameters, c.sensitivities, c.total_equations}),
-            table);
+  EXPECT_EQ(
+      (std::vector<int>{c.coordinates, c.first_order_equations, c.degrees_of_freedom, c.constraints,
+                        c.dynamic_equations, c.parameters, c.sensitivities, c.total_equations}),
+      table);
   EXPECT_EQ(c.redundant_constraints, 0);
 }
 
 /// Objective and gradient within relative tolerances of those given.
-inline void expect_reference(const Shipped& shipped, double objective, double tolerance, const std::vector<double>& gradient,
-                             double gradient_tolerance) {
-  const Evaluation evaluation = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+inline void expect_reference(const Shipped& shipped, double objective, double tolerance,
+                             const std::vector<double>& gradient, double gradient_tolerance) {
+  const Evaluation evaluation =
+      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective / objective, 1.0, tolerance);
   ASSERT_EQ(static_cast<std::size_t>(evaluation.gradient.size()), gradient.size());
   for (std::size_t k = 0; k < gradient.size(); ++k)
-    EXPECT_NEAR(evaluation.gradient[static_cast<Eigen::Index>(k)] / gradient[k], 1.0, gradient_tolerance) << k;
+    EXPECT_NEAR(evaluation.gradient[static_cast<Eigen::Index>(k)] / gradient[k], 1.0,
+                gradient_tolerance)
+        << k;
 }
 
-/// A signal at a quarter, half, three quarters and all of the study's duration, and its range over the whole run.
+/// A signal at a quarter, half, three quarters and all of the study's duration, and its range over
+/// the whole run.
 struct SignalPoints {
   std::string signal;
   std::vector<double> values;
@@ -98,12 +106,14 @@ struct SignalPoints {
 /// Every signal within 1e-5 of its range.
 inline void expect_series(const Shipped& shipped, const std::vector<SignalPoints>& expected) {
   std::vector<SignalDescription> signals;
-  for (const SignalPoints& points : expected) signals.push_back(parse_signal(points.signal, {"test", 0}, "signal"));
+  for (const SignalPoints& points : expected)
+    signals.push_back(parse_signal(points.signal, {"test", 0}, "signal"));
   Simulation simulation(make_system(shipped.robot, shipped.study), shipped.parameters(), signals);
   std::size_t at = 0;
   const Status status = simulate(&simulation, shipped.study.duration, 5, [&](const Frame& frame) {
     for (std::size_t k = 0; at > 0 && k < expected.size(); ++k)
-      EXPECT_NEAR(frame.signals[k], expected[k].values.at(at - 1), 1e-5 * expected[k].range) << expected[k].signal << " at " << frame.time;
+      EXPECT_NEAR(frame.signals[k], expected[k].values.at(at - 1), 1e-5 * expected[k].range)
+          << expected[k].signal << " at " << frame.time;
     ++at;
     return true;
   });

@@ -23,7 +23,8 @@ std::vector<std::string> shipped_names() {
 /// A shorter run, with the intervals of bounds on signals inside it.
 void shorten(Study* study, double duration) {
   study->duration = std::min(study->duration, duration);
-  for (WatchedSignal& watched : study->watched) watched.before = std::min(watched.before, study->duration);
+  for (WatchedSignal& watched : study->watched)
+    watched.before = std::min(watched.before, study->duration);
 }
 
 class ShippedStudies : public ::testing::TestWithParam<std::string> {
@@ -45,7 +46,8 @@ TEST_P(ShippedStudies, Simulate) {
   const Status status = simulate(&simulation, shipped.study.duration, 11, [&](const Frame& frame) {
     for (double value : frame.signals) EXPECT_TRUE(std::isfinite(value));
     for (double error : frame.loop_errors) EXPECT_LT(error, 1e-6);
-    for (const FrictionSample& sample : frame.frictions) EXPECT_LE(sample.friction * sample.sliding_velocity, 1e-15);
+    for (const FrictionSample& sample : frame.frictions)
+      EXPECT_LE(sample.friction * sample.sliding_velocity, 1e-15);
     ++frames;
     return true;
   });
@@ -54,12 +56,14 @@ TEST_P(ShippedStudies, Simulate) {
 }
 
 TEST_P(ShippedStudies, GradientIsThatOfTheStepsTaken) {
-  const GradientCheck check = check_gradient(make_system(shipped.robot, shipped.study), shipped.start(), CheckMethod::kComplexStep);
+  const GradientCheck check = check_gradient(make_system(shipped.robot, shipped.study),
+                                             shipped.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
-// The two integrators check each other. Errors of steps add up, over one second to some ten times the tolerance.
+// The two integrators check each other. Errors of steps add up, over one second to some ten times
+// the tolerance.
 TEST_P(ShippedStudies, BothIntegratorsAgree) {
   constexpr double kTolerance = 1e-7;
   shipped.study = Shipped(GetParam()).study;
@@ -68,18 +72,24 @@ TEST_P(ShippedStudies, BothIntegratorsAgree) {
   solver.relative_tolerance = kTolerance;
   solver.absolute_tolerance = 0.1 * kTolerance;
   solver.maximum_steps = 200000;
-  const Evaluation rosenbrock = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+  const Evaluation rosenbrock =
+      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   solver.integrator = IntegratorKind::kIdas;
-  const Evaluation idas = Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
-  ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok()) << rosenbrock.status.cause << idas.status.cause;
-  EXPECT_NEAR(idas.objective, rosenbrock.objective, 100.0 * kTolerance * std::abs(rosenbrock.objective));
+  const Evaluation idas =
+      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+  ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok())
+      << rosenbrock.status.cause << idas.status.cause;
+  EXPECT_NEAR(idas.objective, rosenbrock.objective,
+              100.0 * kTolerance * std::abs(rosenbrock.objective));
 }
 
-INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()), [](const auto& study) { return study.param; });
+INSTANTIATE_TEST_SUITE_P(Config, ShippedStudies, ::testing::ValuesIn(shipped_names()),
+                         [](const auto& study) { return study.param; });
 
 TEST(ShippedList, HoldsThePapersCases) {
   const std::vector<std::string> names = shipped_names();
-  for (const char* name : {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor"})
+  for (const char* name : {"slider_crank", "slider_crank_haug", "inverted_pendulum",
+                           "inverted_pendulum_frictionless", "governor"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Haug's slider-crank in difficult cases: gains of the wrong sign, a stuck slider, a stiff controller. Steps are counted, not times.
+// Haug's slider-crank in difficult cases: gains of the wrong sign, a stuck slider, a stiff
+// controller. Steps are counted, not times.
 #include <algorithm>
 
 #include "assembly/make_system.h"
@@ -19,7 +20,9 @@ class HardSliderCrank : public ::testing::Test {
     return Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, with_gradient);
   }
   /// Sets the gain at which the optimizer starts.
-  void start_at(double Kp) { shipped.study.parameters[static_cast<std::size_t>(shipped.study.tuned[kGain])].value = Kp; }
+  void start_at(double Kp) {
+    shipped.study.parameters[static_cast<std::size_t>(shipped.study.tuned[kGain])].value = Kp;
+  }
 
   static Shipped by_rodas4() {
     Shipped shipped("slider_crank_haug");
@@ -33,12 +36,15 @@ class HardSliderCrank : public ::testing::Test {
   Shipped shipped = by_rodas4();
 };
 
-// Without MotionWatch these runs take 55 000 steps for a gain of -0.1, 400 000 and more for the others.
+// Without MotionWatch these runs take 55 000 steps for a gain of -0.1, 400 000 and more for the
+// others.
 TEST_F(HardSliderCrank, RunsAwayOnlyBriefly) {
   for (const double Kp : {-0.1, -1.0, -5.0}) {
     const Evaluation evaluation = evaluate(Kp);
-    EXPECT_EQ(evaluation.status.code, StatusCode::kUnstableMotion) << Kp << ": " << evaluation.status.cause;
-    EXPECT_NE(evaluation.status.cause.find("link 'crank' turns"), std::string::npos) << evaluation.status.cause;
+    EXPECT_EQ(evaluation.status.code, StatusCode::kUnstableMotion)
+        << Kp << ": " << evaluation.status.cause;
+    EXPECT_NE(evaluation.status.cause.find("link 'crank' turns"), std::string::npos)
+        << evaluation.status.cause;
     EXPECT_LT(evaluation.statistics.steps + evaluation.statistics.rejected_steps, 8000) << Kp;
   }
 }
@@ -47,12 +53,14 @@ TEST_F(HardSliderCrank, RunsAwayOnlyBrieflyWithIdas) {
   shipped.study.solver.integrator = IntegratorKind::kIdas;
   for (const double Kp : {-0.1, -5.0}) {
     const Evaluation evaluation = evaluate(Kp);
-    EXPECT_EQ(evaluation.status.code, StatusCode::kUnstableMotion) << Kp << ": " << evaluation.status.cause;
+    EXPECT_EQ(evaluation.status.code, StatusCode::kUnstableMotion)
+        << Kp << ": " << evaluation.status.cause;
     EXPECT_LT(evaluation.statistics.steps + evaluation.statistics.rejected_steps, 12000) << Kp;
   }
 }
 
-// With the term for the error removed, less effort is always better, so the search passes Kp = 0 to gains of the wrong sign.
+// With the term for the error removed, less effort is always better, so the search passes Kp = 0 to
+// gains of the wrong sign.
 TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
   shipped.study.tuned = {shipped.study.tuned[kGain]};
   shipped.study.constraints.clear();
@@ -62,10 +70,11 @@ TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
   shipped.study.optimizer.algorithm = "lbfgs";
   shipped.study.optimizer.max_evaluations = 15;
   std::vector<StatusCode> codes;
-  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer, [&](const Trial& trial) {
-    codes.push_back(trial.status.code);
-    return true;
-  });
+  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study),
+                                             shipped.study.optimizer, [&](const Trial& trial) {
+                                               codes.push_back(trial.status.code);
+                                               return true;
+                                             });
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
   const auto failed = std::count(codes.begin(), codes.end(), StatusCode::kUnstableMotion);
   EXPECT_GT(failed, 0);
@@ -76,7 +85,8 @@ TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
 
 TEST_F(HardSliderCrank, AnOptimizerThatStartsThereSaysWhy) {
   start_at(-1.0);
-  const OptimizationResult result = optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
+  const OptimizationResult result =
+      optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   EXPECT_EQ(result.status.code, StatusCode::kUnstableMotion);
   EXPECT_EQ(result.evaluations, 1);
 }

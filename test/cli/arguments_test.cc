@@ -29,12 +29,14 @@ TEST(Arguments, TakesCommandModelAndStudy) {
 TEST(Arguments, CheckNeedsNoStudy) {
   EXPECT_EQ(parse_arguments({"check", "a.urdf"}).study, "");
   expect_usage_error({"check"}, "needs a MODEL");
-  for (const char* command : {"simulate", "gradient", "optimize"}) expect_usage_error({command, "a.urdf"}, "needs a STUDY");
+  for (const char* command : {"simulate", "gradient", "optimize"})
+    expect_usage_error({command, "a.urdf"}, "needs a STUDY");
 }
 
 TEST(Arguments, OptionsStandAnywhereAndTakeEitherSpelling) {
-  const Arguments arguments = parse_arguments({"optimize", "--json", "a.urdf", "--set", "Kp=-1.5", "--overlay=o.urdf", "a.yaml",
-                                               "--overlay", "p.urdf", "--set=crank_length=7e-2", "--output", "out"});
+  const Arguments arguments = parse_arguments({"optimize", "--json", "a.urdf", "--set", "Kp=-1.5",
+                                               "--overlay=o.urdf", "a.yaml", "--overlay", "p.urdf",
+                                               "--set=crank_length=7e-2", "--output", "out"});
   EXPECT_TRUE(arguments.json);
   EXPECT_EQ(arguments.overlays, (std::vector<std::string>{"o.urdf", "p.urdf"}));
   EXPECT_EQ(arguments.settings, (ParameterSettings{{"Kp", -1.5}, {"crank_length", 0.07}}));
@@ -44,7 +46,8 @@ TEST(Arguments, OptionsStandAnywhereAndTakeEitherSpelling) {
 
 TEST(Arguments, EveryCommandTakesAResult) {
   for (const char* command : {"check", "urdf", "simulate", "gradient", "optimize", "identify"})
-    EXPECT_EQ(parse_arguments({command, "m", "s", "--result", "r.json"}).result, "r.json") << command;
+    EXPECT_EQ(parse_arguments({command, "m", "s", "--result", "r.json"}).result, "r.json")
+        << command;
 }
 
 TEST(Arguments, ResumeNamesTheFolder) {
@@ -59,7 +62,8 @@ TEST(Arguments, ResumeNamesTheFolder) {
 
 TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
   const Arguments arguments =
-      parse_arguments({"simulate", "m", "s", "--signals", "a/velocity,b/velocity - c/velocity", "--csv", "f", "--samples=11"});
+      parse_arguments({"simulate", "m", "s", "--signals", "a/velocity,b/velocity - c/velocity",
+                       "--csv", "f", "--samples=11"});
   EXPECT_EQ(arguments.signals, (std::vector<std::string>{"a/velocity", "b/velocity - c/velocity"}));
   EXPECT_EQ(arguments.csv, "f");
   EXPECT_EQ(arguments.samples, 11);
@@ -72,14 +76,16 @@ TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
 TEST(Arguments, VerifyTakesAMethod) {
   EXPECT_TRUE(parse_arguments({"gradient", "m", "s", "--verify"}).verify);
   EXPECT_EQ(parse_arguments({"gradient", "m", "s", "--verify"}).method, CheckMethod::kComplexStep);
-  EXPECT_EQ(parse_arguments({"gradient", "--verify=ridders", "m", "s"}).method, CheckMethod::kRidders);
+  EXPECT_EQ(parse_arguments({"gradient", "--verify=ridders", "m", "s"}).method,
+            CheckMethod::kRidders);
   EXPECT_EQ(parse_arguments({"gradient", "--verify", "m", "s"}).model, "m");
   expect_usage_error({"gradient", "m", "s", "--verify=guess"}, "neither complex_step nor ridders");
 }
 
 TEST(Arguments, RefusesWhatItDoesNotKnow) {
   expect_usage_error({}, "no command");
-  expect_usage_error({"optimise", "m", "s"}, "unknown command \"optimise\", did you mean \"optimize\"?");
+  expect_usage_error({"optimise", "m", "s"},
+                     "unknown command \"optimise\", did you mean \"optimize\"?");
   expect_usage_error({"check", "m", "--jsn"}, "unknown option \"--jsn\", did you mean \"--json\"?");
   expect_usage_error({"check", "m", "--verify"}, "\"check\" takes no --verify");
   expect_usage_error({"check", "m", "s", "extra"}, "unexpected \"extra\"");
@@ -108,9 +114,11 @@ TEST(Arguments, VersionStandsAlone) {
 }
 
 TEST(Usage, NamesEveryCommandAndOption) {
-  for (const char* word : {"check MODEL", "urdf MODEL", "--sticks", "simulate MODEL STUDY", "gradient MODEL STUDY", "optimize MODEL STUDY",
-                           "--signals", "--csv", "--samples", "--verify", "--output", "--resume", "report DIR|BAG", "apply DIR|BAG",
-                           "--overlay", "--result", "--set", "--json", "--version"})
+  for (const char* word :
+       {"check MODEL", "urdf MODEL", "--sticks", "simulate MODEL STUDY", "gradient MODEL STUDY",
+        "optimize MODEL STUDY", "--signals", "--csv", "--samples", "--verify", "--output",
+        "--resume", "report DIR|BAG", "apply DIR|BAG", "--overlay", "--result", "--set", "--json",
+        "--version"})
     EXPECT_NE(usage().find(word), std::string::npos) << word;
 }
 

@@ -14,12 +14,16 @@ struct ExciteFiles {
     write("model.urdf", pendulum_urdf(axis));
     write("study.yaml",
           "identify: {data: [{csv: out/trajectory.csv}], intervals: {noise: white}}\n"
-          "excite: {joints: {hinge: {noise: 0.1}}, period: 4.0, starts: 1, max_evaluations: 30, harmonics: 3" +
+          "excite: {joints: {hinge: {noise: 0.1}}, period: 4.0, starts: 1, max_evaluations: 30, "
+          "harmonics: 3" +
               more + "}\nparameters: {mass: {}, inertia: {}, viscous: {}}\n");
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder.path(name)) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder.path(name)) << text;
+  }
   std::vector<std::string> words(const std::string& command) const {
-    return {command, folder.path("model.urdf"), folder.path("study.yaml"), "--json", "--output", folder.path("out")};
+    return {command,    folder.path("model.urdf"), folder.path("study.yaml"), "--json",
+            "--output", folder.path("out")};
   }
   ScratchFolder folder;
 };
@@ -32,11 +36,13 @@ TEST(ExciteCommand, WritesATrajectoryThatIdentifyReads) {
   EXPECT_GT(object["volume_factor"].get<double>(), 1.5);
   const Json file = Json::parse(read_text_file(files.folder.path("out/excitation.json")));
   EXPECT_EQ(file["volume_factor"], object["volume_factor"]);
-  EXPECT_NE(
-      read_text_file(files.folder.path("out/trajectory.csv")).find("time,hinge/position,hinge/velocity,hinge/acceleration,hinge/effort"),
-      std::string::npos);
-  EXPECT_NE(read_text_file(files.folder.path("out/plain.csv")).find("time,hinge/position"), std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(files.folder.path("out/trajectory.bag"))) << "this test links no writer of bags";
+  EXPECT_NE(read_text_file(files.folder.path("out/trajectory.csv"))
+                .find("time,hinge/position,hinge/velocity,hinge/acceleration,hinge/effort"),
+            std::string::npos);
+  EXPECT_NE(read_text_file(files.folder.path("out/plain.csv")).find("time,hinge/position"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(files.folder.path("out/trajectory.bag")))
+      << "this test links no writer of bags";
   const Outcome identified = run_words(files.words("identify"));
   ASSERT_EQ(identified.code, kDone) << identified.err;
   EXPECT_NEAR(json_of(identified)["identified"]["mass"]["value"].get<double>(), 2.0, 1e-3);
@@ -44,9 +50,11 @@ TEST(ExciteCommand, WritesATrajectoryThatIdentifyReads) {
 
 TEST(ExciteCommand, PrintsWhatIsExpected) {
   const ExciteFiles files;
-  const Outcome outcome = run_words({"excite", files.folder.path("model.urdf"), files.folder.path("study.yaml")});
+  const Outcome outcome =
+      run_words({"excite", files.folder.path("model.urdf"), files.folder.path("study.yaml")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
-  EXPECT_NE(outcome.out.find("times smaller than with the plain trajectory"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("times smaller than with the plain trajectory"), std::string::npos)
+      << outcome.out;
   EXPECT_NE(outcome.out.find("hinge/effort"), std::string::npos);
   EXPECT_NE(outcome.err.find("start 1, evaluation 1: criterion"), std::string::npos) << outcome.err;
 }
@@ -58,7 +66,8 @@ TEST(ExciteCommand, NamesWhatNoTrajectoryTells) {
   Json object = json_of(outcome);
   EXPECT_EQ(object["error"]["code"], "not_identifiable");
   EXPECT_NE(object["undetermined"][0].get<std::string>().find("inertia"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(files.folder.path("out/trajectory.csv"))) << "the rest is excited all the same";
+  EXPECT_TRUE(std::filesystem::exists(files.folder.path("out/trajectory.csv")))
+      << "the rest is excited all the same";
 }
 
 TEST(ExciteCommand, StudiesWithoutTheBlock) {
@@ -67,7 +76,8 @@ TEST(ExciteCommand, StudiesWithoutTheBlock) {
   const Outcome outcome = run_words(files.words("excite"));
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_EQ(json_of(outcome)["error"]["element"], "excite");
-  files.write("study.yaml", "identify: {}\nexcite: {joints: {hinge: {noise: 1}}}\nparameters: {mass: {}}\n");
+  files.write("study.yaml",
+              "identify: {}\nexcite: {joints: {hinge: {noise: 1}}}\nparameters: {mass: {}}\n");
   const Outcome nothing = run_words(files.words("identify"));
   EXPECT_EQ(nothing.code, kBadInput);
   EXPECT_EQ(json_of(nothing)["error"]["element"], "identify.data") << nothing.out;

@@ -12,49 +12,62 @@ TEST(GradientCommand, IsGivenByName) {
   const Outcome outcome = run_words({"gradient", kModel, short_study(folder), "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   Json object = json_of(outcome);
-  expect_keys(object, {"objective", "gradient", "parameters", "steps", "rejected_steps", "cpu_seconds", "counts"});
+  expect_keys(object, {"objective", "gradient", "parameters", "steps", "rejected_steps",
+                       "cpu_seconds", "counts"});
   EXPECT_EQ(object["gradient"].size(), kTuned.size());
   expect_keys(object["gradient"], kTuned);
   EXPECT_FALSE(object.contains("verification"));
 }
 
-void expect_gradient(const std::string& name, double objective, const std::vector<double>& gradient) {
-  Json object = json_of(run_words({"gradient", shipped("urdf/" + name + ".urdf"), shipped("config/" + name + ".yaml"), "--json"}));
+void expect_gradient(const std::string& name, double objective,
+                     const std::vector<double>& gradient) {
+  Json object = json_of(run_words({"gradient", shipped("urdf/" + name + ".urdf"),
+                                   shipped("config/" + name + ".yaml"), "--json"}));
   EXPECT_NEAR(object["objective"].get<double>() / objective, 1.0, 1e-7) << name;
   for (std::size_t k = 0; k < kTuned.size(); ++k)
-    EXPECT_NEAR(object["gradient"][kTuned[k]].get<double>() / gradient[k], 1.0, 1e-5) << name << " " << kTuned[k];
+    EXPECT_NEAR(object["gradient"][kTuned[k]].get<double>() / gradient[k], 1.0, 1e-5)
+        << name << " " << kTuned[k];
 }
 
-// From an independent solution at tolerances down to 1e-12, whose gradients agree by complex step and Richardson differences.
+// From an independent solution at tolerances down to 1e-12, whose gradients agree by complex step
+// and Richardson differences.
 TEST(GradientCommand, ShippedStudiesGiveThePublishedDigits) {
-  expect_gradient("slider_crank", 0.05925272691, {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
-  expect_gradient("slider_crank_haug", 0.717975196477, {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
+  expect_gradient("slider_crank", 0.05925272691,
+                  {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
+  expect_gradient("slider_crank_haug", 0.717975196477,
+                  {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
 }
 
 TEST(GradientCommand, VerifySetsAReferenceBesideTheGradient) {
   const ScratchFolder folder;
   for (const std::string method : {"complex_step", "ridders"}) {
-    const Outcome outcome = run_words({"gradient", kModel, short_study(folder), "--verify=" + method, "--json"});
+    const Outcome outcome =
+        run_words({"gradient", kModel, short_study(folder), "--verify=" + method, "--json"});
     ASSERT_EQ(outcome.code, kDone) << outcome.err;
     Json verification = json_of(outcome)["verification"];
     EXPECT_EQ(verification["method"], method);
     expect_keys(verification["reference"], kTuned);
     expect_keys(verification["reference_error"], kTuned);
-    EXPECT_LT(verification["largest_relative_difference"].get<double>(), method == "ridders" ? 1e-4 : 1e-8);
+    EXPECT_LT(verification["largest_relative_difference"].get<double>(),
+              method == "ridders" ? 1e-4 : 1e-8);
   }
-  const std::string table = run_words({"gradient", kModel, short_study(folder), "--verify=complex_step"}).out;
+  const std::string table =
+      run_words({"gradient", kModel, short_study(folder), "--verify=complex_step"}).out;
   EXPECT_NE(table.find("complex_step"), std::string::npos);
   EXPECT_NE(table.find("largest relative difference"), std::string::npos);
 }
 
 TEST(GradientCommand, VerifyAloneComparesAlongADirectionAndSaysSo) {
   const ScratchFolder folder;
-  const Outcome outcome = run_words({"gradient", kModel, short_study(folder), "--verify", "--json"});
+  const Outcome outcome =
+      run_words({"gradient", kModel, short_study(folder), "--verify", "--json"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const Json verification = json_of(outcome)["verification"];
   EXPECT_EQ(verification["directions"], 1);
   EXPECT_LT(verification["largest_relative_difference"].get<double>(), 1e-8);
-  EXPECT_NE(run_words({"gradient", kModel, short_study(folder), "--verify"}).out.find("along a direction"), std::string::npos);
+  EXPECT_NE(run_words({"gradient", kModel, short_study(folder), "--verify"})
+                .out.find("along a direction"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -14,14 +14,17 @@ TEST(HandOver, FindsTheScriptsOfABuildAndOfAnInstallation) {
   fs::create_directories(folder.path("source/scripts"));
   std::ofstream(folder.path("source/scripts/report")) << "";
   EXPECT_EQ(find_script("report", folder.path("devel/lib/mechanism_codesign")), "");
-  std::ofstream(folder.path("devel/share/mechanism_codesign/scripts.path")) << folder.path("source/scripts") << '\n';
-  EXPECT_EQ(find_script("report", folder.path("devel/lib/mechanism_codesign")), fs::canonical(folder.path("source/scripts/report")));
+  std::ofstream(folder.path("devel/share/mechanism_codesign/scripts.path"))
+      << folder.path("source/scripts") << '\n';
+  EXPECT_EQ(find_script("report", folder.path("devel/lib/mechanism_codesign")),
+            fs::canonical(folder.path("source/scripts/report")));
   EXPECT_EQ(find_script("other", folder.path("devel/lib/mechanism_codesign")), "");
   // An installation, here one without ROS.
   fs::create_directories(folder.path("usr/bin"));
   fs::create_directories(folder.path("usr/share/mechanism_codesign/scripts"));
   std::ofstream(folder.path("usr/share/mechanism_codesign/scripts/report")) << "";
-  EXPECT_EQ(find_script("report", folder.path("usr/bin")), fs::canonical(folder.path("usr/share/mechanism_codesign/scripts/report")));
+  EXPECT_EQ(find_script("report", folder.path("usr/bin")),
+            fs::canonical(folder.path("usr/share/mechanism_codesign/scripts/report")));
 }
 
 TEST(HandOver, FindsAProgramBesideThisOne) {

@@ -16,13 +16,19 @@ class IdentifyCommand : public testing::Test {
     std::ofstream(folder_.path("data.csv")) << SwingingRig().table();
     write_study("");
   }
-  void write_study(const std::string& more) const { std::ofstream(folder_.path("study.yaml")) << swinging_study("{csv: data.csv}", more); }
-  std::vector<std::string> words() const {
-    return {"identify", folder_.path("arm.urdf"), folder_.path("study.yaml"), "--output", folder_.path("job")};
+  void write_study(const std::string& more) const {
+    std::ofstream(folder_.path("study.yaml")) << swinging_study("{csv: data.csv}", more);
   }
-  bool has(const std::string& name) const { return std::filesystem::exists(folder_.path("job/" + name)); }
+  std::vector<std::string> words() const {
+    return {"identify", folder_.path("arm.urdf"), folder_.path("study.yaml"), "--output",
+            folder_.path("job")};
+  }
+  bool has(const std::string& name) const {
+    return std::filesystem::exists(folder_.path("job/" + name));
+  }
 
-  /// Runs the command with a writer of bags; cancelled once the error stream shows that many lines of evaluations.
+  /// Runs the command with a writer of bags; cancelled once the error stream shows that many lines
+  /// of evaluations.
   Outcome run_until(int evaluations) {
     struct CountingBuffer : std::stringbuf {
       std::atomic<bool>* cancel;
@@ -30,7 +36,9 @@ class IdentifyCommand : public testing::Test {
       int sync() override {
         const std::string text = str();
         int seen = 0;
-        for (std::size_t at = text.find("evaluation "); at != std::string::npos; at = text.find("evaluation ", at + 1)) ++seen;
+        for (std::size_t at = text.find("evaluation "); at != std::string::npos;
+             at = text.find("evaluation ", at + 1))
+          ++seen;
         if (seen >= left) *cancel = true;
         return 0;
       }
@@ -59,7 +67,9 @@ class IdentifyCommand : public testing::Test {
 TEST_F(IdentifyCommand, WritesItsFilesAndTheBag) {
   const Outcome outcome = run_until(1000);
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
-  for (const char* name : {"identification.json", "identified.urdf", "residuals.csv", "job_study.yaml"}) EXPECT_TRUE(has(name)) << name;
+  for (const char* name :
+       {"identification.json", "identified.urdf", "residuals.csv", "job_study.yaml"})
+    EXPECT_TRUE(has(name)) << name;
   EXPECT_EQ(bag_path_, folder_.path("job/identification.bag"));
   EXPECT_EQ(frames_, 249U);
   const Json json = Json::parse(read_text_file(folder_.path("job/identification.json")));
@@ -72,7 +82,8 @@ TEST_F(IdentifyCommand, InterruptedItKeepsTheBestPoint) {
   const Outcome outcome = run_until(2);
   EXPECT_EQ(outcome.code, kFailed);
   EXPECT_NE(outcome.err.find("cancelled"), std::string::npos) << outcome.err;
-  for (const char* name : {"identification.json", "identified.urdf", "residuals.csv"}) EXPECT_TRUE(has(name)) << name;
+  for (const char* name : {"identification.json", "identified.urdf", "residuals.csv"})
+    EXPECT_TRUE(has(name)) << name;
   const Json json = Json::parse(read_text_file(folder_.path("job/identification.json")));
   EXPECT_EQ(json["termination"], "cancelled");
   EXPECT_EQ(json["error"]["code"], "cancelled");
@@ -90,9 +101,11 @@ TEST_F(IdentifyCommand, ProfilesAreTold) {
 TEST_F(IdentifyCommand, AResultDoesNotReplaceItsStudy) {
   std::filesystem::create_directory(folder_.path("job"));
   std::filesystem::rename(folder_.path("study.yaml"), folder_.path("job/job_study.yaml"));
-  const Outcome outcome = run_words({"identify", words().at(1), folder_.path("job/job_study.yaml"), "--output", folder_.path("job")});
+  const Outcome outcome = run_words({"identify", words().at(1), folder_.path("job/job_study.yaml"),
+                                     "--output", folder_.path("job")});
   EXPECT_EQ(outcome.code, kBadInput);
-  EXPECT_NE(outcome.err.find("job_study.yaml would replace this file"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("job_study.yaml would replace this file"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(IdentifyCommand, WithoutABagWriterThereIsNoBag) {

@@ -13,7 +13,9 @@ namespace codesign::cli {
 namespace {
 
 std::string scratch(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / ("output_file_" + name + "_" + std::to_string(getpid()))).string();
+  return (std::filesystem::path(testing::TempDir()) /
+          ("output_file_" + name + "_" + std::to_string(getpid())))
+      .string();
 }
 
 TEST(OutputFile, WritesWholeFilesIntoNewFolders) {
@@ -42,14 +44,17 @@ TEST(OutputFile, NamesTheOptionAndThePath) {
 }
 
 TEST(OutputFile, RefusesEveryPathToAFileThatIsRead) {
-  const std::string input = scratch("input"), hard = scratch("hard"), soft = scratch("soft"), other = scratch("other");
+  const std::string input = scratch("input"), hard = scratch("hard"), soft = scratch("soft"),
+                    other = scratch("other");
   for (const std::string& path : {input, hard, soft, other}) std::filesystem::remove(path);
   write_whole_file(input, "x");
   std::filesystem::create_hard_link(input, hard);
   std::filesystem::create_symlink(input, soft);
-  for (const std::string& path : {input, hard, soft}) EXPECT_THROW(require_no_input(path, "--csv", "the table", {"", input}), InputError);
+  for (const std::string& path : {input, hard, soft})
+    EXPECT_THROW(require_no_input(path, "--csv", "the table", {"", input}), InputError);
   EXPECT_NO_THROW(require_no_input(other, "--csv", "the table", {"", input, "/dev/null"}));
-  EXPECT_NO_THROW(require_no_input("/dev/null", "--csv", "the table", {"/dev/null"})) << "a device is not replaced";
+  EXPECT_NO_THROW(require_no_input("/dev/null", "--csv", "the table", {"/dev/null"}))
+      << "a device is not replaced";
   for (const std::string& path : {input, hard, soft}) std::filesystem::remove(path);
 }
 
@@ -83,7 +88,8 @@ TEST(Inputs, ReadsModelStudyOverlaysAndSettings) {
 
 TEST(Inputs, ASettingCountsMoreThanAResult) {
   const ScratchFolder folder;
-  std::ofstream(folder.path("result.json")) << R"({"parameters": {"crank_length": 0.07, "Kp": 3.0}})";
+  std::ofstream(folder.path("result.json"))
+      << R"({"parameters": {"crank_length": 0.07, "Kp": 3.0}})";
   Arguments arguments = slider_crank();
   arguments.result = folder.path("result.json");
   EXPECT_EQ(load(arguments).start()[0], 0.07);
@@ -98,14 +104,16 @@ TEST(Inputs, OfAnotherStudysResultWhatFitsIsTaken) {
   const ScratchFolder folder;
   Arguments arguments = slider_crank();
   arguments.result = folder.path("other.json");
-  std::ofstream(arguments.result) << R"({"parameters": {"crank_length": 0.07, "rod_length": 70.0, "elbow_gain": 3.0}})";
+  std::ofstream(arguments.result)
+      << R"({"parameters": {"crank_length": 0.07, "rod_length": 70.0, "elbow_gain": 3.0}})";
   const Problem problem = load(arguments), plain = load(slider_crank());
   EXPECT_EQ(problem.start()[0], 0.07);
   EXPECT_EQ(problem.start()[1], plain.start()[1]);
   ASSERT_EQ(problem.warnings().size(), plain.warnings().size() + 1U);
   const Warning& warning = problem.warnings().front();
   EXPECT_EQ(warning.code, "result_of_another_study");
-  for (const char* part : {"other.json", "1 of its 3", "rod_length = 70", "elbow_gain is no parameter", "Kp, which is tuned"})
+  for (const char* part : {"other.json", "1 of its 3", "rod_length = 70",
+                           "elbow_gain is no parameter", "Kp, which is tuned"})
     EXPECT_NE(warning.message.find(part), std::string::npos) << warning.message;
   std::ofstream(arguments.result) << R"({"parameters": {"elbow_gain": 3.0}})";
   try {

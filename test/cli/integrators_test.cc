@@ -9,7 +9,8 @@ namespace {
 
 /// The short study for IDAS.
 std::string idas_study(const ScratchFolder& folder) {
-  return folder.edited("idas.yaml", read_text_file(short_study(folder)), "integrator: rosenbrock", "integrator: idas");
+  return folder.edited("idas.yaml", read_text_file(short_study(folder)), "integrator: rosenbrock",
+                       "integrator: idas");
 }
 
 TEST(Integrators, EveryCommandTakesEither) {
@@ -17,7 +18,8 @@ TEST(Integrators, EveryCommandTakesEither) {
   const std::string study = idas_study(folder);
   for (const char* command : {"check", "simulate", "gradient"})
     EXPECT_EQ(run_words({command, kModel, study, "--json"}).code, kDone) << command;
-  const Outcome outcome = run_words({"optimize", kModel, study, "--json", "--output", folder.path("job")});
+  const Outcome outcome =
+      run_words({"optimize", kModel, study, "--json", "--output", folder.path("job")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   Json object = json_of(outcome);
   EXPECT_LT(object["objective"].get<double>(), object["initial_objective"].get<double>());
@@ -31,7 +33,9 @@ TEST(Integrators, GiveTheSameNumbers) {
   EXPECT_NE(rosenbrock["steps"], idas["steps"]);
   EXPECT_NEAR(idas["objective"].get<double>() / rosenbrock["objective"].get<double>(), 1.0, 1e-6);
   for (const std::string& name : kTuned)
-    EXPECT_NEAR(idas["gradient"][name].get<double>() / rosenbrock["gradient"][name].get<double>(), 1.0, 1e-5) << name;
+    EXPECT_NEAR(idas["gradient"][name].get<double>() / rosenbrock["gradient"][name].get<double>(),
+                1.0, 1e-5)
+        << name;
 }
 
 TEST(Integrators, IdasIsCheckedByDifferencesOfTheOther) {

@@ -15,8 +15,10 @@ Problem arm(const std::string& limits) {
   Arguments arguments;
   arguments.model = shipped("test/cli/vendor/vx600.urdf");
   arguments.overlays = {shipped("test/cli/vendor/vx600_friction.urdf")};
-  arguments.study = folder.edited("study.yaml", read_text_file(shipped("test/cli/vendor/vx600.yaml")),
-                                  "limits: {effort: true, position: true, stiffness: 1.0e+4, dissipation: 1.0, width: 1.0e-3}", limits);
+  arguments.study = folder.edited(
+      "study.yaml", read_text_file(shipped("test/cli/vendor/vx600.yaml")),
+      "limits: {effort: true, position: true, stiffness: 1.0e+4, dissipation: 1.0, width: 1.0e-3}",
+      limits);
   return load(arguments);
 }
 
@@ -37,7 +39,8 @@ std::vector<LimitCrossing> watch(const std::string& limits, const std::vector<Fr
 }
 
 TEST(LimitWatch, NotesFirstTimeAndWorstValueOfEachLimit) {
-  const auto crossings = watch("limits: {}", {at(0.0, 3.1, -3.1, 149.0), at(0.1, 3.3, -3.5, -151.0), at(0.2, 3.2, 4.0, 10.0)});
+  const auto crossings = watch("limits: {}", {at(0.0, 3.1, -3.1, 149.0), at(0.1, 3.3, -3.5, -151.0),
+                                              at(0.2, 3.2, 4.0, 10.0)});
   ASSERT_EQ(crossings.size(), 3U);
   EXPECT_EQ(crossings[0].limit, "upper");
   EXPECT_EQ(crossings[0].bound, 3.1416);
@@ -47,20 +50,25 @@ TEST(LimitWatch, NotesFirstTimeAndWorstValueOfEachLimit) {
   EXPECT_EQ(crossings[1].worst, 4.0);
   EXPECT_EQ(crossings[2].limit, "effort");
   EXPECT_EQ(crossings[2].worst, -151.0);
-  EXPECT_EQ(describe(crossings[1]), "joint 'elbow_joint' exceeds its velocity limit 3.15 from t = 0.1 s; the worst value is 4");
+  EXPECT_EQ(
+      describe(crossings[1]),
+      "joint 'elbow_joint' exceeds its velocity limit 3.15 from t = 0.1 s; the worst value is 4");
 }
 
 TEST(LimitWatch, WhatTheTolerancesExplainIsNotReported) {
   const double margin = 1e-7 + 1e-6 * 3.1416;  // the study's tolerances
-  EXPECT_TRUE(
-      watch("limits: {}", {at(0.0, 3.1416 + 1e-15, 3.15 + 1e-15, 150.0 + 1e-13), at(0.1, -3.1416 - 0.9 * margin, -3.15, 0.0)}).empty());
-  const auto crossings = watch("limits: {}", {at(0.0, 3.1416 + 1.1 * margin, 3.15 + 4e-6, -150.0 - 2e-4)});
+  EXPECT_TRUE(watch("limits: {}", {at(0.0, 3.1416 + 1e-15, 3.15 + 1e-15, 150.0 + 1e-13),
+                                   at(0.1, -3.1416 - 0.9 * margin, -3.15, 0.0)})
+                  .empty());
+  const auto crossings =
+      watch("limits: {}", {at(0.0, 3.1416 + 1.1 * margin, 3.15 + 4e-6, -150.0 - 2e-4)});
   ASSERT_EQ(crossings.size(), 3U);
   EXPECT_EQ(crossings[0].worst, 3.1416 + 1.1 * margin);
 }
 
 TEST(LimitWatch, WhatIsEnforcedIsNotReported) {
-  const auto crossings = watch("limits: {effort: true, position: true}", {at(0.0, -4.0, 3.2, 200.0)});
+  const auto crossings =
+      watch("limits: {effort: true, position: true}", {at(0.0, -4.0, 3.2, 200.0)});
   ASSERT_EQ(crossings.size(), 1U);
   EXPECT_EQ(crossings[0].limit, "velocity");
   EXPECT_EQ(watch("limits: {}", {at(0.0, -4.0, 0.0, 0.0)}).at(0).limit, "lower");

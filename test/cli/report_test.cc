@@ -12,7 +12,10 @@ namespace {
 
 TEST(JsonOutput, DoublesReadBackAsTheSameDoubles) {
   std::ostringstream out;
-  print({{"third", 1.0 / 3.0}, {"small", 5e-324}, {"infinite", std::numeric_limits<double>::infinity()}}, out);
+  print({{"third", 1.0 / 3.0},
+         {"small", 5e-324},
+         {"infinite", std::numeric_limits<double>::infinity()}},
+        out);
   const Json read = Json::parse(out.str());
   EXPECT_EQ(read["third"].get<double>(), 1.0 / 3.0);
   EXPECT_EQ(read["small"].get<double>(), 5e-324);
@@ -30,13 +33,15 @@ TEST(JsonOutput, CountsHaveTheirNames) {
   EXPECT_EQ(object["redundant_rows"][0]["joint"], "pin");
   EXPECT_EQ(object["redundant_rows"][0]["row"], 4);
   EXPECT_EQ(object["redundant_rows"][0]["kind"], "parallel axes, x_i . z_j");
-  for (const char* key : {"coordinates", "first_order_equations", "controller_states", "degrees_of_freedom", "constraints",
-                          "redundant_constraints", "dynamic_equations", "parameters", "sensitivities"})
+  for (const char* key :
+       {"coordinates", "first_order_equations", "controller_states", "degrees_of_freedom",
+        "constraints", "redundant_constraints", "dynamic_equations", "parameters", "sensitivities"})
     EXPECT_TRUE(object.contains(key)) << key;
 }
 
 TEST(JsonOutput, ErrorsSayWhereAndWhat) {
-  const Json object = to_json(InputError({{"study.yaml", 4}, "duration", "must be positive", "-1", "more than 0 s"}));
+  const Json object = to_json(
+      InputError({{"study.yaml", 4}, "duration", "must be positive", "-1", "more than 0 s"}));
   EXPECT_EQ(object["code"], "bad_input");
   EXPECT_EQ(object["file"], "study.yaml");
   EXPECT_EQ(object["line"], 4);
@@ -53,12 +58,14 @@ TEST(JsonOutput, ErrorsSayWhereAndWhat) {
 TEST(JsonOutput, StatisticsKeepTheirKeys) {
   Json object;
   add_statistics({12, 3, 0.5, 0.25, 0.125}, &object);
-  EXPECT_EQ(object.dump(),
-            R"({"steps":12,"rejected_steps":3,"explicit_steps":0,"cpu_seconds":0.5,"constraint_drift":0.25,"energy_error":0.125})");
+  EXPECT_EQ(
+      object.dump(),
+      R"({"steps":12,"rejected_steps":3,"explicit_steps":0,"cpu_seconds":0.5,"constraint_drift":0.25,"energy_error":0.125})");
 }
 
 TEST(JsonOutput, WarningsSayCodeSentenceAndPlace) {
-  const Json array = to_json(Warnings{warn("limit_order", {{"arm.urdf", 7}, "<limit>", "lower is above upper", "", ""})});
+  const Json array = to_json(
+      Warnings{warn("limit_order", {{"arm.urdf", 7}, "<limit>", "lower is above upper", "", ""})});
   ASSERT_EQ(array.size(), 1U);
   EXPECT_EQ(array[0]["code"], "limit_order");
   EXPECT_EQ(array[0]["message"], "arm.urdf:7: <limit>: lower is above upper");
@@ -95,7 +102,8 @@ TEST(Report, SuccessIsSilentButForJson) {
   const Finished plain = finish_with({}, false);
   EXPECT_EQ(plain.code, kDone);
   EXPECT_EQ(plain.out + plain.err, "");
-  EXPECT_EQ(Json::parse(finish_with({}, true).out), Json({{"version", version()}, {"objective", 0.5}}));
+  EXPECT_EQ(Json::parse(finish_with({}, true).out),
+            Json({{"version", version()}, {"objective", 0.5}}));
 }
 
 TEST(Report, FailureKeepsWhatIsKnown) {
@@ -108,9 +116,11 @@ TEST(Report, FailureKeepsWhatIsKnown) {
 }
 
 TEST(Report, WhatGoesWrongBesideTheComputationIsAFailureToo) {
-  const Finished finished = finish_with({}, true, {{"output_failed", "a: cannot be written"}, {"cancelled", "b ends early"}});
+  const Finished finished = finish_with(
+      {}, true, {{"output_failed", "a: cannot be written"}, {"cancelled", "b ends early"}});
   EXPECT_EQ(finished.code, kFailed);
-  EXPECT_EQ(finished.err, "codesign simulate: a: cannot be written\ncodesign simulate: b ends early\n");
+  EXPECT_EQ(finished.err,
+            "codesign simulate: a: cannot be written\ncodesign simulate: b ends early\n");
   const Json object = Json::parse(finished.out);
   EXPECT_EQ(object["objective"], 0.5);
   EXPECT_EQ(object["error"]["code"], "output_failed");
@@ -118,7 +128,8 @@ TEST(Report, WhatGoesWrongBesideTheComputationIsAFailureToo) {
 }
 
 TEST(Report, TheComputationsStatusComesFirst) {
-  const Json object = Json::parse(finish_with(kStopped, true, {{"output_failed", "a: cannot be written"}}).out);
+  const Json object =
+      Json::parse(finish_with(kStopped, true, {{"output_failed", "a: cannot be written"}}).out);
   EXPECT_EQ(object["error"]["code"], "too_many_steps");
   EXPECT_EQ(object["error"]["message"], "500 steps taken; a: cannot be written");
 }

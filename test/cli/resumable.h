@@ -22,7 +22,8 @@ multistart: {starts: 4, screen: 16}
 /// @param engine the block of that name; may be empty.
 inline std::string resumable_study(const ScratchFolder& folder, const std::string& engine) {
   const std::string text = read_text_file(short_study(folder)) + kResumable + engine;
-  return folder.edited("ensemble.yaml", text, "slider_width: {tune: true}", "slider_width: {tune: false}");
+  return folder.edited("ensemble.yaml", text, "slider_width: {tune: true}",
+                       "slider_width: {tune: false}");
 }
 
 /// The finished lines of a journal; none if there is no journal.
@@ -39,7 +40,8 @@ inline Json without_times(Json object) {
   return object;
 }
 
-/// The content of all lines except the header, without processor times and thus without checksums, in any order.
+/// The content of all lines except the header, without processor times and thus without checksums,
+/// in any order.
 inline std::multiset<std::string> evaluations_of(const std::string& path) {
   std::multiset<std::string> evaluations;
   for (const std::string& line : finished_lines(path)) {

@@ -18,7 +18,9 @@ class Resume : public testing::Test {
   std::vector<std::string> job(const std::string& option, const std::string& folder) const {
     return {codesign_executable(), "optimize", kModel, study_, option, folder_.path(folder)};
   }
-  std::string in(const std::string& folder, const std::string& name) const { return folder_.path(folder + "/" + name); }
+  std::string in(const std::string& folder, const std::string& name) const {
+    return folder_.path(folder + "/" + name);
+  }
 
   ScratchFolder folder_;
   std::string study_ = resumable_study(folder_, "engine: {workers: 2}\n");
@@ -34,7 +36,8 @@ TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
   const std::string journal = in("killed", "journal.jsonl");
   for (int kills = 0; kills < 20; ++kills) {
     {
-      ChildProcess process(job(std::filesystem::exists(journal) ? "--resume" : "--output", "killed"));
+      ChildProcess process(
+          job(std::filesystem::exists(journal) ? "--resume" : "--output", "killed"));
       // Every second time while it starts, else after some more evaluations.
       const bool starts = kills % 2 == 0;
       const std::size_t more = starts ? 0 : before.size() + 1 + random() % (all / 30);
@@ -52,7 +55,8 @@ TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
   }
   EXPECT_GT(cut, 10) << "it ended before it was killed more often";
   ASSERT_EQ(ChildProcess(job("--resume", "killed")).wait(), kDone);
-  EXPECT_TRUE(evaluations_of(journal) == evaluations_of(in("whole", "journal.jsonl"))) << "not as EXPECT_EQ, which would print both";
+  EXPECT_TRUE(evaluations_of(journal) == evaluations_of(in("whole", "journal.jsonl")))
+      << "not as EXPECT_EQ, which would print both";
   EXPECT_EQ(without_times(Json::parse(read_text_file(in("killed", "result.json")))),
             without_times(Json::parse(read_text_file(in("whole", "result.json")))));
   for (const char* name : {"tuned.urdf", "tuned.csv", "starts.csv", "scenarios.csv"})
@@ -62,7 +66,8 @@ TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
 TEST_F(Resume, AFinishedJobIsAnsweredFromItsJournal) {
   study_ = short_study(folder_);
   ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);
-  const std::string result = read_text_file(in("job", "result.json")), journal = read_text_file(in("job", "journal.jsonl"));
+  const std::string result = read_text_file(in("job", "result.json")),
+                    journal = read_text_file(in("job", "journal.jsonl"));
   std::filesystem::remove(in("job", "result.json"));
   const Outcome outcome = run_words({"optimize", kModel, study_, "--resume", folder_.path("job")});
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
@@ -77,9 +82,11 @@ TEST_F(Resume, AnotherJobAndAnEmptyFolderAreRefusedAndLoseNothing) {
   study_ = short_study(folder_);
   ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);
   const std::string result = read_text_file(in("job", "result.json"));
-  const Outcome other = run_words({"optimize", kModel, study_, "--set", "Kp=2", "--resume", folder_.path("job")});
+  const Outcome other =
+      run_words({"optimize", kModel, study_, "--set", "Kp=2", "--resume", folder_.path("job")});
   EXPECT_EQ(other.code, kBadInput);
-  EXPECT_NE(other.err.find("journal.jsonl:1: the values of the parameters at the start (--set, ~set or a request's start) differ"),
+  EXPECT_NE(other.err.find("journal.jsonl:1: the values of the parameters at the start (--set, "
+                           "~set or a request's start) differ"),
             std::string::npos)
       << other.err;
   EXPECT_EQ(read_text_file(in("job", "result.json")), result);
@@ -101,14 +108,16 @@ TEST_F(Resume, DamagedLinesAreNamedAndComputedAgain) {
   std::ofstream journal(in("job", "journal.jsonl"));
   for (const std::string& line : lines) journal << line << '\n';
   journal.close();
-  const Outcome outcome = run_words({"optimize", kModel, study_, "--json", "--resume", folder_.path("job")});
+  const Outcome outcome =
+      run_words({"optimize", kModel, study_, "--json", "--resume", folder_.path("job")});
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
   EXPECT_NE(outcome.err.find("2 finished evaluations"), std::string::npos) << outcome.err;
   const Json object = json_of(outcome), first = Json::parse(result);
   bool is_named = false;
   for (const Json& warning : object["warnings"])
     is_named |= warning["code"] == "journal_damaged" &&
-                warning["message"].get<std::string>().find("line 3 is damaged: its checksum is not that of its text; damaged, too: 4") !=
+                warning["message"].get<std::string>().find(
+                    "line 3 is damaged: its checksum is not that of its text; damaged, too: 4") !=
                     std::string::npos;
   EXPECT_TRUE(is_named) << outcome.err;
   EXPECT_EQ(object["objective"], first["objective"]);
@@ -127,7 +136,8 @@ TEST_F(Resume, WithoutItTheJournalIsSetAside) {
 }
 
 TEST_F(Resume, AFullDiskLeavesAJournalThatCanBeResumed) {
-  study_ = folder_.edited("longer.yaml", read_text_file(short_study(folder_)), "max_evaluations: 4", "max_evaluations: 14");
+  study_ = folder_.edited("longer.yaml", read_text_file(short_study(folder_)), "max_evaluations: 4",
+                          "max_evaluations: 14");
   // The journal grows by 400 bytes with each evaluation, the messages by a quarter of that.
   ChildProcess process(job("--output", "job"), "/dev/null", folder_.path("err"), 4000);
   EXPECT_EQ(process.wait(), kFailed);
@@ -136,9 +146,11 @@ TEST_F(Resume, AFullDiskLeavesAJournalThatCanBeResumed) {
   const Outcome outcome = run_words({"optimize", kModel, study_, "--resume", folder_.path("job")});
   EXPECT_EQ(outcome.code, kDone) << outcome.err;
   // The header, the evaluations, and at an optimum one more for its flat directions.
-  const std::size_t evaluations = Json::parse(read_text_file(in("job", "result.json")))["evaluations"].get<std::size_t>();
+  const std::size_t evaluations =
+      Json::parse(read_text_file(in("job", "result.json")))["evaluations"].get<std::size_t>();
   const std::size_t lines = finished_lines(in("job", "journal.jsonl")).size();
-  EXPECT_TRUE(lines == 1 + evaluations || lines == 2 + evaluations) << lines << " lines, " << evaluations << " evaluations";
+  EXPECT_TRUE(lines == 1 + evaluations || lines == 2 + evaluations)
+      << lines << " lines, " << evaluations << " evaluations";
 }
 
 }  // namespace

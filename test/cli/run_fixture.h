@@ -49,12 +49,14 @@ inline std::string read_text_file(const std::string& path) {
   return text.str();
 }
 
-/// A temporary folder of the running test, removed at its end. Test programs that run at the same time have different ones.
+/// A temporary folder of the running test, removed at its end. Test programs that run at the same
+/// time have different ones.
 class ScratchFolder {
  public:
   ScratchFolder() {
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    const std::string name = std::string(test->test_suite_name()) + "_" + test->name() + "_" + std::to_string(getpid());
+    const std::string name =
+        std::string(test->test_suite_name()) + "_" + test->name() + "_" + std::to_string(getpid());
     path_ = std::filesystem::path(testing::TempDir()) / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
@@ -66,7 +68,8 @@ class ScratchFolder {
   std::string path(const std::string& name) const { return (path_ / name).string(); }
 
   /// Writes `text` with the first `from` replaced by `to`, and returns the file's path.
-  std::string edited(const std::string& name, std::string text, const std::string& from, const std::string& to) const {
+  std::string edited(const std::string& name, std::string text, const std::string& from,
+                     const std::string& to) const {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     if (at != std::string::npos) text.replace(at, from.size(), to);

@@ -12,7 +12,8 @@ namespace {
 Problem short_problem(const ScratchFolder& folder) {
   Arguments arguments;
   arguments.model = shipped("urdf/slider_crank.urdf");
-  arguments.study = folder.edited("study.yaml", read_text_file(shipped("config/slider_crank.yaml")), "duration: 2.0", "duration: 0.1");
+  arguments.study = folder.edited("study.yaml", read_text_file(shipped("config/slider_crank.yaml")),
+                                  "duration: 2.0", "duration: 0.1");
   return load(arguments);
 }
 
@@ -22,7 +23,8 @@ TEST(RunRecorder, RowsHoldTimeAndSignals) {
   Arguments arguments;
   arguments.signals = {"crank_joint/velocity", "crank_speed/error"};
   const std::vector<SignalDescription> signals = select_signals(arguments, problem);
-  EXPECT_EQ(column_names(signals), (std::vector<std::string>{"time", "crank_joint/velocity", "crank_speed/error"}));
+  EXPECT_EQ(column_names(signals),
+            (std::vector<std::string>{"time", "crank_joint/velocity", "crank_speed/error"}));
   std::vector<std::vector<double>> rows;
   const auto keep = [&rows](const std::vector<double>& row) { rows.push_back(row); };
   const RunSummary run = record_run(problem, problem.parameters(), signals, 5, keep);
@@ -42,7 +44,8 @@ TEST(RunRecorder, ACancelledRunEndsAfterTheRowThatItIsAt) {
     std::atomic<bool> cancel{last == 0};
     int rows = 0;
     const auto count = [&](const std::vector<double>&) { cancel = ++rows == last; };
-    EXPECT_EQ(record_run(problem, problem.parameters(), {}, 5, count, &cancel).status.code, StatusCode::kCancelled);
+    EXPECT_EQ(record_run(problem, problem.parameters(), {}, 5, count, &cancel).status.code,
+              StatusCode::kCancelled);
     EXPECT_EQ(rows, last);
   }
 }

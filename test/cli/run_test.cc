@@ -21,7 +21,8 @@ TEST(Run, HelpGoesToStandardOutput) {
 }
 
 TEST(Run, HelpOfACommandIsItsOwn) {
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"help", "simulate"}, {"simulate", "--help"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"help", "simulate"}, {"simulate", "--help"}}) {
     const Outcome outcome = run_words(words);
     EXPECT_EQ(outcome.code, kDone);
     EXPECT_NE(outcome.out.find("--samples"), std::string::npos);
@@ -36,10 +37,13 @@ TEST(Run, HelpOfACommandIsItsOwn) {
 TEST(Run, WarningsShowTheirCodeAndQuietLeavesOutProgress) {
   const ScratchFolder folder;
   const std::string study =
-      folder.edited("study.yaml", read_text_file(kStudy), "parameters:", "parameters:\n  unused: {initial: 1.0, lower: 0.0, upper: 2.0}");
-  const std::string loud = run_words({"simulate", kModel, study, "--csv", folder.path("a.csv")}).err,
-                    quiet = run_words({"simulate", kModel, study, "--csv", folder.path("b.csv"), "--quiet"}).err;
-  EXPECT_NE(loud.find("codesign simulate: warning [unused_parameter]: "), std::string::npos) << loud;
+      folder.edited("study.yaml", read_text_file(kStudy),
+                    "parameters:", "parameters:\n  unused: {initial: 1.0, lower: 0.0, upper: 2.0}");
+  const std::string
+      loud = run_words({"simulate", kModel, study, "--csv", folder.path("a.csv")}).err,
+      quiet = run_words({"simulate", kModel, study, "--csv", folder.path("b.csv"), "--quiet"}).err;
+  EXPECT_NE(loud.find("codesign simulate: warning [unused_parameter]: "), std::string::npos)
+      << loud;
   EXPECT_NE(loud.find("of processor time"), std::string::npos);
   EXPECT_NE(quiet.find("warning [unused_parameter]: "), std::string::npos) << quiet;
   EXPECT_EQ(quiet.find("of processor time"), std::string::npos);
@@ -75,7 +79,8 @@ TEST(Run, AFileThatIsNotThereIsBadInput) {
 
 TEST(Run, AMisspeltStudyKeyIsNamedWithFileAndLine) {
   const ScratchFolder folder;
-  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "duration:", "duratoin:");
+  const std::string study =
+      folder.edited("study.yaml", read_text_file(kStudy), "duration:", "duratoin:");
   const Outcome outcome = run_words({"gradient", kModel, study, "--json"});
   EXPECT_EQ(outcome.code, kBadInput);
   Json error = json_of(outcome)["error"];
@@ -95,7 +100,8 @@ TEST(Run, ASettingMustNameAParameterAndKeepItsBounds) {
 }
 
 TEST(Run, ASignalMustExist) {
-  const Outcome outcome = run_words({"simulate", kModel, kStudy, "--signals", "crank_joint/velocty"});
+  const Outcome outcome =
+      run_words({"simulate", kModel, kStudy, "--signals", "crank_joint/velocty"});
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_EQ(outcome.out, "");
   EXPECT_NE(outcome.err.find("did you mean \"velocity\"?"), std::string::npos);
@@ -114,7 +120,8 @@ TEST(Run, ATuningCommandNeedsSomethingToTune) {
 
 TEST(Run, OutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
   EXPECT_EQ(run_words({"simulate", kModel, kStudy, "--csv", "/nowhere/run.csv"}).code, kBadInput);
-  EXPECT_EQ(run_words({"optimize", kModel, kStudy, "--output", "/dev/null/folder"}).code, kBadInput);
+  EXPECT_EQ(run_words({"optimize", kModel, kStudy, "--output", "/dev/null/folder"}).code,
+            kBadInput);
 }
 
 }  // namespace

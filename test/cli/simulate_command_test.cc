@@ -9,7 +9,8 @@ namespace {
 
 TEST(SimulateCommand, WritesTheSignalsAskedFor) {
   const Outcome outcome =
-      run_words({"simulate", kModel, kStudy, "--signals", "crank_joint/velocity,slider_joint/position", "--samples", "3"});
+      run_words({"simulate", kModel, kStudy, "--signals",
+                 "crank_joint/velocity,slider_joint/position", "--samples", "3"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const std::vector<std::string> lines = lines_of(outcome.out);
   ASSERT_EQ(lines.size(), 4U);
@@ -22,13 +23,16 @@ TEST(SimulateCommand, WritesTheSignalsAskedFor) {
 
 TEST(SimulateCommand, GivesSeriesAndObjectiveAsJson) {
   const ScratchFolder folder;
-  const Outcome outcome = run_words({"simulate", kModel, kStudy, "--json", "--csv", folder.path("run.csv")});
+  const Outcome outcome =
+      run_words({"simulate", kModel, kStudy, "--json", "--csv", folder.path("run.csv")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   Json object = json_of(outcome);
-  expect_keys(object, {"objective", "parameters", "steps", "rejected_steps", "cpu_seconds", "counts", "series"});
+  expect_keys(object, {"objective", "parameters", "steps", "rejected_steps", "cpu_seconds",
+                       "counts", "series"});
   EXPECT_NEAR(object["objective"].get<double>() / 0.05925272691, 1.0, 1e-4);
-  expect_keys(object["series"], {"time", "crank_joint/position", "slider_joint/velocity", "slider_joint/friction",
-                                 "slider_joint/normal_force", "slider_joint/sliding_velocity", "crank_speed/output"});
+  expect_keys(object["series"],
+              {"time", "crank_joint/position", "slider_joint/velocity", "slider_joint/friction",
+               "slider_joint/normal_force", "slider_joint/sliding_velocity", "crank_speed/output"});
   EXPECT_EQ(object["series"]["time"].size(), 101U);
   EXPECT_EQ(object["series"]["slider_joint/friction"].size(), 101U);
   EXPECT_EQ(lines_of(read_text_file(folder.path("run.csv"))).size(), 102U);
@@ -36,28 +40,34 @@ TEST(SimulateCommand, GivesSeriesAndObjectiveAsJson) {
 
 TEST(SimulateCommand, ATableReplacesNoFileThatIsRead) {
   const ScratchFolder folder;
-  std::vector<std::string> paths = {folder.edited("model.urdf", read_text_file(kModel), "<robot", "<robot"),
-                                    folder.edited("study.yaml", read_text_file(kStudy), "duration", "duration"),
-                                    folder.edited("overlay.urdf", "<robot name=\"slider_crank\"/>", "<robot", "<robot"),
-                                    folder.edited("result.json", "{\"parameters\": {}}", "{", "{")};
+  std::vector<std::string> paths = {
+      folder.edited("model.urdf", read_text_file(kModel), "<robot", "<robot"),
+      folder.edited("study.yaml", read_text_file(kStudy), "duration", "duration"),
+      folder.edited("overlay.urdf", "<robot name=\"slider_crank\"/>", "<robot", "<robot"),
+      folder.edited("result.json", "{\"parameters\": {}}", "{", "{")};
   std::filesystem::create_symlink(paths[0], folder.path("soft"));
   std::filesystem::create_hard_link(paths[1], folder.path("hard"));
-  const std::vector<std::string> words = {"simulate", paths[0], paths[1], "--overlay", paths[2], "--result", paths[3], "--csv"};
-  for (const std::string& path : {paths[0], paths[1], paths[2], paths[3], folder.path("soft"), folder.path("hard")}) {
+  const std::vector<std::string> words = {"simulate", paths[0],   paths[1], "--overlay",
+                                          paths[2],   "--result", paths[3], "--csv"};
+  for (const std::string& path :
+       {paths[0], paths[1], paths[2], paths[3], folder.path("soft"), folder.path("hard")}) {
     const std::string before = read_text_file(path);
     std::vector<std::string> all = words;
     all.push_back(path);
     const Outcome outcome = run_words(all);
     EXPECT_EQ(outcome.code, kBadInput) << path;
-    EXPECT_NE(outcome.err.find("--csv: the table of the run would replace this file"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("--csv: the table of the run would replace this file"),
+              std::string::npos)
+        << outcome.err;
     EXPECT_EQ(read_text_file(path), before);
   }
 }
 
 TEST(SimulateCommand, AnObjectiveThatIsNotFiniteIsAFailure) {
   const ScratchFolder folder;
-  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "terminal: []",
-                                          "terminal: [{signal: crank_joint/position, reference: 100.0, weight: 1.0e+306}]");
+  const std::string study = folder.edited(
+      "study.yaml", read_text_file(kStudy), "terminal: []",
+      "terminal: [{signal: crank_joint/position, reference: 100.0, weight: 1.0e+306}]");
   const Outcome outcome = run_words({"simulate", kModel, study, "--json"});
   EXPECT_EQ(outcome.code, kFailed) << outcome.err;
   const Json object = json_of(outcome);
@@ -65,30 +75,37 @@ TEST(SimulateCommand, AnObjectiveThatIsNotFiniteIsAFailure) {
   EXPECT_FALSE(object.contains("objective"));
 }
 
-// The objective is that of the run itself, to the last bit that of the evaluation, with terminal terms that read accelerations too.
+// The objective is that of the run itself, to the last bit that of the evaluation, with terminal
+// terms that read accelerations too.
 TEST(SimulateCommand, TheObjectiveIsThatOfTheRun) {
   const ScratchFolder folder;
   for (const char* integrator : {"rosenbrock", "idas"}) {
-    const std::string terminal = folder.edited("terminal.yaml", read_text_file(short_study(folder)), "integrator: rosenbrock",
-                                               std::string("integrator: ") + integrator);
-    const std::string study =
-        folder.edited("study.yaml", read_text_file(terminal), "terminal: []", "terminal: [{signal: slider_joint/acceleration}]");
+    const std::string terminal =
+        folder.edited("terminal.yaml", read_text_file(short_study(folder)),
+                      "integrator: rosenbrock", std::string("integrator: ") + integrator);
+    const std::string study = folder.edited("study.yaml", read_text_file(terminal), "terminal: []",
+                                            "terminal: [{signal: slider_joint/acceleration}]");
     const Json object = json_of(run_words({"simulate", kModel, study, "--json"}));
     const Problem problem = load_problem(read_source(kModel), {}, read_source(study));
-    EXPECT_EQ(object["objective"].get<double>(), Evaluator(problem).evaluate(problem.start(), false).objective) << integrator;
+    EXPECT_EQ(object["objective"].get<double>(),
+              Evaluator(problem).evaluate(problem.start(), false).objective)
+        << integrator;
   }
 }
 
 TEST(SimulateCommand, TheSetpointIsASignal) {
-  const Json series = json_of(run_words({"simulate", kModel, kStudy, "--json", "--samples", "5", "--signals",
-                                         "crank_speed/setpoint,crank_speed/error + crank_joint/velocity"}))["series"];
+  const Json series = json_of(
+      run_words({"simulate", kModel, kStudy, "--json", "--samples", "5", "--signals",
+                 "crank_speed/setpoint,crank_speed/error + crank_joint/velocity"}))["series"];
   for (const double value : series["crank_speed/setpoint"]) EXPECT_EQ(value, -10.0);
-  for (const double value : series["crank_speed/error + crank_joint/velocity"]) EXPECT_NEAR(value, -10.0, 1e-12);
+  for (const double value : series["crank_speed/error + crank_joint/velocity"])
+    EXPECT_NEAR(value, -10.0, 1e-12);
 }
 
 TEST(SimulateCommand, ARunThatFailsNamesStatusTimeAndCause) {
   const ScratchFolder folder;
-  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "solver: {", "solver: {maximum_steps: 20, ");
+  const std::string study = folder.edited("study.yaml", read_text_file(kStudy), "solver: {",
+                                          "solver: {maximum_steps: 20, ");
   const Outcome outcome = run_words({"simulate", kModel, study, "--json", "--samples", "2001"});
   EXPECT_EQ(outcome.code, kFailed);
   Json object = json_of(outcome);
@@ -104,8 +121,10 @@ TEST(SimulateCommand, ALoopThatCannotBeClosedIsBadInput) {
   const ScratchFolder folder;
   const std::string lower = "name=\"rod_length\" value=\"0.3\" lower=";
   const std::string text = read_text_file(shipped("urdf/slider_crank_haug.urdf"));
-  const std::string model = folder.edited("model.urdf", text, lower + "\"0.2\"", lower + "\"0.01\"");
-  const Outcome outcome = run_words({"simulate", model, shipped("config/slider_crank_haug.yaml"), "--json", "--set", "rod_length=0.05"});
+  const std::string model =
+      folder.edited("model.urdf", text, lower + "\"0.2\"", lower + "\"0.01\"");
+  const Outcome outcome = run_words({"simulate", model, shipped("config/slider_crank_haug.yaml"),
+                                     "--json", "--set", "rod_length=0.05"});
   EXPECT_EQ(outcome.code, kBadInput);
   Json error = json_of(outcome)["error"];
   EXPECT_EQ(error["file"], model);

@@ -30,7 +30,8 @@ TEST(Adjoints, OfGeneratedFormulasAreTheTransposedComplexStep) {
   std::vector<AdjointSeed> seeds;
   // The leaves of weights follow those of the state, so that node_values() finds both in one array.
   for (int k = 0; k < kSomeResults; ++k)
-    seeds.push_back({some.results[static_cast<std::size_t>(k)], Traced(&some.recording, some.recording.leaf(0, kSomeLeaves + k, true))});
+    seeds.push_back({some.results[static_cast<std::size_t>(k)],
+                     Traced(&some.recording, some.recording.leaf(0, kSomeLeaves + k, true))});
   const std::vector<Traced> adjoints = derive_adjoints(&some.recording, seeds, is_target);
 
   const std::vector<double> at = SomeRecording::leaf_values();
@@ -41,12 +42,16 @@ TEST(Adjoints, OfGeneratedFormulasAreTheTransposedComplexStep) {
   const std::vector<double> values = node_values(some.recording, inputs);
   Eigen::MatrixXd derived(1, kSomeLeaves);
   for (int k = 0; k < kSomeLeaves; ++k)
-    derived(0, k) = value_of_node(adjoints[static_cast<std::size_t>(leaves[static_cast<std::size_t>(k)])], values);
+    derived(0, k) = value_of_node(
+        adjoints[static_cast<std::size_t>(leaves[static_cast<std::size_t>(k)])], values);
   const Eigen::MatrixXd reference = complex_step_jacobian(
       [&](const Eigen::VectorXcd& x) {
-        const std::vector<std::complex<double>> results = some_results(std::vector<std::complex<double>>(x.begin(), x.end()));
+        const std::vector<std::complex<double>> results =
+            some_results(std::vector<std::complex<double>>(x.begin(), x.end()));
         Eigen::VectorXcd sum(1);
-        sum[0] = Eigen::Map<const Eigen::VectorXcd>(results.data(), kSomeResults).cwiseProduct(weights.cast<std::complex<double>>()).sum();
+        sum[0] = Eigen::Map<const Eigen::VectorXcd>(results.data(), kSomeResults)
+                     .cwiseProduct(weights.cast<std::complex<double>>())
+                     .sum();
         return sum;
       },
       Eigen::Map<const Eigen::VectorXd>(at.data(), kSomeLeaves));
@@ -57,10 +62,13 @@ TEST(Adjoints, OfGeneratedFormulasAreTheTransposedComplexStep) {
 /// x only through y = sin x, which is a target: the derivative by x is the one at fixed y.
 TEST(Adjoints, NothingPassesThroughATarget) {
   Recording recording;
-  const Traced x(&recording, recording.leaf(0, 0, true)), y = sin(x), z = x * y + y, weight(&recording, recording.leaf(0, 1, true));
-  const std::vector<Traced> adjoints = derive_adjoints(&recording, {{z.node(), weight}}, targets(recording, {x.node(), y.node()}));
+  const Traced x(&recording, recording.leaf(0, 0, true)),
+      y = sin(x), z = x * y + y, weight(&recording, recording.leaf(0, 1, true));
+  const std::vector<Traced> adjoints =
+      derive_adjoints(&recording, {{z.node(), weight}}, targets(recording, {x.node(), y.node()}));
   const std::vector<double> values = node_values(recording, {0.3, 2.0});
-  EXPECT_DOUBLE_EQ(value_of_node(adjoints[static_cast<std::size_t>(x.node())], values), 2.0 * std::sin(0.3));
+  EXPECT_DOUBLE_EQ(value_of_node(adjoints[static_cast<std::size_t>(x.node())], values),
+                   2.0 * std::sin(0.3));
   EXPECT_DOUBLE_EQ(value_of_node(adjoints[static_cast<std::size_t>(y.node())], values), 2.0 * 1.3);
 }
 
@@ -69,20 +77,24 @@ TEST(Adjoints, OfATargetThatIsAnOutputAreItsWeights) {
   const Traced x(&recording, recording.leaf(0, 0, true)), y(&recording, recording.leaf(0, 1, true)),
       weight(&recording, recording.leaf(kWeights, 0, true));
   const std::vector<Traced> adjoints =
-      derive_adjoints(&recording, {{x.node(), weight}, {x.node(), weight}, {y.node(), 3.0}}, targets(recording, {x.node(), y.node()}));
+      derive_adjoints(&recording, {{x.node(), weight}, {x.node(), weight}, {y.node(), 3.0}},
+                      targets(recording, {x.node(), y.node()}));
   EXPECT_EQ(adjoints[static_cast<std::size_t>(x.node())].node(), (weight + weight).node());
   EXPECT_EQ(adjoints[static_cast<std::size_t>(y.node())].value(), 3.0);
 }
 
-/// Only the nodes between targets and outputs get adjoints: none for what no target enters, none for other leaves.
+/// Only the nodes between targets and outputs get adjoints: none for what no target enters, none
+/// for other leaves.
 TEST(Adjoints, OfNodesThatNoTargetEntersAreZeroAndRecordNothing) {
   Recording recording;
-  const Traced x(&recording, recording.leaf(0, 0, true)), y(&recording, recording.leaf(0, 1, true)), z = sin(y) * exp(y);
+  const Traced x(&recording, recording.leaf(0, 0, true)), y(&recording, recording.leaf(0, 1, true)),
+      z = sin(y) * exp(y);
   const std::vector<bool> is_target = targets(recording, {x.node()});
   const int before = recording.size();
   const std::vector<Traced> adjoints = derive_adjoints(&recording, {{z.node(), 1.0}}, is_target);
   EXPECT_EQ(recording.size(), before);
-  for (const Traced& adjoint : adjoints) EXPECT_TRUE(adjoint.is_literal() && adjoint.value() == 0.0);
+  for (const Traced& adjoint : adjoints)
+    EXPECT_TRUE(adjoint.is_literal() && adjoint.value() == 0.0);
 }
 
 class JacobianTest : public ::testing::TestWithParam<EliminationOrder> {};
@@ -91,18 +103,22 @@ TEST_P(JacobianTest, OfGeneratedFormulasEqualsTheComplexStep) {
   SomeRecording some;
   std::vector<JacobianInput> inputs;
   for (int k = 0; k < kSomeLeaves; ++k) inputs.push_back({some.recording.leaf(0, k, true), k, 1.0});
-  const std::vector<JacobianEntry> entries = derive_jacobian(&some.recording, some.results, inputs, GetParam());
+  const std::vector<JacobianEntry> entries =
+      derive_jacobian(&some.recording, some.results, inputs, GetParam());
 
-  const std::vector<double> leaves = SomeRecording::leaf_values(), values = node_values(some.recording, leaves);
+  const std::vector<double> leaves = SomeRecording::leaf_values(),
+                            values = node_values(some.recording, leaves);
   Eigen::MatrixXd derived = Eigen::MatrixXd::Zero(kSomeResults, kSomeLeaves);
   for (const JacobianEntry& entry : entries) {
     EXPECT_EQ(derived(entry.row, entry.column), 0.0) << "an entry stands twice";
-    derived(entry.row, entry.column) =
-        entry.value.is_literal() ? entry.value.value() : values[static_cast<std::size_t>(entry.value.node())];
+    derived(entry.row, entry.column) = entry.value.is_literal()
+                                           ? entry.value.value()
+                                           : values[static_cast<std::size_t>(entry.value.node())];
   }
   const Eigen::MatrixXd reference = complex_step_jacobian(
       [](const Eigen::VectorXcd& x) {
-        const std::vector<std::complex<double>> results = some_results(std::vector<std::complex<double>>(x.begin(), x.end()));
+        const std::vector<std::complex<double>> results =
+            some_results(std::vector<std::complex<double>>(x.begin(), x.end()));
         return Eigen::VectorXcd(Eigen::Map<const Eigen::VectorXcd>(results.data(), kSomeResults));
       },
       Eigen::Map<const Eigen::VectorXd>(leaves.data(), kSomeLeaves));
@@ -110,13 +126,15 @@ TEST_P(JacobianTest, OfGeneratedFormulasEqualsTheComplexStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, JacobianTest,
-                         ::testing::Values(EliminationOrder::kForward, EliminationOrder::kReverse, EliminationOrder::kMarkowitz));
+                         ::testing::Values(EliminationOrder::kForward, EliminationOrder::kReverse,
+                                           EliminationOrder::kMarkowitz));
 
 TEST(Jacobian, LinearOutputsHaveLiteralsAndNoOtherEntries) {
   Recording recording;
-  const Traced x(&recording, recording.leaf(0, 0, true)), y(&recording, recording.leaf(0, 1, true)), z = 2.0 * x - y;
-  const std::vector<JacobianEntry> entries =
-      derive_jacobian(&recording, {z.node_in(&recording), y.node()}, {{x.node(), 0, 1.0}, {y.node(), 1, 1.0}});
+  const Traced x(&recording, recording.leaf(0, 0, true)), y(&recording, recording.leaf(0, 1, true)),
+      z = 2.0 * x - y;
+  const std::vector<JacobianEntry> entries = derive_jacobian(
+      &recording, {z.node_in(&recording), y.node()}, {{x.node(), 0, 1.0}, {y.node(), 1, 1.0}});
   ASSERT_EQ(entries.size(), 3U);
   EXPECT_EQ(entries[0].value.value(), 2.0);
   EXPECT_EQ(entries[1].value.value(), -1.0);
@@ -127,20 +145,24 @@ TEST(Jacobian, LinearOutputsHaveLiteralsAndNoOtherEntries) {
 /// Leaves that depend on the same variable make one column.
 TEST(Jacobian, LeavesOfOneColumnAddUp) {
   Recording recording;
-  const Traced f(&recording, recording.leaf(0, 0, true)), g(&recording, recording.leaf(0, 1, true)), h = f * g;
-  const std::vector<JacobianEntry> entries = derive_jacobian(&recording, {h.node()}, {{f.node(), 0, 3.0}, {g.node(), 0, 5.0}});
+  const Traced f(&recording, recording.leaf(0, 0, true)), g(&recording, recording.leaf(0, 1, true)),
+      h = f * g;
+  const std::vector<JacobianEntry> entries =
+      derive_jacobian(&recording, {h.node()}, {{f.node(), 0, 3.0}, {g.node(), 0, 5.0}});
   ASSERT_EQ(entries.size(), 1U);
   const std::vector<double> values = node_values(recording, {7.0, 11.0});
   EXPECT_EQ(values[static_cast<std::size_t>(entries[0].value.node())], 3.0 * 11.0 + 5.0 * 7.0);
 }
 
-/// Factors that do not vary are multiplied with each other, so that one product per evaluation remains.
+/// Factors that do not vary are multiplied with each other, so that one product per evaluation
+/// remains.
 TEST(Jacobian, FactorsOfTheDesignAreMultipliedFirst) {
   Recording recording;
-  const Traced m(&recording, recording.leaf(1, 0, false)), n(&recording, recording.leaf(1, 1, false)),
-      x(&recording, recording.leaf(0, 0, true));
+  const Traced m(&recording, recording.leaf(1, 0, false)),
+      n(&recording, recording.leaf(1, 1, false)), x(&recording, recording.leaf(0, 0, true));
   const Traced y = m * sin(n * x);
-  const std::vector<JacobianEntry> entries = derive_jacobian(&recording, {y.node()}, {{x.node(), 0, 1.0}});
+  const std::vector<JacobianEntry> entries =
+      derive_jacobian(&recording, {y.node()}, {{x.node(), 0, 1.0}});
   ASSERT_EQ(entries.size(), 1U);
   const Recording::Node product = recording.node(entries[0].value.node());
   ASSERT_EQ(product.operation, Operation::kMultiply);
@@ -148,7 +170,8 @@ TEST(Jacobian, FactorsOfTheDesignAreMultipliedFirst) {
 }
 
 /// The derivatives of the outputs along one direction of the leaves.
-std::vector<double> run(const Recording& recording, const TangentProgram& program, std::size_t outputs, const std::vector<double>& leaves,
+std::vector<double> run(const Recording& recording, const TangentProgram& program,
+                        std::size_t outputs, const std::vector<double>& leaves,
                         const std::vector<double>& direction) {
   const std::vector<double> values = node_values(recording, leaves);
   std::vector<double> rows(static_cast<std::size_t>(recording.size())), result(outputs);
@@ -159,24 +182,28 @@ std::vector<double> run(const Recording& recording, const TangentProgram& progra
     double total = 0.0;
     for (const TangentProgram::Term& term : sum.terms) {
       const double product =
-          rows[static_cast<std::size_t>(term.row)] * (term.factor < 0 ? 1.0 : values[static_cast<std::size_t>(term.factor)]);
+          rows[static_cast<std::size_t>(term.row)] *
+          (term.factor < 0 ? 1.0 : values[static_cast<std::size_t>(term.factor)]);
       total += term.added ? product : -product;
     }
-    (sum.node < 0 ? result[static_cast<std::size_t>(sum.output.place.index)] : rows[static_cast<std::size_t>(sum.node)]) = total;
+    (sum.node < 0 ? result[static_cast<std::size_t>(sum.output.place.index)]
+                  : rows[static_cast<std::size_t>(sum.node)]) = total;
   }
   return result;
 }
 
 std::vector<bool> leaves_of(const Recording& recording) {
   std::vector<bool> is_leaf;
-  for (int n = 0; n < recording.size(); ++n) is_leaf.push_back(recording.node(n).operation == Operation::kLeaf);
+  for (int n = 0; n < recording.size(); ++n)
+    is_leaf.push_back(recording.node(n).operation == Operation::kLeaf);
   return is_leaf;
 }
 
 TEST(TangentProgram, IsTheDerivativeThatLanesGive) {
   SomeRecording some;
   std::vector<ValueTask::Output> outputs;
-  for (int k = 0; k < kSomeResults; ++k) outputs.push_back({some.results[static_cast<std::size_t>(k)], {0, k}});
+  for (int k = 0; k < kSomeResults; ++k)
+    outputs.push_back({some.results[static_cast<std::size_t>(k)], {0, k}});
   const TangentProgram program(&some.recording, outputs, leaves_of(some.recording));
   const std::vector<double> leaves = SomeRecording::leaf_values();
   std::vector<double> direction;
@@ -185,9 +212,11 @@ TEST(TangentProgram, IsTheDerivativeThatLanesGive) {
     direction.push_back(std::cos(2.1 * static_cast<double>(k)));
     lanes[k].v[0] = direction[k];
   }
-  const std::vector<double> actual = run(some.recording, program, outputs.size(), leaves, direction);
+  const std::vector<double> actual =
+      run(some.recording, program, outputs.size(), leaves, direction);
   const std::vector<Lanes<4>> expected = some_results(lanes);
-  for (std::size_t k = 0; k < actual.size(); ++k) EXPECT_NEAR(actual[k], expected[k].v[0], 1e-12 * (1.0 + std::abs(expected[k].v[0]))) << k;
+  for (std::size_t k = 0; k < actual.size(); ++k)
+    EXPECT_NEAR(actual[k], expected[k].v[0], 1e-12 * (1.0 + std::abs(expected[k].v[0]))) << k;
 }
 
 class SmallTangents : public ::testing::Test {
@@ -196,7 +225,9 @@ class SmallTangents : public ::testing::Test {
   const Traced x{&recording, recording.leaf(0, 0, true)}, y{&recording, recording.leaf(0, 1, true)},
       z{&recording, recording.leaf(0, 2, true)};
 
-  TangentProgram differentiate(const Traced& result) { return {&recording, {{result.node_in(&recording), {0, 0}}}, leaves_of(recording)}; }
+  TangentProgram differentiate(const Traced& result) {
+    return {&recording, {{result.node_in(&recording), {0, 0}}}, leaves_of(recording)};
+  }
 };
 
 TEST_F(SmallTangents, OfSumsOfProductsAreOneSum) {

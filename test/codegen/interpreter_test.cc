@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The tests of equations/ compare the interpreter with the machine code, to the last bit, for every element and joint.
+// The tests of equations/ compare the interpreter with the machine code, to the last bit, for every
+// element and joint.
 #include <gtest/gtest.h>
 #include <cmath>
 #include <complex>
@@ -51,12 +52,14 @@ struct Program {
     task.homes.resize(static_cast<std::size_t>(recording.size()));
     for (int n = 0; n < recording.size(); ++n) {
       const Recording::Node& node = recording.node(n);
-      if (node.operation == Operation::kLeaf) task.homes[static_cast<std::size_t>(n)] = {node.a, node.b};
+      if (node.operation == Operation::kLeaf)
+        task.homes[static_cast<std::size_t>(n)] = {node.a, node.b};
       if (node.operation != Operation::kLiteral) continue;
       task.homes[static_cast<std::size_t>(n)] = {kLiterals, static_cast<int>(literals.size())};
       literals.push_back(node.literal);
     }
-    for (std::size_t k = 0; k < results.size(); ++k) task.outputs.push_back({results[k].node(), {kOutputs, static_cast<int>(k)}});
+    for (std::size_t k = 0; k < results.size(); ++k)
+      task.outputs.push_back({results[k].node(), {kOutputs, static_cast<int>(k)}});
     task.guards = recording.guards();
   }
 
@@ -67,8 +70,8 @@ struct Program {
     const std::vector<T> constants(literals.begin(), literals.end());
     outputs->resize(task.outputs.size());
     std::array<const T*, kCodeArrays> arrays{};
-    arrays[kInputs] = inputs.data(), arrays[kOutputs] = outputs->data(), arrays[kSlots] = slots.data(),
-    arrays[kLiterals] = constants.data();
+    arrays[kInputs] = inputs.data(), arrays[kOutputs] = outputs->data(),
+    arrays[kSlots] = slots.data(), arrays[kLiterals] = constants.data();
     return Interpreter(recording, task, program, kSlots).execute<T>(arrays);
   }
 
@@ -111,7 +114,8 @@ TEST(Interpreter, TellsTheFirstDecisionThatFails) {
   EXPECT_EQ(program.run<double>({0.0, 3.0}, &results), -1);
   EXPECT_EQ(program.run<double>({0.0, 1.0}, &results), 1);
   EXPECT_EQ(program.run<double>({1.5, 1.0}, &results), 0);
-  EXPECT_EQ(program.run<double>({std::nan(""), 3.0}, &results), 0) << "a comparison with NaN is false";
+  EXPECT_EQ(program.run<double>({std::nan(""), 3.0}, &results), 0)
+      << "a comparison with NaN is false";
 }
 
 }  // namespace

@@ -20,10 +20,14 @@ TEST(SourceId, GivesTheObjectBackAsItsOwnTypeOnly) {
 
 TEST(NodeTable, FindsWhatItHoldsAlsoAfterItHasGrown) {
   constexpr int kCount = 50000;
-  const auto key = [](int k) { return (static_cast<std::uint64_t>(k % 7 + 2) << 58U) | static_cast<std::uint64_t>(k + 1); };
+  const auto key = [](int k) {
+    return (static_cast<std::uint64_t>(k % 7 + 2) << 58U) | static_cast<std::uint64_t>(k + 1);
+  };
   NodeTable table;
-  for (int k = 0; k < kCount; ++k) EXPECT_EQ(table.find_or_add(key(k), 3 * k), std::make_pair(3 * k, true));
-  for (int k = 0; k < kCount; ++k) EXPECT_EQ(table.find_or_add(key(k), -1), std::make_pair(3 * k, false));
+  for (int k = 0; k < kCount; ++k)
+    EXPECT_EQ(table.find_or_add(key(k), 3 * k), std::make_pair(3 * k, true));
+  for (int k = 0; k < kCount; ++k)
+    EXPECT_EQ(table.find_or_add(key(k), -1), std::make_pair(3 * k, false));
 }
 
 TEST(Recording, EveryLeafLiteralAndOperationIsThereOnce) {
@@ -33,7 +37,8 @@ TEST(Recording, EveryLeafLiteralAndOperationIsThereOnce) {
   EXPECT_EQ(r.leaf(0, 3, true), x);
   EXPECT_EQ(r.literal(0.1), r.literal(0.1));
   EXPECT_NE(r.literal(0.0), r.literal(-0.0)) << "one over each differs";
-  const int sum = r.operate(Operation::kAdd, x, y), difference = r.operate(Operation::kSubtract, x, y);
+  const int sum = r.operate(Operation::kAdd, x, y),
+            difference = r.operate(Operation::kSubtract, x, y);
   EXPECT_EQ(r.operate(Operation::kAdd, y, x), sum) << "the order of a sum's parts does not count";
   EXPECT_NE(r.operate(Operation::kSubtract, y, x), difference);
   EXPECT_EQ(r.operate(Operation::kSin, sum), r.operate(Operation::kSin, sum));

@@ -13,8 +13,8 @@ namespace codesign {
 
 constexpr int kSomeLeaves = 30, kSomeResults = 25;
 
-/// Sums, products, quotients and functions of the leaves and of each other, for any scalar. Some are used at once, some much later, so that
-/// they do not all fit into registers.
+/// Sums, products, quotients and functions of the leaves and of each other, for any scalar. Some
+/// are used at once, some much later, so that they do not all fit into registers.
 template <class T>
 std::vector<T> some_results(const std::vector<T>& leaves) {
   using std::asin, std::cos, std::exp, std::sin, std::sqrt, std::tanh;
@@ -64,7 +64,8 @@ std::vector<T> some_results(const std::vector<T>& leaves) {
 struct SomeRecording {
   SomeRecording() {
     std::vector<Traced> leaves;
-    for (int k = 0; k < kSomeLeaves; ++k) leaves.emplace_back(&recording, recording.leaf(0, k, true));
+    for (int k = 0; k < kSomeLeaves; ++k)
+      leaves.emplace_back(&recording, recording.leaf(0, k, true));
     for (const Traced& result : some_results(leaves)) results.push_back(result.node_in(&recording));
   }
 
@@ -94,13 +95,18 @@ struct SomeRecording {
 };
 
 /// The values of all nodes, one after the other.
-inline std::vector<double> node_values(const Recording& recording, const std::vector<double>& leaves) {
+inline std::vector<double> node_values(const Recording& recording,
+                                       const std::vector<double>& leaves) {
   std::vector<double> values;
   for (int n = 0; n < recording.size(); ++n) {
     const Recording::Node& node = recording.node(n);
-    const double a = node.operation != Operation::kLeaf && node.a >= 0 ? values[static_cast<std::size_t>(node.a)] : 0.0;
-    const double b = node.operation != Operation::kLeaf && node.b >= 0 ? values[static_cast<std::size_t>(node.b)] : 0.0;
-    values.push_back(node.operation == Operation::kLeaf      ? leaves[static_cast<std::size_t>(node.b)]
+    const double a = node.operation != Operation::kLeaf && node.a >= 0
+                         ? values[static_cast<std::size_t>(node.a)]
+                         : 0.0;
+    const double b = node.operation != Operation::kLeaf && node.b >= 0
+                         ? values[static_cast<std::size_t>(node.b)]
+                         : 0.0;
+    values.push_back(node.operation == Operation::kLeaf ? leaves[static_cast<std::size_t>(node.b)]
                      : node.operation == Operation::kLiteral ? node.literal
                                                              : operate(node.operation, a, b));
   }

@@ -13,7 +13,9 @@ constexpr int kRows = 40, kArrays = 5;
 
 /// Computes the sums by loops.
 void interpret(const std::vector<Sum>& sums, int width, std::vector<double> (&arrays)[kArrays]) {
-  const auto number = [&arrays](const Place& place) { return arrays[place.array][static_cast<std::size_t>(place.index)]; };
+  const auto number = [&arrays](const Place& place) {
+    return arrays[place.array][static_cast<std::size_t>(place.index)];
+  };
   const auto row = [&](const Place& place, int k) -> double& {
     return arrays[place.array][static_cast<std::size_t>(width * place.index + k)];
   };
@@ -22,7 +24,8 @@ void interpret(const std::vector<Sum>& sums, int width, std::vector<double> (&ar
       double result = sum.start.array < 0 ? 0.0 : row(sum.start, k);
       if (sum.start_scale.array >= 0) result *= number(sum.start_scale);
       for (const Sum::Product& product : sum.products) {
-        const double x = row(product.row, k) * (product.factor.array < 0 ? 1.0 : number(product.factor));
+        const double x =
+            row(product.row, k) * (product.factor.array < 0 ? 1.0 : number(product.factor));
         result += product.added ? x : -x;
       }
       if (sum.scale.array >= 0) result *= number(sum.scale);
@@ -30,11 +33,13 @@ void interpret(const std::vector<Sum>& sums, int width, std::vector<double> (&ar
     }
 }
 
-/// Sums of 0 to 20 products. Their rows are earlier targets (array 0) and given rows (array 1), their factors are in array 2. If `wide`,
-/// some products are added and some have no factor.
+/// Sums of 0 to 20 products. Their rows are earlier targets (array 0) and given rows (array 1),
+/// their factors are in array 2. If `wide`, some products are added and some have no factor.
 std::vector<Sum> some_sums(bool wide) {
   std::mt19937 random(7);
-  const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto below = [&random](int n) {
+    return static_cast<int>(random() % static_cast<unsigned>(n));
+  };
   std::vector<Sum> sums;
   for (int target = 1; target < kRows; ++target) {
     Sum sum;
@@ -43,7 +48,8 @@ std::vector<Sum> some_sums(bool wide) {
     if (sum.start.array >= 0 && below(2) > 0) sum.start_scale = {2, below(kRows)};
     if (below(3) == 0) sum.scale = {3, below(kRows)};
     for (int k = below(21); k > 0; --k)
-      sum.products.push_back({below(2) > 0 ? Place{0, below(target)} : Place{1, below(kRows)}, {2, below(kRows)}});
+      sum.products.push_back(
+          {below(2) > 0 ? Place{0, below(target)} : Place{1, below(kRows)}, {2, below(kRows)}});
     for (Sum::Product& product : sum.products) {
       product.added = wide && below(2) > 0;
       if (wide && below(4) == 0) product.factor = {};
@@ -70,10 +76,12 @@ TEST_P(StraightLineTest, ComputesWhatTheLoopsDo) {
   }
   for (int k = 0; k < kArrays; ++k) actual[k] = expected[k];
   interpret(sums, width, expected);
-  code->run({actual[0].data(), actual[1].data(), actual[2].data(), actual[3].data(), actual[4].data()});
+  code->run(
+      {actual[0].data(), actual[1].data(), actual[2].data(), actual[3].data(), actual[4].data()});
   for (int k = 0; k < kArrays; ++k)
     for (std::size_t e = 0; e < expected[k].size(); ++e)
-      EXPECT_NEAR(actual[k][e], expected[k][e], 1e-12 * (1.0 + std::abs(expected[k][e]))) << "array " << k << ", number " << e;
+      EXPECT_NEAR(actual[k][e], expected[k][e], 1e-12 * (1.0 + std::abs(expected[k][e])))
+          << "array " << k << ", number " << e;
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, StraightLineTest, ::testing::Values(1, 4, 8));

@@ -19,18 +19,21 @@ class TracedTest : public ::testing::Test {
 };
 
 TEST_F(TracedTest, KnownNumbersAreComputedWith) {
-  const Traced known = (Traced(3.0) * 4.0 - 2.0) / 5.0 + sqrt(Traced(4.0)) + atan2(Traced(0.0), Traced(1.0));
+  const Traced known =
+      (Traced(3.0) * 4.0 - 2.0) / 5.0 + sqrt(Traced(4.0)) + atan2(Traced(0.0), Traced(1.0));
   ASSERT_TRUE(known.is_literal());
   EXPECT_DOUBLE_EQ(known.value(), 4.0);
-  for (const auto& [traced, expected] : {std::pair(sin(Traced(0.3)), std::sin(0.3)), std::pair(cos(Traced(0.3)), std::cos(0.3)),
-                                         std::pair(asin(Traced(0.3)), std::asin(0.3)), std::pair(tanh(Traced(0.3)), std::tanh(0.3)),
-                                         std::pair(exp(Traced(0.3)), std::exp(0.3)), std::pair(round(Traced(0.7)), 1.0)})
+  for (const auto& [traced, expected] :
+       {std::pair(sin(Traced(0.3)), std::sin(0.3)), std::pair(cos(Traced(0.3)), std::cos(0.3)),
+        std::pair(asin(Traced(0.3)), std::asin(0.3)), std::pair(tanh(Traced(0.3)), std::tanh(0.3)),
+        std::pair(exp(Traced(0.3)), std::exp(0.3)), std::pair(round(Traced(0.7)), 1.0)})
     EXPECT_EQ(traced.value(), expected);
   EXPECT_EQ(recording.size(), 2) << "nothing was recorded";
 }
 
 TEST_F(TracedTest, NeutralElementsLeaveNothingBehind) {
-  for (const Traced& same : {x + 0.0, 0.0 + x, x - 0.0, 1.0 * x, x * 1.0, x / 1.0, -(-x), +x}) EXPECT_EQ(same.node(), x.node());
+  for (const Traced& same : {x + 0.0, 0.0 + x, x - 0.0, 1.0 * x, x * 1.0, x / 1.0, -(-x), +x})
+    EXPECT_EQ(same.node(), x.node());
   for (const Traced& zero : {0.0 * x, x * 0.0, 0.0 / x, x - x}) {
     ASSERT_TRUE(zero.is_literal());
     EXPECT_EQ(zero.value(), 0.0);
@@ -75,7 +78,8 @@ TEST_F(TracedTest, DecisionsAreGuardedByTheLikelyOutcome) {
 }
 
 TEST_F(TracedTest, WhatDoesNotVaryIsDecidedAsItIsAtTheDesign) {
-  const Traced a(&recording, recording.leaf(1, 0, false), 3.0), b(&recording, recording.leaf(1, 1, false), 0.5);
+  const Traced a(&recording, recording.leaf(1, 0, false), 3.0),
+      b(&recording, recording.leaf(1, 1, false), 0.5);
   EXPECT_DOUBLE_EQ((sqrt(a * b + 1.0) - a / b).value(), std::sqrt(2.5) - 6.0);
   EXPECT_DOUBLE_EQ((-(-a) + atan2(-b, a)).value(), 3.0 + std::atan2(-0.5, 3.0));
   EXPECT_TRUE(is_less(b, a, false));

@@ -17,7 +17,8 @@ TEST(ValueCode, ComputesWhatTheFormulasDo) {
   SomeRecording some;
   ValueTask task;
   task.homes = some.homes();
-  for (int k = 0; k < kSomeResults; ++k) task.outputs.push_back({some.results[static_cast<std::size_t>(k)], {2, k}});
+  for (int k = 0; k < kSomeResults; ++k)
+    task.outputs.push_back({some.results[static_cast<std::size_t>(k)], {2, k}});
   // Every third node's value, in its slot.
   for (int n = 0; n < some.recording.size(); n += 3)
     if (task.homes[static_cast<std::size_t>(n)].array < 0) task.kept.push_back(n);
@@ -25,9 +26,11 @@ TEST(ValueCode, ComputesWhatTheFormulasDo) {
   const std::unique_ptr<ValueCode> code = ValueCode::compile(some.recording, task, program, 3);
   ASSERT_NE(code, nullptr);
   const std::vector<double> leaves = SomeRecording::leaf_values(), expected = some_results(leaves);
-  std::vector<double> results(kSomeResults, 0.0), slots(static_cast<std::size_t>(program.slots), 0.0);
+  std::vector<double> results(kSomeResults, 0.0),
+      slots(static_cast<std::size_t>(program.slots), 0.0);
   EXPECT_TRUE(code->run({leaves.data(), some.literals.data(), results.data(), slots.data()}));
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(results[k], expected[k], 1e-13 * (1.0 + std::abs(expected[k]))) << k;
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(results[k], expected[k], 1e-13 * (1.0 + std::abs(expected[k]))) << k;
 
   const std::vector<double> values = node_values(some.recording, leaves);
   for (int n : task.kept) {

@@ -15,10 +15,12 @@ class ValueProgramTest : public ::testing::Test {
   Traced leaf(int k) { return {&recording, recording.leaf(0, k, true)}; }
 
   ValueProgram compile(const std::vector<Traced>& results) {
-    for (std::size_t k = 0; k < results.size(); ++k) task.outputs.push_back({results[k].node(), {1, static_cast<int>(k)}});
+    for (std::size_t k = 0; k < results.size(); ++k)
+      task.outputs.push_back({results[k].node(), {1, static_cast<int>(k)}});
     task.homes.resize(static_cast<std::size_t>(recording.size()));
     for (int n = 0; n < recording.size(); ++n)
-      if (recording.node(n).operation == Operation::kLeaf) task.homes[static_cast<std::size_t>(n)] = {0, recording.node(n).b};
+      if (recording.node(n).operation == Operation::kLeaf)
+        task.homes[static_cast<std::size_t>(n)] = {0, recording.node(n).b};
     return {recording, task};
   }
 
@@ -47,7 +49,8 @@ TEST_F(ValueProgramTest, OfTwoProductsInASumOneIsPartOfIt) {
 
 TEST_F(ValueProgramTest, ProductsThatAreUsedTwiceOrAskedForAreComputedOnce) {
   const Traced a = leaf(0), b = leaf(1), c = leaf(2), product = a * b;
-  EXPECT_EQ(kinds(compile({product + c, product - c})), (std::vector<Kind>{Kind::kOperation, Kind::kOperation, Kind::kOperation}));
+  EXPECT_EQ(kinds(compile({product + c, product - c})),
+            (std::vector<Kind>{Kind::kOperation, Kind::kOperation, Kind::kOperation}));
 }
 
 TEST_F(ValueProgramTest, AnAskedForProductIsNotHidden) {
@@ -80,7 +83,8 @@ TEST_F(ValueProgramTest, GuardsStandBehindWhatTheyCompareAndSlotsBehindReservedO
   task.guards = recording.guards();
   task.reserved_slots = 5;
   const ValueProgram program = compile({sum - a});
-  EXPECT_EQ(kinds(program), (std::vector<Kind>{Kind::kGuardGreaterEqual, Kind::kOperation, Kind::kGuardLess, Kind::kOperation}));
+  EXPECT_EQ(kinds(program), (std::vector<Kind>{Kind::kGuardGreaterEqual, Kind::kOperation,
+                                               Kind::kGuardLess, Kind::kOperation}));
   EXPECT_EQ(program.slot[static_cast<std::size_t>(sum.node())], 5);
   EXPECT_EQ(program.slots, 7);
 }

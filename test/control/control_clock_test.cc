@@ -24,7 +24,8 @@ Study sampled_study(const std::vector<std::pair<double, double>>& controllers) {
 std::string spell(const std::vector<ControlEvent>& events) {
   std::string text;
   for (const ControlEvent& event : events)
-    text += std::string(text.empty() ? "" : " ") + (event.kind == ControlEvent::Kind::kSample ? "s" : "a") +
+    text += std::string(text.empty() ? "" : " ") +
+            (event.kind == ControlEvent::Kind::kSample ? "s" : "a") +
             std::to_string(event.controller) + ":" + std::to_string(event.sample);
   return text;
 }
@@ -38,7 +39,8 @@ TEST(ControlClock, WithoutSampledControllersHasNoEvents) {
   EXPECT_TRUE(clock.due(3.0).empty());
 }
 
-// A step that ends at k / rate may end one unit in the last place before the sample; the way between is no step.
+// A step that ends at k / rate may end one unit in the last place before the sample; the way
+// between is no step.
 TEST(ControlClock, LateInARunASampleIsReachedUpToRounding) {
   ControlClock clock(sampled_study({{1e-4, 0.0}}));
   for (int k = 1; k < 10240800; ++k) clock.due(1e-4 * k);
@@ -61,12 +63,14 @@ TEST(ControlClock, CountsInMultiplesOfThePeriod) {
 TEST(ControlClock, DelaysOutputsAndAppliesThemBeforeSamples) {
   ControlClock clock(sampled_study({{0.0, 0.0}, {0.1, 0.25}, {0.05, 0.05}}));
   EXPECT_EQ(clock.next(0.01), 0.01);
-  EXPECT_EQ(spell(clock.due(0.05)), "a2:0 s2:1") << "a delay of one period: the output of the sample before";
+  EXPECT_EQ(spell(clock.due(0.05)), "a2:0 s2:1")
+      << "a delay of one period: the output of the sample before";
   EXPECT_EQ(spell(clock.due(0.1)), "a2:1 s1:1 s2:2");
   EXPECT_EQ(spell(clock.due(0.15)), "a2:2 s2:3");
   EXPECT_EQ(spell(clock.due(0.2)), "a2:3 s1:2 s2:4");
   EXPECT_EQ(clock.next(kNever), 0.25);
-  EXPECT_EQ(spell(clock.due(0.25 - 1e-13)), "a1:0 a2:4 s2:5") << "rounding of the time counts as reached, and once";
+  EXPECT_EQ(spell(clock.due(0.25 - 1e-13)), "a1:0 a2:4 s2:5")
+      << "rounding of the time counts as reached, and once";
   EXPECT_NEAR(clock.next(kNever), 0.3, 1e-15);
 }
 
@@ -74,7 +78,8 @@ TEST(ControlClock, QueuesAsManyOutputsAsWait) {
   EXPECT_EQ(sampled_study({{0.1, 0.0}}).controllers[0].realization.queued(), 0);
   EXPECT_EQ(sampled_study({{0.1, 0.03}}).controllers[0].realization.queued(), 1);
   EXPECT_EQ(sampled_study({{0.1, 0.1}}).controllers[0].realization.queued(), 1);
-  EXPECT_EQ(sampled_study({{0.1, 0.3}}).controllers[0].realization.queued(), 3) << "0.3/0.1 is above 3 by rounding";
+  EXPECT_EQ(sampled_study({{0.1, 0.3}}).controllers[0].realization.queued(), 3)
+      << "0.3/0.1 is above 3 by rounding";
   EXPECT_EQ(sampled_study({{0.1, 0.31}}).controllers[0].realization.queued(), 4);
   EXPECT_EQ(sampled_study({{0.0, 0.0}}).controllers[0].realization.queued(), 0);
 }

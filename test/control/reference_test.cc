@@ -25,7 +25,8 @@ double slope(const std::array<double, 6>& c, double t) {
 
 TEST(WaypointPolynomial, MeetsTheEndsInPositionAndFromTheThirdDegreeOnInVelocity) {
   const Knot<double> from{1.0, 2.0, -3.0}, to{-0.5, 4.0, 5.0};
-  for (Interpolation degree : {Interpolation::kLinear, Interpolation::kCubic, Interpolation::kQuintic}) {
+  for (Interpolation degree :
+       {Interpolation::kLinear, Interpolation::kCubic, Interpolation::kQuintic}) {
     const auto c = waypoint_polynomial(degree, from, to, 0.5);
     EXPECT_EQ(value(c, 0.0), 1.0);
     EXPECT_NEAR(value(c, 0.5), -0.5, 1e-13);
@@ -50,9 +51,12 @@ Reference<double> through(const WaypointsDescription& points) {
 void expect_derivatives(const Reference<double>& reference, double t) {
   const auto difference = [t](const auto& f) { return ridders_derivative(f, t, 1e-2).value; };
   const ReferenceMotion<double> m = reference.at(t);
-  EXPECT_NEAR(m.rate, difference([&](double x) { return reference.at(x).value; }), 1e-8 * (1.0 + std::abs(m.rate)));
-  EXPECT_NEAR(m.acceleration, difference([&](double x) { return reference.at(x).rate; }), 1e-8 * (1.0 + std::abs(m.acceleration)));
-  EXPECT_NEAR(m.jerk, difference([&](double x) { return reference.at(x).acceleration; }), 1e-8 * (1.0 + std::abs(m.jerk)));
+  EXPECT_NEAR(m.rate, difference([&](double x) { return reference.at(x).value; }),
+              1e-8 * (1.0 + std::abs(m.rate)));
+  EXPECT_NEAR(m.acceleration, difference([&](double x) { return reference.at(x).rate; }),
+              1e-8 * (1.0 + std::abs(m.acceleration)));
+  EXPECT_NEAR(m.jerk, difference([&](double x) { return reference.at(x).acceleration; }),
+              1e-8 * (1.0 + std::abs(m.jerk)));
 }
 
 TEST(Reference, AConstantStays) {
@@ -84,7 +88,8 @@ ReferenceDescription sampled() {
   ReferenceDescription description;
   description.kind = ReferenceDescription::Kind::kSampled;
   description.sampled = {
-      std::make_shared<const SampledFunction>(std::vector<double>{0.0, 0.1, 0.2, 0.3}, std::vector<double>{1.0, 3.0, -2.0, 0.5}),
+      std::make_shared<const SampledFunction>(std::vector<double>{0.0, 0.1, 0.2, 0.3},
+                                              std::vector<double>{1.0, 3.0, -2.0, 0.5}),
       number(2.0, "scale"), number(0.02, "delay"), number(0.3, "offset")};
   return description;
 }
@@ -108,7 +113,8 @@ TEST(Reference, SamplesHaveDerivativesByScaleDelayAndOffset) {
       moved[k] = x;
       return Reference<double>(sampled(), moved).at(0.13).value;
     };
-    EXPECT_NEAR(m.value.v[static_cast<int>(k)], ridders_derivative(value, at[k], 1e-2).value, 1e-9) << k;
+    EXPECT_NEAR(m.value.v[static_cast<int>(k)], ridders_derivative(value, at[k], 1e-2).value, 1e-9)
+        << k;
   }
 }
 
@@ -129,7 +135,8 @@ TEST(Reference, ParametersReachEveryNumber) {
 
 // Rest to rest over one second: the minimum-jerk polynomial 10 x^3 - 15 x^4 + 6 x^5.
 TEST(Reference, AQuinticFromRestToRestIsTheKnownPolynomial) {
-  const Reference<double> reference = through({Interpolation::kQuintic, {1.0, 2.0}, {0.0, 1.0}, {}, {}});
+  const Reference<double> reference =
+      through({Interpolation::kQuintic, {1.0, 2.0}, {0.0, 1.0}, {}, {}});
   for (double x : {0.1, 0.5, 0.8}) {
     EXPECT_NEAR(reference.at(1.0 + x).value, x * x * x * (10.0 + x * (-15.0 + 6.0 * x)), 1e-14);
     expect_derivatives(reference, 1.0 + x);
@@ -140,15 +147,19 @@ TEST(Reference, AQuinticFromRestToRestIsTheKnownPolynomial) {
 }
 
 TEST(Reference, QuinticPiecesMeetInPositionVelocityAndAcceleration) {
-  const WaypointsDescription given{
-      Interpolation::kQuintic, {0.0, 0.7, 1.0, 2.5}, {0.0, 1.0, -0.5, 2.0}, {0.0, 3.0, -1.0, 0.0}, {0.0, 4.0, 2.0, 0.0}};
+  const WaypointsDescription given{Interpolation::kQuintic,
+                                   {0.0, 0.7, 1.0, 2.5},
+                                   {0.0, 1.0, -0.5, 2.0},
+                                   {0.0, 3.0, -1.0, 0.0},
+                                   {0.0, 4.0, 2.0, 0.0}};
   WaypointsDescription chosen = given;
   chosen.velocities.clear();
   chosen.accelerations.clear();
   for (const WaypointsDescription& points : {given, chosen}) {
     const Reference<double> reference = through(points);
     for (std::size_t k = 0; k < points.times.size(); ++k) {
-      const ReferenceMotion<double> before = reference.at(points.times[k] - 1e-9), after = reference.at(points.times[k]);
+      const ReferenceMotion<double> before = reference.at(points.times[k] - 1e-9),
+                                    after = reference.at(points.times[k]);
       EXPECT_NEAR(after.value, points.positions[k].nominal(), 1e-12);
       EXPECT_NEAR(before.value, after.value, 1e-7);
       EXPECT_NEAR(before.rate, after.rate, 1e-6);
@@ -160,7 +171,8 @@ TEST(Reference, QuinticPiecesMeetInPositionVelocityAndAcceleration) {
   EXPECT_NEAR(through(given).at(0.7).acceleration, 4.0, 1e-12);
 }
 
-// At inner way-points on a parabola the chosen velocity and acceleration equal those of the parabola.
+// At inner way-points on a parabola the chosen velocity and acceleration equal those of the
+// parabola.
 TEST(Reference, ChosenVelocitiesAndAccelerationsAreThoseOfAParabola) {
   std::vector<double> times{0.0, 0.5, 1.2, 1.5, 2.0, 3.0};
   std::vector<Quantity> positions;
@@ -186,20 +198,26 @@ WaypointsDescription random_points(unsigned seed) {
   return points;
 }
 
-// Each piece stays between its own two way-points, up to rounding, so that the curve has no extremum but at them.
+// Each piece stays between its own two way-points, up to rounding, so that the curve has no
+// extremum but at them.
 TEST(Reference, AMonotoneCurveStaysBetweenNeighboursAndHasContinuousAccelerations) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     const WaypointsDescription points = random_points(seed);
     const Reference<double> reference = through(points);
     for (std::size_t k = 0; k + 1 < points.times.size(); ++k) {
-      const auto [low, high] = std::minmax({points.positions[k].nominal(), points.positions[k + 1].nominal()});
+      const auto [low, high] =
+          std::minmax({points.positions[k].nominal(), points.positions[k + 1].nominal()});
       for (int i = 0; i <= 50; ++i) {
-        const double time = points.times[k] + (points.times[k + 1] - points.times[k]) * i / 50, value = reference.at(time).value;
-        ASSERT_TRUE(value >= low - 1e-9 && value <= high + 1e-9) << value << " at " << time << ", seed " << seed;
+        const double time = points.times[k] + (points.times[k + 1] - points.times[k]) * i / 50,
+                     value = reference.at(time).value;
+        ASSERT_TRUE(value >= low - 1e-9 && value <= high + 1e-9)
+            << value << " at " << time << ", seed " << seed;
       }
-      const ReferenceMotion<double> before = reference.at(points.times[k] - 1e-11), after = reference.at(points.times[k]);
+      const ReferenceMotion<double> before = reference.at(points.times[k] - 1e-11),
+                                    after = reference.at(points.times[k]);
       EXPECT_NEAR(before.rate, after.rate, 1e-6 * (1.0 + std::abs(after.acceleration)));
-      EXPECT_NEAR(before.acceleration, after.acceleration, 1e-7 * (1.0 + std::abs(before.jerk) + std::abs(after.jerk)));
+      EXPECT_NEAR(before.acceleration, after.acceleration,
+                  1e-7 * (1.0 + std::abs(before.jerk) + std::abs(after.jerk)));
     }
   }
 }
@@ -225,7 +243,9 @@ TEST(Reference, AMonotoneCurveHasExactDerivativesByItsWayPoints) {
   ReferenceDescription description;
   description.kind = ReferenceDescription::Kind::kWaypoints;
   description.waypoints = {Interpolation::kMonotone, {0.0, 0.3, 1.0, 1.2, 2.0}, {0.0}, {}, {}};
-  for (const std::string& name : names) description.waypoints.positions.emplace_back(1.0, std::make_shared<const Expression>(name, names));
+  for (const std::string& name : names)
+    description.waypoints.positions.emplace_back(1.0,
+                                                 std::make_shared<const Expression>(name, names));
   description.waypoints.positions.emplace_back(3.0);
   const std::vector<double> at{1.0, 1.2, 2.9};  // limited velocities and accelerations among them
   for (const double t : {0.1, 0.5, 1.1, 1.6})
@@ -237,18 +257,24 @@ TEST(Reference, AMonotoneCurveHasExactDerivativesByItsWayPoints) {
       };
       const ReferenceMotion<std::complex<double>> m = moved(std::complex<double>(0.0, 1e-30));
       const auto difference = [&](const auto& f) { return ridders_derivative(f, 0.0, 1e-2).value; };
-      EXPECT_NEAR(m.value.imag() / 1e-30, difference([&](double x) { return moved(x).value; }), 1e-9) << t << ", " << k;
-      EXPECT_NEAR(m.acceleration.imag() / 1e-30, difference([&](double x) { return moved(x).acceleration; }), 1e-6) << t << ", " << k;
+      EXPECT_NEAR(m.value.imag() / 1e-30, difference([&](double x) { return moved(x).value; }),
+                  1e-9)
+          << t << ", " << k;
+      EXPECT_NEAR(m.acceleration.imag() / 1e-30,
+                  difference([&](double x) { return moved(x).acceleration; }), 1e-6)
+          << t << ", " << k;
     }
 }
 
 TEST(Reference, CubicAndLinearPieces) {
-  const Reference<double> cubic = through({Interpolation::kCubic, {0.0, 2.0}, {1.0, 3.0}, {0.5, -1.0}, {}});
+  const Reference<double> cubic =
+      through({Interpolation::kCubic, {0.0, 2.0}, {1.0, 3.0}, {0.5, -1.0}, {}});
   EXPECT_NEAR(cubic.at(0.0).rate, 0.5, 1e-14);
   EXPECT_NEAR(cubic.at(2.0 - 1e-12).rate, -1.0, 1e-9);
   EXPECT_NEAR(cubic.at(2.0 - 1e-12).value, 3.0, 1e-9);
   expect_derivatives(cubic, 0.9);
-  const Reference<double> linear = through({Interpolation::kLinear, {0.0, 2.0, 3.0}, {1.0, 3.0, 0.0}, {}, {}});
+  const Reference<double> linear =
+      through({Interpolation::kLinear, {0.0, 2.0, 3.0}, {1.0, 3.0, 0.0}, {}, {}});
   EXPECT_NEAR(linear.at(0.5).value, 1.5, 1e-14);
   EXPECT_NEAR(linear.at(2.5).rate, -3.0, 1e-14);
   EXPECT_NEAR(linear.at(2.5).value, 1.5, 1e-14);
@@ -267,7 +293,8 @@ BasisDescription basis(BasisShape shape) {
 TEST(ShapedInput, LinearRunsThroughItsCoefficientsAndHoldsTheLast) {
   const BasisDescription b = basis(BasisShape::kLinear);
   const ShapedInput<double> input(b, {});
-  for (int k = 0; k < 5; ++k) EXPECT_NEAR(input.at(0.5 * k).value, kCoefficients[static_cast<std::size_t>(k)], 1e-15);
+  for (int k = 0; k < 5; ++k)
+    EXPECT_NEAR(input.at(0.5 * k).value, kCoefficients[static_cast<std::size_t>(k)], 1e-15);
   EXPECT_NEAR(input.at(0.25).rate, -6.0, 1e-14);
   EXPECT_EQ(input.at(7.0).value, 4.0);
   EXPECT_EQ(input.at(7.0).rate, 0.0);
@@ -278,19 +305,22 @@ TEST(ShapedInput, CubicHasTheRateOfItsValues) {
   const ShapedInput<double> input(b, {});
   EXPECT_NEAR(input.at(0.0).value, 1.0, 1e-15);
   for (double t : {0.3, 0.9, 1.7}) {
-    const double rate = ridders_derivative([&](double s) { return input.at(s).value; }, t, 0.05).value;
+    const double rate =
+        ridders_derivative([&](double s) { return input.at(s).value; }, t, 0.05).value;
     EXPECT_NEAR(input.at(t).rate, rate, 1e-9);
   }
 }
 
 TEST(ShapedInput, DerivativesByCoefficientsAreTheWeights) {
   BasisDescription b = basis(BasisShape::kCubic);
-  b.coefficients[2] = Quantity(kCoefficients[2], std::make_shared<Expression>("c", std::vector<std::string>{"c"}));
+  b.coefficients[2] =
+      Quantity(kCoefficients[2], std::make_shared<Expression>("c", std::vector<std::string>{"c"}));
   Lanes<4> c(kCoefficients[2]);
   c.v[1] = 1.0;
   const ShapedInput<Lanes<4>> input(b, {c});
   const BasisWeights weights = basis_weights(b, 0.9);
-  EXPECT_NEAR(input.at(0.9).value.v[1], weights.value[static_cast<std::size_t>(2 - weights.first)], 1e-15);
+  EXPECT_NEAR(input.at(0.9).value.v[1], weights.value[static_cast<std::size_t>(2 - weights.first)],
+              1e-15);
 }
 
 /// A course as a function: the last piece that has begun.
@@ -312,7 +342,8 @@ TEST(TrajectoryCourse, AHeldValueBeginsWhereItBegins) {
 }
 
 TEST(TrajectoryCourse, IsLinearWithoutVelocities) {
-  const Course course = trajectory_course({{1.0, 2.0, {}, {}}, {3.0, 6.0, {}, {}}}, 0.0, {0.0, 5.0, 0.0});
+  const Course course =
+      trajectory_course({{1.0, 2.0, {}, {}}, {3.0, 6.0, {}, {}}}, 0.0, {0.0, 5.0, 0.0});
   EXPECT_EQ(at(course, 0.0).value, 0.0);
   EXPECT_EQ(at(course, 0.5).value, 1.0);
   EXPECT_EQ(at(course, 0.5).rate, 2.0);
@@ -322,7 +353,8 @@ TEST(TrajectoryCourse, IsLinearWithoutVelocities) {
 }
 
 TEST(TrajectoryCourse, IsCubicBetweenVelocitiesAndBeginsWithTheMotionInEffect) {
-  const Course course = trajectory_course({{1.0, 1.0, 0.0, {}}, {2.0, 0.0, -1.0, {}}}, 0.0, {0.0, 3.0, 8.0});
+  const Course course =
+      trajectory_course({{1.0, 1.0, 0.0, {}}, {2.0, 0.0, -1.0, {}}}, 0.0, {0.0, 3.0, 8.0});
   EXPECT_EQ(at(course, 0.0).rate, 3.0);
   // 3 t - 3 t^2 + t^3 meets (1, slope 0); t^2 (-2 + t) from (1, 0) meets (0, -1).
   EXPECT_NEAR(at(course, 0.5).value, 1.5 - 0.75 + 0.125, 1e-15);

@@ -36,13 +36,16 @@ TEST(ClampedIntegral, StopsAtTheBoundAndLeavesItAtOnce) {
   EXPECT_NEAR(clamped_integral_rate(-3.0, -0.5, 4.0, 2.0), 0.0, kSmall);
   EXPECT_NEAR(clamped_integral_rate(3.0, -0.5, 4.0, 2.0), 3.0, kSmall);
   EXPECT_NEAR(clamped_integral_rate(3.0, 0.25, 4.0, 2.0), 3.0 * (1.0 - 1.0 / 256.0), kSmall);
-  EXPECT_NEAR(clamped_integral_rate(3.0, 0.5, -4.0, 2.0), 0.0, kSmall) << "the sign of the gain does not matter";
-  EXPECT_NEAR(clamped_integral_rate(0.0, 0.5, 4.0, 2.0), -0.0025, 1e-15) << "half of the small error, inwards";
+  EXPECT_NEAR(clamped_integral_rate(3.0, 0.5, -4.0, 2.0), 0.0, kSmall)
+      << "the sign of the gain does not matter";
+  EXPECT_NEAR(clamped_integral_rate(0.0, 0.5, 4.0, 2.0), -0.0025, 1e-15)
+      << "half of the small error, inwards";
   EXPECT_EQ(clamped_integral_rate(3.0, 0.0, 4.0, 2.0), 3.0);
   EXPECT_EQ(clamped_integral_rate(3.0, 7.0, 0.0, 2.0), 3.0) << "without a gain nothing is bounded";
 }
 
-/// Pid::computeCommand() of control_toolbox 1.19 (ROS 1), written down from its documentation and behaviour: gains, symmetric bounds.
+/// Pid::computeCommand() of control_toolbox 1.19 (ROS 1), written down from its documentation and
+/// behaviour: gains, symmetric bounds.
 struct ToolboxPid {
   double p, i, d, i_max;
   bool antiwindup;
@@ -54,7 +57,8 @@ struct ToolboxPid {
     last = error;
     valid = true;
     i_error += dt * error;
-    if (antiwindup && i != 0.0) i_error = std::clamp(i_error, -i_max / std::abs(i), i_max / std::abs(i));
+    if (antiwindup && i != 0.0)
+      i_error = std::clamp(i_error, -i_max / std::abs(i), i_max / std::abs(i));
     const double integral = antiwindup ? i * i_error : std::clamp(i * i_error, -i_max, i_max);
     return p * error + integral + d * rate;
   }
@@ -79,7 +83,8 @@ TEST(SampledPid, DoesWhatControlToolboxDoes) {
 }
 
 TEST(SampledPid, FiltersTheRateByTheBackwardDifference) {
-  // tau y' + y = e' with T = 0.1, tau = 0.3: y_1 = (0.3 * 0 + 1) / 0.4 for a step of 1, then it falls by 3/4 per sample.
+  // tau y' + y = e' with T = 0.1, tau = 0.3: y_1 = (0.3 * 0 + 1) / 0.4 for a step of 1, then it
+  // falls by 3/4 per sample.
   const SampledPidNumbers<double> numbers{{0.0, 0.0, 1.0}, 0.1, 0.3, nullptr, false};
   SampledPidMemory<double> memory;
   EXPECT_EQ(sample_pid(numbers, 5.0, true, &memory), 0.0) << "no kick at the start";
@@ -90,7 +95,8 @@ TEST(SampledPid, FiltersTheRateByTheBackwardDifference) {
 TEST(SampledPid, IsDifferentiableByGainsAndBounds) {
   using C = std::complex<double>;
   constexpr double kTiny = 1e-30;
-  // With anti-windup and a clamp that is reached the integral is bound / i, so that it and its term follow the bound.
+  // With anti-windup and a clamp that is reached the integral is bound / i, so that it and its term
+  // follow the bound.
   const C bound(0.2, kTiny);
   const SampledPidNumbers<C> numbers{{C(2.0), C(4.0), C(0.0)}, 0.1, C(0.0), &bound, true};
   SampledPidMemory<C> memory;

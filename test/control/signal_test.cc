@@ -10,13 +10,16 @@
 namespace codesign {
 namespace {
 
-/// ground - yaw - massless fork - pitch - arm, an end frame fixed to the arm, and a massless finger on another hinge.
+/// ground - yaw - massless fork - pitch - arm, an end frame fixed to the arm, and a massless finger
+/// on another hinge.
 struct Fixture {
-  RobotDescription robot = read_urdf(robot_text(
-      kGround + link_with("fork", "") + link_with("arm") + link_with("camera", "") + link_with("finger", "") +
-      joint_with("yaw", "continuous", "ground", "fork", "<axis xyz='0 0 1'/>") +
-      joint_with("pitch", "continuous", "fork", "arm", "<axis xyz='0 1 0'/>") +
-      joint_with("mount", "fixed", "arm", "camera", "<origin xyz='0 0 1'/>") + joint_with("grip", "continuous", "arm", "finger")));
+  RobotDescription robot = read_urdf(
+      robot_text(kGround + link_with("fork", "") + link_with("arm") + link_with("camera", "") +
+                 link_with("finger", "") +
+                 joint_with("yaw", "continuous", "ground", "fork", "<axis xyz='0 0 1'/>") +
+                 joint_with("pitch", "continuous", "fork", "arm", "<axis xyz='0 1 0'/>") +
+                 joint_with("mount", "fixed", "arm", "camera", "<origin xyz='0 0 1'/>") +
+                 joint_with("grip", "continuous", "arm", "finger")));
   Topology topology = derive_topology(robot);
   std::vector<ControllerDescription> controllers = {hold()};
 
@@ -29,11 +32,13 @@ struct Fixture {
   }
 
   Signal resolve(const std::string& text) const {
-    return resolve_signal(parse_signal(text, {"s.yaml", 4}, "signal"), robot, topology, controllers);
+    return resolve_signal(parse_signal(text, {"s.yaml", 4}, "signal"), robot, topology,
+                          controllers);
   }
   Signal rate(const std::string& text) const {
     const SignalDescription description = parse_signal(text, {"s.yaml", 4}, "signal");
-    return differentiate(resolve_signal(description, robot, topology, controllers), description, "controllers.hold.input");
+    return differentiate(resolve_signal(description, robot, topology, controllers), description,
+                         "controllers.hold.input");
   }
   std::string refusal(const std::string& text) const {
     try {
@@ -88,7 +93,8 @@ TEST(ResolveSignal, AReactionIsReadWhereTheChildHasMass) {
   EXPECT_EQ(signal[0].axis, 1);
   const std::string refused = fixture.refusal("yaw/reaction_force/x");
   EXPECT_NE(refused.find("where the reaction can be read"), std::string::npos) << refused;
-  EXPECT_NE(refused.find("pitch/reaction_force/x, in the frame of that joint"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("pitch/reaction_force/x, in the frame of that joint"), std::string::npos)
+      << refused;
   EXPECT_NE(fixture.refusal("grip/reaction_force/x").find("without <inertial>"), std::string::npos);
   EXPECT_NE(fixture.refusal("mount/reaction_force/x").find("one body"), std::string::npos);
   EXPECT_THROW(fixture.rate("pitch/reaction_force/x"), InputError);
@@ -96,7 +102,8 @@ TEST(ResolveSignal, AReactionIsReadWhereTheChildHasMass) {
 
 TEST(Differentiate, FollowsEachTerm) {
   const Fixture fixture;
-  const Signal rate = fixture.rate("pitch/position + pitch/velocity - arm/position/x + arm/velocity/y");
+  const Signal rate =
+      fixture.rate("pitch/position + pitch/velocity - arm/position/x + arm/velocity/y");
   ASSERT_EQ(rate.size(), 4U);
   EXPECT_EQ(rate[0].kind, SignalKind::kJointVelocity);
   EXPECT_EQ(rate[1].kind, SignalKind::kJointAcceleration);
@@ -110,7 +117,8 @@ TEST(Differentiate, FollowsEachTerm) {
 
 TEST(Differentiate, AForceHasNoRate) {
   const Fixture fixture;
-  for (const char* text : {"pitch/acceleration", "pitch/effort", "hold/output", "arm/angular_velocity/x", "pitch/position + pitch/effort"})
+  for (const char* text : {"pitch/acceleration", "pitch/effort", "hold/output",
+                           "arm/angular_velocity/x", "pitch/position + pitch/effort"})
     EXPECT_THROW(fixture.rate(text), InputError) << text;
 }
 

@@ -33,7 +33,9 @@ TEST(ExpressionSyntax, ComplaintsNameThePlaceAndTheNearestName) {
     Expression("2*crank_lenght", names);
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "unknown name 'crank_lenght', did you mean 'crank_length'? at position 3 of '2*crank_lenght'");
+    EXPECT_STREQ(error.what(),
+                 "unknown name 'crank_lenght', did you mean 'crank_length'? at position 3 of "
+                 "'2*crank_lenght'");
   }
   expect_complaint("sqr(x)", "did you mean 'sqrt'?");
   expect_complaint("q", "unknown name 'q'");
@@ -71,16 +73,20 @@ TEST(ExpressionSyntax, RefusesWhatIsNoArithmetic) {
 TEST(ExpressionSyntax, RefusesWhatLooksLikeSomethingElse) {
   expect_complaint("99\n3", "an operator is missing before '3' at position 4");
   expect_complaint("1\r\n+ 2\n3", "an operator is missing before '3'");
-  expect_complaint("(1>0 ? 2) : 3", "expected a ':' that belongs to its '?', found ')' at position 9");
-  expect_complaint("min(1>0 ? 2, 3 : 4)", "expected a ':' that belongs to its '?', found ',' at position 12");
+  expect_complaint("(1>0 ? 2) : 3",
+                   "expected a ':' that belongs to its '?', found ')' at position 9");
+  expect_complaint("min(1>0 ? 2, 3 : 4)",
+                   "expected a ':' that belongs to its '?', found ',' at position 12");
   expect_complaint("1 : 2", "a ':' without its '?'");
   expect_complaint("1>0 ? 2", "expected a ':'");
   expect_complaint("1<2<3", "a comparison stands where a number is needed at position 4");
   expect_complaint("x ? 1 : 2", "a number stands before '?'");
-  expect_complaint("min(1, 2", "expected a comma or a closing parenthesis, found the end at position 9");
+  expect_complaint("min(1, 2",
+                   "expected a comma or a closing parenthesis, found the end at position 9");
   expect_complaint("atan2(x)", "takes 2 arguments, not 1");
   expect_complaint("sqrt(x, y)", "takes 1 argument, not 2");
-  EXPECT_DOUBLE_EQ(Expression("x\n+\ny", kSyntaxNames).value(kSyntaxAt), 0.7 - 1.3) << "a line break is white space like any other";
+  EXPECT_DOUBLE_EQ(Expression("x\n+\ny", kSyntaxNames).value(kSyntaxAt), 0.7 - 1.3)
+      << "a line break is white space like any other";
 }
 
 TEST(ExpressionSyntax, EndsWhateverItsSize) {
@@ -97,12 +103,15 @@ TEST(ExpressionSyntax, EndsWhateverItsSize) {
   std::string sum = "0";
   for (int k = 0; k < 250000; ++k) sum += "+1";
   EXPECT_DOUBLE_EQ(Expression(sum, kSyntaxNames).value(kSyntaxAt), 250000.0);
-  EXPECT_DOUBLE_EQ(Expression(std::string(1000001, '-') + "1", kSyntaxNames).value(kSyntaxAt), -1.0);
+  EXPECT_DOUBLE_EQ(Expression(std::string(1000001, '-') + "1", kSyntaxNames).value(kSyntaxAt),
+                   -1.0);
 }
 
 TEST(ExpressionSyntax, SaysWhichNamesParametersCannotHave) {
-  for (const char* name : {"crank_length", "Kp", "_a1", "i", "e"}) EXPECT_EQ(identifier_fault(name), "") << name;
-  for (const char* name : {"", "2x", "a-b", "a b", "pi", "sin", "l\xC3\xA4nge"}) EXPECT_NE(identifier_fault(name), "") << name;
+  for (const char* name : {"crank_length", "Kp", "_a1", "i", "e"})
+    EXPECT_EQ(identifier_fault(name), "") << name;
+  for (const char* name : {"", "2x", "a-b", "a b", "pi", "sin", "l\xC3\xA4nge"})
+    EXPECT_NE(identifier_fault(name), "") << name;
 }
 
 }  // namespace

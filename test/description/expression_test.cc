@@ -85,7 +85,9 @@ TEST(ExpressionFunctions, DerivativesAreInfiniteWhereTheyAre) {
 const std::vector<std::string> kExpressionNames = {"x", "y", "i", "e"};
 const std::vector<double> kExpressionAt = {0.7, -1.3, 2.0, 5.0};
 
-double value_at_point(const std::string& text) { return Expression(text, kExpressionNames).value(kExpressionAt); }
+double value_at_point(const std::string& text) {
+  return Expression(text, kExpressionNames).value(kExpressionAt);
+}
 
 TEST(Expression, KnowsWhatItDependsOn) {
   EXPECT_EQ(Expression("y + x*y", kExpressionNames).dependencies(), (std::vector<int>{0, 1}));
@@ -96,7 +98,8 @@ TEST(Expression, KnowsWhatItDependsOn) {
 }
 
 TEST(Expression, HasNoValueWhereThereIsNoRealOne) {
-  for (const char* text : {"sqrt(y)", "log(y)", "asin(i)", "y**0.5", "0/(x - 0.7)"}) EXPECT_TRUE(std::isnan(value_at_point(text))) << text;
+  for (const char* text : {"sqrt(y)", "log(y)", "asin(i)", "y**0.5", "0/(x - 0.7)"})
+    EXPECT_TRUE(std::isnan(value_at_point(text))) << text;
 }
 
 TEST(Expression, IsTheSameFromTheValuesThatItUsesAlone) {
@@ -105,7 +108,9 @@ TEST(Expression, IsTheSameFromTheValuesThatItUsesAlone) {
   const std::vector<double> used = {kExpressionAt[1], kExpressionAt[2], kExpressionAt[3]};
   EXPECT_EQ(expression.value_of(used), expression.value(kExpressionAt));
   for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_EQ(expression.derivative_of(k, used), expression.derivative(static_cast<int>(k) + 1, kExpressionAt)) << k;
+    EXPECT_EQ(expression.derivative_of(k, used),
+              expression.derivative(static_cast<int>(k) + 1, kExpressionAt))
+        << k;
   EXPECT_EQ(expression.derivative(0, kExpressionAt), 0.0);
 }
 
@@ -171,8 +176,10 @@ TEST(ExpressionRange, HoldsEveryValue) {
 
 TEST(ExpressionRange, IsUnknownOfOtherOperations) {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const char* text : {"a / b", "sqrt(a)", "a ** 2", "a < b ? a : b", "1 + abs(b)"}) expect_range(text, -infinity, infinity);
-  EXPECT_EQ(Expression("0 * a", kTwo).range({{1.0, infinity}, {}}).upper, infinity) << "0 * infinity is undefined";
+  for (const char* text : {"a / b", "sqrt(a)", "a ** 2", "a < b ? a : b", "1 + abs(b)"})
+    expect_range(text, -infinity, infinity);
+  EXPECT_EQ(Expression("0 * a", kTwo).range({{1.0, infinity}, {}}).upper, infinity)
+      << "0 * infinity is undefined";
 }
 
 }  // namespace

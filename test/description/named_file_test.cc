@@ -11,7 +11,9 @@
 namespace codesign {
 namespace {
 
-FileAddress address_of(const std::string& file) { return {file, {"study.yaml", 4}, "uncertain.from"}; }
+FileAddress address_of(const std::string& file) {
+  return {file, {"study.yaml", 4}, "uncertain.from"};
+}
 
 TEST(NamedFile, IsInTheFolderOfTheStudy) {
   EXPECT_EQ(path_of(address_of("a.json"), "/studies"), "/studies/a.json");

@@ -28,11 +28,13 @@ TEST(Quantity, OnlyTheConstantZeroIsZero) {
   EXPECT_TRUE(Quantity().is_zero());
   EXPECT_TRUE(Quantity(-0.0).is_zero());
   EXPECT_FALSE(Quantity(1e-300).is_zero());
-  EXPECT_FALSE(Quantity(0.0, std::make_shared<const Expression>("x", std::vector<std::string>{"x"})).is_zero());
+  EXPECT_FALSE(Quantity(0.0, std::make_shared<const Expression>("x", std::vector<std::string>{"x"}))
+                   .is_zero());
 }
 
 TEST(Quantity, LanesCarryTheChainRule) {
-  const Quantity product(6.0, std::make_shared<const Expression>("x*y", std::vector<std::string>{"x", "y"}));
+  const Quantity product(
+      6.0, std::make_shared<const Expression>("x*y", std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(product.nominal(), 6.0);
   std::vector<Lanes<4>> at = {lane(2.0, 0), lane(5.0, 1)};
   at[0].v = 10.0 * at[0].v;  // the parameter itself has a derivative
@@ -43,7 +45,8 @@ TEST(Quantity, LanesCarryTheChainRule) {
 }
 
 TEST(Quantity, ComplexStepGoesThrough) {
-  const Quantity square(4.0, std::make_shared<const Expression>("x**2", std::vector<std::string>{"x"}));
+  const Quantity square(4.0,
+                        std::make_shared<const Expression>("x**2", std::vector<std::string>{"x"}));
   const std::complex<double> value = square.at(std::vector<std::complex<double>>{{3.0, 1e-20}});
   EXPECT_DOUBLE_EQ(value.real(), 9.0);
   EXPECT_DOUBLE_EQ(value.imag(), 6e-20);

@@ -16,19 +16,22 @@ double value(const BasisDescription& b, const std::vector<double>& c, double t, 
   const BasisWeights w = basis_weights(b, t);
   double sum = 0.0;
   for (int k = 0; k < w.count; ++k)
-    sum += (rate ? w.rate : w.value)[static_cast<std::size_t>(k)] * c[static_cast<std::size_t>(w.first + k)];
+    sum += (rate ? w.rate : w.value)[static_cast<std::size_t>(k)] *
+           c[static_cast<std::size_t>(w.first + k)];
   return sum;
 }
 
 TEST(Basis, LinearCoefficientsAreTheValuesAtEqualTimes) {
   const BasisDescription b = basis(BasisShape::kLinear, 5, 2.0);
   const std::vector<double> c{1.0, -2.0, 0.5, 4.0, 3.0};
-  for (std::size_t k = 0; k < c.size(); ++k) EXPECT_NEAR(value(b, c, 0.5 * static_cast<double>(k)), c[k], 1e-14);
+  for (std::size_t k = 0; k < c.size(); ++k)
+    EXPECT_NEAR(value(b, c, 0.5 * static_cast<double>(k)), c[k], 1e-14);
   EXPECT_NEAR(value(b, c, 0.25), -0.5, 1e-14);
   EXPECT_NEAR(value(b, c, 0.25, true), -6.0, 1e-13);
 }
 
-// The uniform cubic B-spline has the weights 1/6, 4/6, 1/6 at an inner knot that is at least 3 spans away from the repeated end knots.
+// The uniform cubic B-spline has the weights 1/6, 4/6, 1/6 at an inner knot that is at least 3
+// spans away from the repeated end knots.
 TEST(Basis, CubicWeightsFarFromTheEndsAreThoseOfTheUniformSpline) {
   const BasisDescription b = basis(BasisShape::kCubic, 11, 8.0);
   const BasisWeights w = basis_weights(b, 4.0);
@@ -49,7 +52,8 @@ TEST(Basis, WeightsSumToOneAndRatesAreTheirDerivatives) {
       for (int k = 0; k < count; ++k) c.push_back(std::sin(3.0 * k + 1.0));
       for (double t : {0.013, 0.4, 0.911, 1.4, 1.69}) {
         EXPECT_NEAR(value(b, std::vector<double>(c.size(), 1.0), t), 1.0, 1e-14);
-        EXPECT_NEAR(value(b, c, t, true), (value(b, c, t + 1e-6) - value(b, c, t - 1e-6)) / 2e-6, 1e-7);
+        EXPECT_NEAR(value(b, c, t, true), (value(b, c, t + 1e-6) - value(b, c, t - 1e-6)) / 2e-6,
+                    1e-7);
       }
       EXPECT_NEAR(value(b, c, 0.0), c.front(), 1e-14);
       EXPECT_NEAR(value(b, c, 1.7), c.back(), 1e-14);
@@ -73,14 +77,16 @@ TEST(Basis, NoCoefficientHasInfluenceOutsideItsSupport) {
         inside = inside || active;
       }
       EXPECT_TRUE(inside) << k;
-      EXPECT_LE(std::min(to, 2.0) - from, (shape == BasisShape::kLinear ? 0.5 : 4.0 / 3.0) + 1e-12) << "local support";
+      EXPECT_LE(std::min(to, 2.0) - from, (shape == BasisShape::kLinear ? 0.5 : 4.0 / 3.0) + 1e-12)
+          << "local support";
     }
     EXPECT_TRUE(std::isinf(b.support(8)[1]));
   }
 }
 
 Quantity quantity(const std::string& text) {
-  return {0.0, std::make_shared<const Expression>(text, std::vector<std::string>{"a", "b", "c", "d"})};
+  return {0.0,
+          std::make_shared<const Expression>(text, std::vector<std::string>{"a", "b", "c", "d"})};
 }
 
 TEST(Dependencies, OfEachKindOfFunction) {

@@ -45,7 +45,9 @@ TEST(FrictionNumbers, TwoStructuresAreVisitedSideBySide) {
   FrictionNumbers<double> from;
   FrictionNumbers<float> to;
   from.preload = 3.0;
-  visit_friction_numbers([](const FrictionNumberRule&, const double& a, float& b) { b = static_cast<float>(a); }, &from, &to);
+  visit_friction_numbers(
+      [](const FrictionNumberRule&, const double& a, float& b) { b = static_cast<float>(a); },
+      &from, &to);
   EXPECT_EQ(to.preload, 3.0F);
 }
 
@@ -55,7 +57,8 @@ TEST(FrictionNumbers, ModelsUseTheirOwn) {
     if (FrictionModel::kLuGre->uses(rule)) of_lugre.insert(rule.attribute);
     if (FrictionModel::kGonthier->uses(rule)) of_gonthier.insert(rule.attribute);
     EXPECT_EQ(FrictionModel::kBrownMcPhee->uses(rule),
-              rule.laws == FrictionNumberRule::Laws::kAll || rule.laws == FrictionNumberRule::Laws::kDirectional);
+              rule.laws == FrictionNumberRule::Laws::kAll ||
+                  rule.laws == FrictionNumberRule::Laws::kDirectional);
   };
   const FrictionDescription friction;
   visit_friction_numbers(note, &friction);
@@ -78,7 +81,8 @@ TEST(JointType, OneCoordinate) {
   for (const RowReference<JointLaw>& joint : standard_laws().joints) {
     const bool turn = joint->type == JointType::kRevolute || joint->type == JointType::kContinuous;
     EXPECT_EQ(is_turn(joint->type), turn) << static_cast<int>(joint->type);
-    EXPECT_EQ(has_one_coordinate(joint->type), turn || joint->type == JointType::kPrismatic) << static_cast<int>(joint->type);
+    EXPECT_EQ(has_one_coordinate(joint->type), turn || joint->type == JointType::kPrismatic)
+        << static_cast<int>(joint->type);
   }
 }
 
@@ -87,7 +91,8 @@ TEST(LimitDescription, ZerosAreNoLimits) {
   EXPECT_FALSE(limit.bounds_position() || limit.bounds_effort() || limit.bounds_velocity());
   limit.lower = -1.0;
   EXPECT_TRUE(limit.bounds_position());
-  limit.effort = Quantity(0.0, std::make_shared<const Expression>("x", std::vector<std::string>{"x"}));
+  limit.effort =
+      Quantity(0.0, std::make_shared<const Expression>("x", std::vector<std::string>{"x"}));
   EXPECT_TRUE(limit.bounds_effort()) << "an expression";
   EXPECT_FALSE(limit.bounds_velocity());
 }

@@ -7,9 +7,12 @@
 namespace codesign {
 namespace {
 
-SignalDescription parse(const std::string& text) { return parse_signal(text, {"study.yaml", 7}, "objective.integral[0].signal"); }
+SignalDescription parse(const std::string& text) {
+  return parse_signal(text, {"study.yaml", 7}, "objective.integral[0].signal");
+}
 
-void expect_term(const SignalTerm& term, double factor, const char* object, const char* quantity, const char* component) {
+void expect_term(const SignalTerm& term, double factor, const char* object, const char* quantity,
+                 const char* component) {
   EXPECT_EQ(term.factor, factor);
   EXPECT_EQ(term.object, object);
   EXPECT_EQ(term.quantity, quantity);
@@ -42,7 +45,9 @@ TEST(Signal, NamesMayHoldSignsAndBlanks) {
 }
 
 TEST(Signal, NamesMayHoldSlashes) {
-  const auto terms = parse("arm/1/position - left/elbow/velocity + base/tool/position/x-position/x/velocity/y").terms;
+  const auto terms =
+      parse("arm/1/position - left/elbow/velocity + base/tool/position/x-position/x/velocity/y")
+          .terms;
   ASSERT_EQ(terms.size(), 4U);
   expect_term(terms[0], 1.0, "arm/1", "position", "");
   expect_term(terms[1], -1.0, "left/elbow", "velocity", "");
@@ -51,8 +56,9 @@ TEST(Signal, NamesMayHoldSlashes) {
 }
 
 TEST(Signal, RefusesWhatIsNoSignal) {
-  for (const char* text : {"", "crank_joint", "crank_joint/", "/velocity", "a/velocity +", "a/velocity b/velocity", "a/velocity/",
-                           "a/velocity/x/y", "a/velocity - - b/velocity", "a/velocity * 2", "2", "a/9"}) {
+  for (const char* text : {"", "crank_joint", "crank_joint/", "/velocity", "a/velocity +",
+                           "a/velocity b/velocity", "a/velocity/", "a/velocity/x/y",
+                           "a/velocity - - b/velocity", "a/velocity * 2", "2", "a/9"}) {
     try {
       parse(text);
       ADD_FAILURE() << text;

@@ -9,7 +9,8 @@
 
 namespace codesign {
 
-/// The enumerator that study files spell as `name`. @throws std::invalid_argument for an unknown name.
+/// The enumerator that study files spell as `name`. @throws std::invalid_argument for an unknown
+/// name.
 template <class Enumeration, class Names>
 Enumeration enumerator_named(const Names& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -17,8 +18,14 @@ Enumeration enumerator_named(const Names& names, const std::string& name) {
   return static_cast<Enumeration>(found - names.begin());
 }
 
-inline IntegratorKind integrator_named(const std::string& name) { return enumerator_named<IntegratorKind>(kIntegratorNames, name); }
-inline RosenbrockMethod method_named(const std::string& name) { return enumerator_named<RosenbrockMethod>(kRosenbrockMethodNames, name); }
-inline GradientMethod gradient_named(const std::string& name) { return enumerator_named<GradientMethod>(kGradientMethodNames, name); }
+inline IntegratorKind integrator_named(const std::string& name) {
+  return enumerator_named<IntegratorKind>(kIntegratorNames, name);
+}
+inline RosenbrockMethod method_named(const std::string& name) {
+  return enumerator_named<RosenbrockMethod>(kRosenbrockMethodNames, name);
+}
+inline GradientMethod gradient_named(const std::string& name) {
+  return enumerator_named<GradientMethod>(kGradientMethodNames, name);
+}
 
 }  // namespace codesign

@@ -10,7 +10,8 @@ namespace {
 const std::vector<std::string> kLengths = {"crank_length", "rod_length"};
 
 double margin(const std::string& text, double crank, double rod) {
-  return parse_constraint(text, kLengths, {"study.yaml", 4}, "constraints[0]").margin->value(std::vector<double>{crank, rod});
+  return parse_constraint(text, kLengths, {"study.yaml", 4}, "constraints[0]")
+      .margin->value(std::vector<double>{crank, rod});
 }
 
 TEST(ParameterConstraint, MarginIsWhatIsLeftBeforeTheLimit) {
@@ -20,7 +21,8 @@ TEST(ParameterConstraint, MarginIsWhatIsLeftBeforeTheLimit) {
 }
 
 TEST(ParameterConstraint, KeepsItsText) {
-  EXPECT_EQ(parse_constraint("rod_length >= 0.1", kLengths, {"s", 1}, "constraints[0]").text, "rod_length >= 0.1");
+  EXPECT_EQ(parse_constraint("rod_length >= 0.1", kLengths, {"s", 1}, "constraints[0]").text,
+            "rod_length >= 0.1");
 }
 
 TEST(ParameterConstraint, LeavesComparisonsInParenthesesToTheExpression) {
@@ -28,11 +30,14 @@ TEST(ParameterConstraint, LeavesComparisonsInParenthesesToTheExpression) {
 }
 
 TEST(ParameterConstraint, IsMadeOfTwoSides) {
-  const ParameterConstraint made = make_constraint("short", "crank_length + 0.1", "rod_length", kLengths, {"s", 2}, "constraints[3]");
+  const ParameterConstraint made = make_constraint("short", "crank_length + 0.1", "rod_length",
+                                                   kLengths, {"s", 2}, "constraints[3]");
   EXPECT_EQ(made.text, "short");
   EXPECT_EQ(made.element, "constraints[3]");
   EXPECT_DOUBLE_EQ(made.margin->value(std::vector<double>{0.1, 0.5}), 0.3);
-  EXPECT_THROW(make_constraint("open", "(crank_length", "rod_length)", kLengths, {"s", 2}, "constraints[3]"), std::invalid_argument);
+  EXPECT_THROW(
+      make_constraint("open", "(crank_length", "rod_length)", kLengths, {"s", 2}, "constraints[3]"),
+      std::invalid_argument);
 }
 
 void expect_bad_constraint(const std::string& text, const std::string& reason) {
@@ -68,7 +73,8 @@ TEST(TunedParameters, StandInTheOrderOfTheStudy) {
   EXPECT_EQ(start_parameters(study), (std::vector<double>{1.0, 2.0, 3.0}));
   EXPECT_EQ(start_of(study), Eigen::Vector2d(3.0, 1.0));
   EXPECT_EQ(tuned_names(study), (std::vector<std::string>{"c", "a"}));
-  EXPECT_EQ(parameters_at(study, Eigen::Vector2d(30.0, 10.0)), (std::vector<double>{10.0, 2.0, 30.0}));
+  EXPECT_EQ(parameters_at(study, Eigen::Vector2d(30.0, 10.0)),
+            (std::vector<double>{10.0, 2.0, 30.0}));
 }
 
 TEST(TunedParameters, AreRequiredForASearch) {

@@ -30,7 +30,8 @@ TEST(RigidBody, MassTimesAcceleration) {
 }
 
 TEST(RigidBody, AgreesWithEulersEquations) {
-  // For a unit p with omega' = 2 G p' the rows are 2 G^T (J dw/dt + w x J w), up to a multiple of p that the norm's multiplier takes.
+  // For a unit p with omega' = 2 G p' the rows are 2 G^T (J dw/dt + w x J w), up to a multiple of p
+  // that the norm's multiplier takes.
   const Vector4<double> p = Vector4<double>(0.5, -0.3, 0.7, 0.2).normalized();
   const Matrix34<double> G = body_rate_matrix(p);
   const Vector3<double> w(1.2, -0.7, 0.4), wd(-0.3, 0.9, 2.0);
@@ -48,13 +49,16 @@ TEST(RigidBody, AgreesWithEulersEquations) {
 }
 
 const char* const kActuator =
-    "<codesign:actuator gear_ratio='3' codesign:gear_ratio='${2*ratio}' rotor_inertia='0.01' codesign:rotor_inertia='${mass/80}'/>";
+    "<codesign:actuator gear_ratio='3' codesign:gear_ratio='${2*ratio}' rotor_inertia='0.01' "
+    "codesign:rotor_inertia='${mass/80}'/>";
 
 std::vector<JointCase> rotor_cases() {
   using namespace joint_cases;
   const std::string more = std::string(kOrigin) + kActuator;
-  std::string universal = chain({{'R', "1 0 0"}, {'R', "0.3 1 0"}}), cylindrical = chain({{'R', "0 0 1"}, {'P', "0 0 1"}});
-  for (std::string* folded : {&universal, &cylindrical}) folded->insert(folded->find("</joint>"), kActuator);
+  std::string universal = chain({{'R', "1 0 0"}, {'R', "0.3 1 0"}}),
+              cylindrical = chain({{'R', "0 0 1"}, {'P', "0 0 1"}});
+  for (std::string* folded : {&universal, &cylindrical})
+    folded->insert(folded->find("</joint>"), kActuator);
   const std::string from_tip = loop("revolute", "base", kActuator);
   return {{"revolute", tree("joint", "revolute", "base", "tip", "1 0 0.5", more)},
           {"prismatic", tree("joint", "prismatic", "base", "tip", "1 0 0.5", more)},
@@ -67,12 +71,15 @@ std::vector<JointCase> rotor_cases() {
 class RotorConformance : public ::testing::TestWithParam<JointCase> {};
 
 TEST_P(RotorConformance, DerivativesAreExact) {
-  EquationsFixture e(joint_cases::model(GetParam()), "duration: 1.0\nobjective: {integral: [{signal: mechanism/kinetic_energy}]}\n");
+  EquationsFixture e(
+      joint_cases::model(GetParam()),
+      "duration: 1.0\nobjective: {integral: [{signal: mechanism/kinetic_energy}]}\n");
   ASSERT_EQ(e.system.rotors().size(), 1U);
   e.expect_exact_derivatives(1e-10);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllJoints, RotorConformance, ::testing::ValuesIn(rotor_cases()), [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(AllJoints, RotorConformance, ::testing::ValuesIn(rotor_cases()),
+                         [](const auto& c) { return c.param.name; });
 
 /// A link of given mass, centre and inertia.
 std::string heavy(const std::string& name, const MassProperties<double>& m) {
@@ -84,10 +91,11 @@ std::string heavy(const std::string& name, const MassProperties<double>& m) {
   };
   std::ostringstream text;
   text.precision(17);
-  text << "<link name='" << name << "'><inertial><origin xyz='" << m.centre.transpose() << "'/><mass value=" << number(m.mass)
-       << "/><inertia ixx=" << number(m.inertia(0, 0)) << " ixy=" << number(m.inertia(0, 1)) << " ixz=" << number(m.inertia(0, 2))
-       << " iyy=" << number(m.inertia(1, 1)) << " iyz=" << number(m.inertia(1, 2)) << " izz=" << number(m.inertia(2, 2))
-       << "/></inertial></link>";
+  text << "<link name='" << name << "'><inertial><origin xyz='" << m.centre.transpose()
+       << "'/><mass value=" << number(m.mass) << "/><inertia ixx=" << number(m.inertia(0, 0))
+       << " ixy=" << number(m.inertia(0, 1)) << " ixz=" << number(m.inertia(0, 2))
+       << " iyy=" << number(m.inertia(1, 1)) << " iyz=" << number(m.inertia(1, 2))
+       << " izz=" << number(m.inertia(2, 2)) << "/></inertial></link>";
   return text.str();
 }
 
@@ -98,7 +106,8 @@ MassProperties<double> sum_of(const MassProperties<double>& a, const MassPropert
   sum.inertia.setZero();
   for (const MassProperties<double>* part : {&a, &b}) {
     const Eigen::Vector3d d = part->centre - sum.centre;
-    sum.inertia += part->inertia + part->mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+    sum.inertia += part->inertia +
+                   part->mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
   }
   return sum;
 }
@@ -120,7 +129,8 @@ MassProperties<double> rotor_mass() {
   MassProperties<double> m;
   m.mass = 0.4;
   m.centre = Eigen::Vector3d(0.1, 0.05, -0.02);
-  m.inertia = 1.3e-4 * Eigen::Matrix3d::Identity() + (kInertia - 1.3e-4) * kAxis * kAxis.transpose();
+  m.inertia =
+      1.3e-4 * Eigen::Matrix3d::Identity() + (kInertia - 1.3e-4) * kAxis * kAxis.transpose();
   return m;
 }
 
@@ -131,59 +141,81 @@ std::string text_of(const Eigen::Vector3d& x) {
   return text.str();
 }
 
-/// A body that flies and an arm on it. The rotor is annotated, or a link of its own with a coupling.
+/// A body that flies and an arm on it. The rotor is annotated, or a link of its own with a
+/// coupling.
 std::string flyer(const std::string& type, bool annotated) {
   MassProperties<double> centred = rotor_mass();
   centred.centre.setZero();
-  const std::string explicit_rotor = heavy("rotor", centred) +
-                                     "<joint name='spin' type='continuous'><parent link='base'/><child link='rotor'/><origin xyz='" +
-                                     text_of(rotor_mass().centre) + "'/><axis xyz='" + text_of(kAxis) +
-                                     "'/></joint><coupling name='gear'><predecessor link='arm'/><successor link='rotor'/><ratio "
-                                     "value='-20'/></coupling>";
+  const std::string explicit_rotor =
+      heavy("rotor", centred) +
+      "<joint name='spin' type='continuous'><parent link='base'/><child link='rotor'/><origin "
+      "xyz='" +
+      text_of(rotor_mass().centre) + "'/><axis xyz='" + text_of(kAxis) +
+      "'/></joint><coupling name='gear'><predecessor link='arm'/><successor link='rotor'/><ratio "
+      "value='-20'/></coupling>";
   const std::string annotation = "<codesign:actuator gear_ratio='-20' rotor_inertia='0.0002'/>";
-  return robot(heavy("base", annotated ? sum_of(body_mass(), rotor_mass()) : body_mass()) + bar("arm") +
-               "<joint name='free' type='floating'><parent link='ground'/><child link='base'/></joint><joint name='drive' type='" + type +
-               "'><parent link='base'/><child link='arm'/><origin xyz='0.2 0.1 0.3' rpy='0 0 0'/><axis xyz='" + text_of(kAxis) +
-               "'/><limit lower='-9' upper='9' effort='9' velocity='9'/>" + (annotated ? annotation : "") + "</joint>" +
-               (annotated ? "" : explicit_rotor));
+  return robot(heavy("base", annotated ? sum_of(body_mass(), rotor_mass()) : body_mass()) +
+               bar("arm") +
+               "<joint name='free' type='floating'><parent link='ground'/><child "
+               "link='base'/></joint><joint name='drive' type='" +
+               type +
+               "'><parent link='base'/><child link='arm'/><origin xyz='0.2 0.1 0.3' rpy='0 0 "
+               "0'/><axis xyz='" +
+               text_of(kAxis) + "'/><limit lower='-9' upper='9' effort='9' velocity='9'/>" +
+               (annotated ? annotation : "") + "</joint>" + (annotated ? "" : explicit_rotor));
 }
 
 const char* const kFlight =
-    "duration: 1.0\nobjective: {integral: [{signal: drive/position}]}\nloads: [{joint: drive, effort: 0.7}]\n"
-    "initial_state: {drive: {position: 0.3, velocity: 2.0}, free: {rotation: [0.4, -0.3, 1.2], linear_velocity: [0.5, 0, -0.2], "
+    "duration: 1.0\nobjective: {integral: [{signal: drive/position}]}\nloads: [{joint: drive, "
+    "effort: 0.7}]\n"
+    "initial_state: {drive: {position: 0.3, velocity: 2.0}, free: {rotation: [0.4, -0.3, 1.2], "
+    "linear_velocity: [0.5, 0, -0.2], "
     "angular_velocity: [1.5, -2.0, 3.0]}}\n";
 
 class ExplicitRotor : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ExplicitRotor, GivesTheSameAccelerationsReactionsAndEnergy) {
-  Compiled annotated(flyer(GetParam(), true), kFlight), explicitly(flyer(GetParam(), false), kFlight);
+  Compiled annotated(flyer(GetParam(), true), kFlight),
+      explicitly(flyer(GetParam(), false), kFlight);
   ASSERT_TRUE(annotated.start().ok());
   ASSERT_TRUE(explicitly.start().ok());
   const auto signal = [](Compiled* c, const std::string& text) {
-    return c->equations.formulas().signal(resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), {}),
-                                          c->state);
+    return c->equations.formulas().signal(
+        resolve_signal(parse_signal(text, {}, "test"), c->system.robot(), c->system.topology(), {}),
+        c->state);
   };
   const double acceleration = signal(&annotated, "drive/acceleration");
   EXPECT_GT(std::abs(acceleration), 0.1);
-  EXPECT_NEAR(acceleration, signal(&explicitly, "drive/acceleration"), 1e-10 * std::abs(acceleration));
-  for (const char* text : {"mechanism/kinetic_energy", "mechanism/potential_energy", "mechanism/load_power"})
-    EXPECT_NEAR(signal(&annotated, text), signal(&explicitly, text), 1e-11 * (1.0 + std::abs(signal(&annotated, text)))) << text;
+  EXPECT_NEAR(acceleration, signal(&explicitly, "drive/acceleration"),
+              1e-10 * std::abs(acceleration));
+  for (const char* text :
+       {"mechanism/kinetic_energy", "mechanism/potential_energy", "mechanism/load_power"})
+    EXPECT_NEAR(signal(&annotated, text), signal(&explicitly, text),
+                1e-11 * (1.0 + std::abs(signal(&annotated, text))))
+        << text;
   // The arm is body 1 in both; the base's centre of mass differs, but not its turning.
   const auto part = [](const Compiled& c, Eigen::Index first, Eigen::Index size) {
     return Eigen::VectorXd(c.state.z.segment(first, size));
   };
-  EXPECT_LT((part(annotated, 3, 4) - part(explicitly, 3, 4)).norm(), 1e-10 * part(annotated, 3, 4).norm());
-  EXPECT_LT((part(annotated, 7, 7) - part(explicitly, 7, 7)).norm(), 1e-10 * part(annotated, 7, 7).norm());
+  EXPECT_LT((part(annotated, 3, 4) - part(explicitly, 3, 4)).norm(),
+            1e-10 * part(annotated, 3, 4).norm());
+  EXPECT_LT((part(annotated, 7, 7) - part(explicitly, 7, 7)).norm(),
+            1e-10 * part(annotated, 7, 7).norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(AllJoints, ExplicitRotor, ::testing::Values("revolute", "prismatic"));
 
-// Two flat bodies that turn about z, and a rotor: (I1 + I2) w' + (I2 + n J) th'' = 0, (I2 + n J) w' + (I2 + n^2 J) th'' = tau.
+// Two flat bodies that turn about z, and a rotor: (I1 + I2) w' + (I2 + n J) th'' = 0, (I2 + n J) w'
+// + (I2 + n^2 J) th'' = tau.
 TEST(Rotor, OfAGyrostatByHand) {
-  const std::string disc = "<inertial><mass value='1'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.2'/></inertial>";
+  const std::string disc =
+      "<inertial><mass value='1'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' "
+      "izz='0.2'/></inertial>";
   Compiled c(robot("<link name='base'>" + disc + "</link><link name='wheel'>" + disc +
-                   "</link><joint name='free' type='floating'><parent link='ground'/><child link='base'/></joint>"
-                   "<joint name='drive' type='continuous'><parent link='base'/><child link='wheel'/><axis xyz='0 0 1'/>"
+                   "</link><joint name='free' type='floating'><parent link='ground'/><child "
+                   "link='base'/></joint>"
+                   "<joint name='drive' type='continuous'><parent link='base'/><child "
+                   "link='wheel'/><axis xyz='0 0 1'/>"
                    "<codesign:actuator gear_ratio='5' rotor_inertia='0.004'/></joint>"),
              "duration: 1.0\nloads: [{joint: drive, effort: 0.3}]\ngravity: [0, 0, 0]\n");
   ASSERT_TRUE(c.start().ok());
@@ -211,7 +243,8 @@ TEST(Rotor, NeedsACarrierWithMass) {
     EquationsFixture e(joint_cases::model({"", chain}), "duration: 1.0\n");
     ADD_FAILURE() << "a rotor on a link without mass";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("carries the rotor"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("carries the rotor"), std::string::npos)
+        << error.what();
     EXPECT_EQ(error.fault().value, "frame0");
   }
 }

@@ -9,8 +9,9 @@
 namespace codesign {
 namespace {
 
-/// Friction with states on every pair that can have it: a prismatic joint that carries a ball, so that the ball's socket moves, a hinge, a
-/// cylindrical loop, a table, a planar joint that also turns. `Gonthier` and `LuGre` alternate.
+/// Friction with states on every pair that can have it: a prismatic joint that carries a ball, so
+/// that the ball's socket moves, a hinge, a cylindrical loop, a table, a planar joint that also
+/// turns. `Gonthier` and `LuGre` alternate.
 const char* const kMechanism = R"(
 <robot name="bristles" xmlns:codesign="urn:test"><link name="ground"/>
   <link name="cart"><inertial><origin xyz="0.1 0 0.05"/><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial></link>
@@ -40,14 +41,17 @@ const char* const kMechanism = R"(
 </robot>)";
 
 /// Transition velocity and stiffness for which all terms matter at states and speeds of order one.
-std::string mechanism(const std::string& gonthier = "gonthier", const std::string& lugre = "lugre") {
+std::string mechanism(const std::string& gonthier = "gonthier",
+                      const std::string& lugre = "lugre") {
   const auto law = [](const std::string& model) {
-    return "model=\"" + model + "\" mu_static=\"0.6\" mu_dynamic=\"0.4\" transition_velocity=\"1.2\"" +
+    return "model=\"" + model +
+           "\" mu_static=\"0.6\" mu_dynamic=\"0.4\" transition_velocity=\"1.2\"" +
            (model == "brown_mcphee" ? "" : " bristle_stiffness=\"3\" bristle_damping=\"0.2\"") +
            (model == "gonthier" ? " dwell_time=\"0.7\"" : "");
   };
-  return std::regex_replace(std::regex_replace(std::string(kMechanism), std::regex("GONTHIER"), law(gonthier)), std::regex("LUGRE"),
-                            law(lugre));
+  return std::regex_replace(
+      std::regex_replace(std::string(kMechanism), std::regex("GONTHIER"), law(gonthier)),
+      std::regex("LUGRE"), law(lugre));
 }
 
 const char* const kStudy = R"(
@@ -85,7 +89,8 @@ TEST_F(EquationsBristlesTest, StatesStandBehindTheControllers) {
 TEST_F(EquationsBristlesTest, EveryDerivativeIsExact) {
   expect_exact_derivatives(1e-9);
   // Deflections so small that no friction reaches its bound F, theory (13e).
-  for (Eigen::Index k = 0; k < state.s.size(); ++k) state.s[k] = 0.05 + 0.02 * static_cast<double>(k % 3);
+  for (Eigen::Index k = 0; k < state.s.size(); ++k)
+    state.s[k] = 0.05 + 0.02 * static_cast<double>(k % 3);
   state.v *= 0.1;
   expect_exact_derivatives(1e-9);
   // Sliding with full dwell states: the expected branches.
@@ -102,26 +107,33 @@ TEST(EquationsBristles, WithoutStatesTheLawIsBrownAndMcPhees) {
 }
 
 TEST_F(EquationsBristlesTest, AContactThatTurnsAsOneKeepsItsDeflection) {
-  // Both bodies of the ball turn at the same rate: in the ground's axes zeta turns with them and does not change otherwise.
-  const auto ball = std::find_if(system.bristles().begin(), system.bristles().end(), [&](const BristleContact& c) {
-    return system.topology().pairs[static_cast<std::size_t>(c.pair)].kind == PairKind::kSpherical;
-  });
+  // Both bodies of the ball turn at the same rate: in the ground's axes zeta turns with them and
+  // does not change otherwise.
+  const auto ball = std::find_if(
+      system.bristles().begin(), system.bristles().end(), [&](const BristleContact& c) {
+        return system.topology().pairs[static_cast<std::size_t>(c.pair)].kind ==
+               PairKind::kSpherical;
+      });
   ASSERT_NE(ball, system.bristles().end());
   const Pair& pair = system.topology().pairs[static_cast<std::size_t>(ball->pair)];
   const Eigen::Vector3d omega(0.3, -0.5, 0.8), zeta(0.1, 0.2, -0.1);
   for (int b : {pair.body_i, pair.body_j})
     state.v.segment<4>(kBodySize * b + 3) =
-        0.5 * ground_rate_matrix<double>(Eigen::Vector4d(state.q.segment<4>(kBodySize * b + 3))).transpose() * omega;
+        0.5 *
+        ground_rate_matrix<double>(Eigen::Vector4d(state.q.segment<4>(kBodySize * b + 3)))
+            .transpose() *
+        omega;
   state.s.segment<3>(ball->first) = zeta;
   state.z.setZero();
   VectorX<double> G;
   double g = 0.0;
   real.residual(state, &G, &g);
-  EXPECT_NEAR((-G.segment<3>(system.layout().state_column(ball->first)) - omega.cross(zeta)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((-G.segment<3>(system.layout().state_column(ball->first)) - omega.cross(zeta)).norm(),
+              0.0, 1e-14);
 }
 
-/// A table, a ball folded from hinges, a planar joint with a turning contact, and a spherical loop, all with friction; loads on the
-/// coordinates of the folded ball and of a universal joint.
+/// A table, a ball folded from hinges, a planar joint with a turning contact, and a spherical loop,
+/// all with friction; loads on the coordinates of the folded ball and of a universal joint.
 const char* const kContactMechanism = R"(
 <robot name="contacts" xmlns:codesign="urn:test"><link name="ground"/>
   <link name="cross"/>
@@ -190,7 +202,8 @@ TEST_F(EquationsContactsTest, EveryDerivativeIsExact) {
 
 TEST_F(EquationsContactsTest, EveryDerivativeIsExactAtRest) {
   state.v.setZero();
-  // At rest the reported magnitudes, which the integrand reads, are not differentiable, so only the rows of G are compared.
+  // At rest the reported magnitudes, which the integrand reads, are not differentiable, so only the
+  // rows of G are compared.
   using S = State<std::complex<double>>;
   Linearization<double> d;
   d.resize(system.patterns());
@@ -199,7 +212,8 @@ TEST_F(EquationsContactsTest, EveryDerivativeIsExactAtRest) {
   const auto top = [rows](const Eigen::MatrixXd& m) { return Eigen::MatrixXd(m.topRows(rows)); };
   for (const std::vector<double>* values : {&d.position, &d.velocity, &d.rate})
     for (double value : *values) ASSERT_TRUE(std::isfinite(value));
-  const Eigen::MatrixXd by_q = dense(system.patterns().position, d.position).leftCols(system.layout().n);
+  const Eigen::MatrixXd by_q =
+      dense(system.patterns().position, d.position).leftCols(system.layout().n);
   EXPECT_LT(compare_jacobians(top(by_q), top(reference(&S::q, state.q))).largest, 1e-10);
 }
 
@@ -212,12 +226,15 @@ TEST_F(EquationsContactsTest, FrictionTakesPowerAndMatchesItsReports) {
   }
   // A ball: |T| = r_e S(r_e |omega|) N + c |omega|, since slip and load are parallel.
   const ContactFriction<double> ball = real.formulas().contact(pair_of("ball_x"));
-  const double S = friction_per_speed(std::pow(0.2 * ball.speed(), 2), 0.3, 0.2, 0.5) * 0.2 * ball.speed();
+  const double S =
+      friction_per_speed(std::pow(0.2 * ball.speed(), 2), 0.3, 0.2, 0.5) * 0.2 * ball.speed();
   EXPECT_NEAR(ball.magnitude(), 0.2 * S * ball.normal + 0.05 * ball.speed(), 1e-12);
   // A table: |F| = S(|v|) N + c |v|.
   const ContactFriction<double> table = real.formulas().contact(pair_of("table_y"));
   const double speed = table.speed();
-  EXPECT_NEAR(table.magnitude(), friction_per_speed(speed * speed, 0.4, 0.3, 0.5) * speed * table.normal + 0.1 * speed, 1e-12);
+  EXPECT_NEAR(table.magnitude(),
+              friction_per_speed(speed * speed, 0.4, 0.3, 0.5) * speed * table.normal + 0.1 * speed,
+              1e-12);
 }
 
 TEST_F(EquationsContactsTest, ABallTurnsAtTheDifferenceOfTheAngularVelocities) {
@@ -227,33 +244,42 @@ TEST_F(EquationsContactsTest, ABallTurnsAtTheDifferenceOfTheAngularVelocities) {
     const BodyKinematics<double>& b = real.formulas().body(index);
     return Eigen::Vector3d(2.0 * ground_rate_matrix(b.p) * b.pd);
   };
-  EXPECT_NEAR(real.formulas().contact(pair_of("socket")).speed(), (omega(pair.body_j) - omega(pair.body_i)).norm(), 1e-12);
+  EXPECT_NEAR(real.formulas().contact(pair_of("socket")).speed(),
+              (omega(pair.body_j) - omega(pair.body_i)).norm(), 1e-12);
 }
 
 std::string study_with(const std::string& controllers, const std::string& signal) {
-  return "duration: 1.0\ninitial_state: {}\ncontrollers: " + controllers + "\nparameters: {}\nobjective: {integral: [{signal: " + signal +
+  return "duration: 1.0\ninitial_state: {}\ncontrollers: " + controllers +
+         "\nparameters: {}\nobjective: {integral: [{signal: " + signal +
          "}], terminal: []}\nsolver: {integrator: rosenbrock}\noptimizer: {algorithm: lbfgs}\n";
 }
 
 TEST(EquationsContacts, TheRateOfASlipIsNoSignal) {
   // A d gain would need the time derivative of a speed.
   EXPECT_THROW(
-      EquationsFixture(kContactMechanism, study_with("{c: {type: pid, input: table_y/sliding_velocity, setpoint: 0.0, output: table_x, "
-                                                     "gains: {d: 1.0}}}",
-                                                     "table_x/position")),
+      EquationsFixture(
+          kContactMechanism,
+          study_with(
+              "{c: {type: pid, input: table_y/sliding_velocity, setpoint: 0.0, output: table_x, "
+              "gains: {d: 1.0}}}",
+              "table_x/position")),
       InputError);
 }
 
 TEST(EquationsContacts, HingesWithoutClosedFormAreRefused) {
-  // Three hinges through one point, not at right angles: still folded into a ball, but the single hinges have no coordinates.
-  const std::string skew = std::regex_replace(
-      kContactMechanism, std::regex("<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics damping=\"0.3\" friction=\"0.1\"/>"),
-      "<child link=\"ball_b\"/><axis xyz=\"0.5 1 0\"/>");
+  // Three hinges through one point, not at right angles: still folded into a ball, but the single
+  // hinges have no coordinates.
+  const std::string skew =
+      std::regex_replace(kContactMechanism,
+                         std::regex("<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics "
+                                    "damping=\"0.3\" friction=\"0.1\"/>"),
+                         "<child link=\"ball_b\"/><axis xyz=\"0.5 1 0\"/>");
   ASSERT_NE(skew, kContactMechanism);
-  EXPECT_THROW(EquationsFixture(skew, study_with("{}", "table_x/position")), InputError);  // because of the spring on ball_z
-  const std::string passive =
-      std::regex_replace(std::regex_replace(skew, std::regex("<codesign:torsion_spring[^>]*free_position[^>]*>"), ""),
-                         std::regex("<dynamics damping=\"0.05\"/>"), "");
+  EXPECT_THROW(EquationsFixture(skew, study_with("{}", "table_x/position")),
+               InputError);  // because of the spring on ball_z
+  const std::string passive = std::regex_replace(
+      std::regex_replace(skew, std::regex("<codesign:torsion_spring[^>]*free_position[^>]*>"), ""),
+      std::regex("<dynamics damping=\"0.05\"/>"), "");
   EXPECT_NO_THROW(EquationsFixture(passive, study_with("{}", "table_x/position")));
   EXPECT_THROW(EquationsFixture(passive, study_with("{}", "ball_x/velocity")), InputError);
 }

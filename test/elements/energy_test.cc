@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Energies and powers, theory (14b), (14c): their derivatives, and that the rate of the energy is the sum of the powers.
+// Energies and powers, theory (14b), (14c): their derivatives, and that the rate of the energy is
+// the sum of the powers.
 #include <gtest/gtest.h>
 
 #include "equations/equations_fixture.h"
@@ -23,17 +24,22 @@ std::string study_of(const std::string& signals, const std::string& more = "") {
 }
 
 const char* const kEnergies =
-    "{signal: mechanism/kinetic_energy, reference: 1.0}, {signal: mechanism/potential_energy}, {signal: mechanism/total_energy, weight: "
+    "{signal: mechanism/kinetic_energy, reference: 1.0}, {signal: mechanism/potential_energy}, "
+    "{signal: mechanism/total_energy, weight: "
     "0.3}";
 const char* const kPowers =
-    "{signal: mechanism/friction_power, reference: 1.0}, {signal: mechanism/damping_power}, {signal: mechanism/actuator_power}, {signal: "
+    "{signal: mechanism/friction_power, reference: 1.0}, {signal: mechanism/damping_power}, "
+    "{signal: mechanism/actuator_power}, {signal: "
     "mechanism/load_power}";
 
 const char* const kDriven =
     "limits: {position: true, effort: true, stiffness: 50.0, width: 0.01, dissipation: 0.4}\n"
-    "controllers: {servo: {type: pid, input: elbow/position, output: elbow, setpoint: 0.4, gains: {p: 3.0, d: 0.2}}}\n"
-    "loads: [{joint: shoulder, effort: 1.5}, {link: lower, force: [1.0, -2.0, 0.5], torque: [0.1, 0.2, 0.3], point: [0.1, 0, -0.4]},\n"
-    "        {link: upper, force: [0.4, 0.3, -1.0], torque: [0.3, -0.2, 0.1], point: [0, 0.2, 0.1], frame: link}]\n";
+    "controllers: {servo: {type: pid, input: elbow/position, output: elbow, setpoint: 0.4, gains: "
+    "{p: 3.0, d: 0.2}}}\n"
+    "loads: [{joint: shoulder, effort: 1.5}, {link: lower, force: [1.0, -2.0, 0.5], torque: [0.1, "
+    "0.2, 0.3], point: [0.1, 0, -0.4]},\n"
+    "        {link: upper, force: [0.4, 0.3, -1.0], torque: [0.3, -0.2, 0.1], point: [0, 0.2, "
+    "0.1], frame: link}]\n";
 
 std::vector<EnergyCase> cases() {
   return {{"Arm", loaded_arm(), kDriven},
@@ -80,26 +86,32 @@ TEST_P(EnergyConformance, TheRateOfTheEnergyIsThePower) {
   };
   EXPECT_EQ(energy_after(0.0), energy.kinetic + energy.potential);
   const double rate = ridders_derivative(energy_after, 0.0, 1e-3).value;
-  const double size = std::abs(power.friction) + std::abs(power.damping) + std::abs(power.actuators) + std::abs(power.loads);
+  const double size = std::abs(power.friction) + std::abs(power.damping) +
+                      std::abs(power.actuators) + std::abs(power.loads);
   EXPECT_NEAR(rate, power.total(), 1e-9 * (1.0 + size));
   EXPECT_LE(power.friction, 0.0);
   EXPECT_LE(power.damping, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllCases, EnergyConformance, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(AllCases, EnergyConformance, ::testing::ValuesIn(cases()),
+                         [](const auto& c) { return c.param.name; });
 
 TEST(EnergySignals, OfTheJointsAddUp) {
   const auto value = [](const std::string& text) {
     EquationsFixture e(loaded_arm(), study_of(kEnergies, kDriven));
     const SignalDescription description = parse_signal(text, {}, "test");
-    return e.real.formulas().signal(resolve_signal(description, e.robot, e.system.topology(), e.system.study().controllers), e.state);
+    return e.real.formulas().signal(
+        resolve_signal(description, e.robot, e.system.topology(), e.system.study().controllers),
+        e.state);
   };
   for (const char* quantity : {"/friction_power", "/actuator_power"}) {
     const double all = value(std::string("mechanism") + quantity);
     EXPECT_NE(all, 0.0);
-    EXPECT_NEAR(value(std::string("shoulder") + quantity) + value(std::string("elbow") + quantity), all, 1e-12 * std::abs(all));
+    EXPECT_NEAR(value(std::string("shoulder") + quantity) + value(std::string("elbow") + quantity),
+                all, 1e-12 * std::abs(all));
   }
-  EXPECT_LT(value("mechanism/damping_power - shoulder/damping_power - elbow/damping_power"), 0.0) << "the spring-damper's";
+  EXPECT_LT(value("mechanism/damping_power - shoulder/damping_power - elbow/damping_power"), 0.0)
+      << "the spring-damper's";
   EXPECT_NEAR(value("elbow/effort"), value("servo/output"), 0.1);
 }
 
@@ -107,7 +119,8 @@ TEST(EnergySignals, OfAContactAndOfACylindricalLoop) {
   Compiled c(puck(), study_of("{signal: slope/friction_power}"));
   ASSERT_TRUE(c.start().ok());
   ASSERT_TRUE(scramble(&c));
-  const Signal of_joint = resolve_signal(parse_signal("slope/friction_power", {}, "test"), c.system.robot(), c.system.topology(), {});
+  const Signal of_joint = resolve_signal(parse_signal("slope/friction_power", {}, "test"),
+                                         c.system.robot(), c.system.topology(), {});
   const double power = c.equations.formulas().signal(of_joint, c.state);
   EXPECT_LT(power, 0.0);
   EXPECT_EQ(power, c.equations.formulas().power(PowerKind::kFriction));

@@ -48,13 +48,15 @@ TEST_F(EquationsSpringsTest, PullsAreEqualAndOpposite) {
   state.z.setZero();
   real.residual(state, &G, &g);
   const double mass = real.constants().bodies[0].mass + real.constants().bodies[1].mass;
-  const Eigen::Vector3d sum = G.segment<3>(0) + G.segment<3>(kBodySize) - Eigen::Vector3d(0.0, 0.0, 9.81 * mass);
+  const Eigen::Vector3d sum =
+      G.segment<3>(0) + G.segment<3>(kBodySize) - Eigen::Vector3d(0.0, 0.0, 9.81 * mass);
   real.formulas().load(state);
   const SpringForce<double> hook = real.formulas().spring(1);
   EXPECT_LT((sum - hook.pull).norm(), 1e-13);
   EXPECT_NEAR(hook.tension, 10.0 * (hook.length - 0.1), 1e-13);
   const Eigen::Vector3d along =
-      (real.formulas().body(0).r + real.formulas().body(0).A * real.constants().springs[1].s_j) - Eigen::Vector3d(0.0, 0.0, 1.0);
+      (real.formulas().body(0).r + real.formulas().body(0).A * real.constants().springs[1].s_j) -
+      Eigen::Vector3d(0.0, 0.0, 1.0);
   EXPECT_NEAR(hook.length, along.norm(), 1e-13);
 }
 
@@ -62,31 +64,41 @@ TEST_F(EquationsSpringsTest, PullsAreEqualAndOpposite) {
 std::string flyer() {
   return robot(
       "<codesign:parameter name='push' value='2'/>"
-      "<link name='box'><inertial><origin xyz='0.1 0 0.2' rpy='0 0 0'/><mass value='2'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.2' "
+      "<link name='box'><inertial><origin xyz='0.1 0 0.2' rpy='0 0 0'/><mass value='2'/><inertia "
+      "ixx='0.1' ixy='0' ixz='0' iyy='0.2' "
       "iyz='0' "
-      "izz='0.25'/></inertial></link><joint name='free' type='floating'><parent link='ground'/><child link='box'/></joint>");
+      "izz='0.25'/></inertial></link><joint name='free' type='floating'><parent "
+      "link='ground'/><child link='box'/></joint>");
 }
 
 std::string loaded_study(const std::string& loads) {
-  return "duration: 1.0\ngravity: [0, 0, 0]\nobjective: {integral: [{signal: box/position/x}, {signal: mechanism/load_power}]}\nloads: [" +
+  return "duration: 1.0\ngravity: [0, 0, 0]\nobjective: {integral: [{signal: box/position/x}, "
+         "{signal: mechanism/load_power}]}\nloads: [" +
          loads + "]\n";
 }
 
-const char* const kInRoot = "{link: box, force: [\"${push}\", -1.0, 0.5], torque: [0.3, 0.2, \"${push/5}\"], point: [0.1, -0.2, 0.3]}";
+const char* const kInRoot =
+    "{link: box, force: [\"${push}\", -1.0, 0.5], torque: [0.3, 0.2, \"${push/5}\"], point: [0.1, "
+    "-0.2, 0.3]}";
 const char* const kInLink =
-    "{link: box, force: [\"${push}\", -1.0, 0.5], torque: [0.3, 0.2, \"${push/5}\"], point: [0.1, -0.2, 0.3], frame: link}";
+    "{link: box, force: [\"${push}\", -1.0, 0.5], torque: [0.3, 0.2, \"${push/5}\"], point: [0.1, "
+    "-0.2, 0.3], frame: link}";
 
 TEST(ConstantLoads, DerivativesAreExact) {
-  for (const std::string& loads : {std::string(kInRoot), std::string(kInLink), std::string(kInRoot) + ", " + kInLink}) {
+  for (const std::string& loads :
+       {std::string(kInRoot), std::string(kInLink), std::string(kInRoot) + ", " + kInLink}) {
     EquationsFixture e(flyer(), loaded_study(loads));
     e.expect_exact_derivatives(1e-10);
   }
-  EquationsFixture arm(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity", "loads: [{joint: elbow, effort: 2.0}]\n"));
+  EquationsFixture arm(double_pendulum(pin_friction()),
+                       let_go("{}", "elbow/velocity", "loads: [{joint: elbow, effort: 2.0}]\n"));
   arm.expect_exact_derivatives(1e-10);
 }
 
-/// Newton's and Euler's accelerations of the box under a wrench in ground axes at its start, where the axes agree.
-void expect_accelerations(const std::string& loads, const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+/// Newton's and Euler's accelerations of the box under a wrench in ground axes at its start, where
+/// the axes agree.
+void expect_accelerations(const std::string& loads, const Eigen::Vector3d& force,
+                          const Eigen::Vector3d& torque) {
   Compiled c(flyer(), loaded_study(loads));
   ASSERT_TRUE(c.start().ok());
   EXPECT_LT((c.state.z.head<3>() - force / 2.0).norm(), 1e-14);
@@ -109,13 +121,18 @@ TEST(ConstantLoads, FramesOfAWrench) {
     EXPECT_TRUE(c.start().ok());
     return Eigen::Vector3d(c.state.z.head<3>());
   };
-  EXPECT_LT((acceleration("{link: box, force: [2, 0, 0]}") - Eigen::Vector3d(1.0, 0.0, 0.0)).norm(), 1e-14);
-  EXPECT_LT((acceleration("{link: box, force: [2, 0, 0], frame: link}") - Eigen::Vector3d(0.0, 1.0, 0.0)).norm(), 1e-14);
+  EXPECT_LT((acceleration("{link: box, force: [2, 0, 0]}") - Eigen::Vector3d(1.0, 0.0, 0.0)).norm(),
+            1e-14);
+  EXPECT_LT(
+      (acceleration("{link: box, force: [2, 0, 0], frame: link}") - Eigen::Vector3d(0.0, 1.0, 0.0))
+          .norm(),
+      1e-14);
 }
 
 TEST(ConstantLoads, AnEffortIsALoadAlongTheJoint) {
-  Compiled c(pendulum(),
-             let_go("{}", "hinge/velocity", "gravity: [0, 0, 0]\nloads: [{joint: hinge, effort: 1.0}, {joint: hinge, effort: 0.5}]\n"));
+  Compiled c(pendulum(), let_go("{}", "hinge/velocity",
+                                "gravity: [0, 0, 0]\nloads: [{joint: hinge, effort: 1.0}, {joint: "
+                                "hinge, effort: 0.5}]\n"));
   ASSERT_TRUE(c.start().ok());
   c.equations.formulas().load(c.state);
   EXPECT_NEAR(c.equations.formulas().coordinate(0, 0).acceleration, 1.5 / (0.0834 + 0.25), 1e-12);
@@ -125,10 +142,12 @@ TEST(ConstantLoads, AnEffortIsALoadAlongTheJoint) {
 TEST(ConstantLoads, RefuseWhatCannotBeLoaded) {
   const auto fault = [](const std::string& loads) {
     try {
-      Compiled c(robot(bar("bar") + "<link name='tip'/><link name='frame'/>" + hinge("hinge", "ground", "bar", "0 0 0") +
-                       hinge("needle", "bar", "tip", "0 0 -1") +
-                       "<joint name='weld' type='fixed'><parent link='ground'/><child link='frame'/></joint>"),
-                 "duration: 1.0\nloads: [" + loads + "]\n");
+      Compiled c(
+          robot(bar("bar") + "<link name='tip'/><link name='frame'/>" +
+                hinge("hinge", "ground", "bar", "0 0 0") + hinge("needle", "bar", "tip", "0 0 -1") +
+                "<joint name='weld' type='fixed'><parent link='ground'/><child "
+                "link='frame'/></joint>"),
+          "duration: 1.0\nloads: [" + loads + "]\n");
     } catch (const InputError& error) {
       EXPECT_EQ(error.fault().where.line, 2);
       return error.fault().message;

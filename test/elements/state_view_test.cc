@@ -11,7 +11,9 @@ namespace {
 
 class StateViewTest : public ::testing::Test {
  protected:
-  StateViewTest() : c(pendulum(), let_go("{hinge: {position: 0.4, velocity: 2.0}}", "hinge/position")), view(c.system) {
+  StateViewTest()
+      : c(pendulum(), let_go("{hinge: {position: 0.4, velocity: 2.0}}", "hinge/position")),
+        view(c.system) {
     EXPECT_TRUE(c.start().ok());
     view.set_design(c.system.parameters());
     view.load(c.state);

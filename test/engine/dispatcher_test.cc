@@ -14,7 +14,9 @@ namespace {
 constexpr auto kNobody = [](MessageKind, std::uint64_t) { return std::optional<std::string>(); };
 
 std::vector<EvaluationTask> equal_tasks(const Problem& problem, int count) {
-  return std::vector<EvaluationTask>(static_cast<std::size_t>(count), {problem.system(), problem.parameters(), Derivatives::kGradient});
+  return std::vector<EvaluationTask>(
+      static_cast<std::size_t>(count),
+      {problem.system(), problem.parameters(), Derivatives::kGradient});
 }
 
 constexpr std::chrono::seconds kSilence{2};
@@ -26,7 +28,8 @@ RankTimes short_times() {
   return times;
 }
 
-/// The statuses other than success that come out, which are all the same, and how many tasks succeeded.
+/// The statuses other than success that come out, which are all the same, and how many tasks
+/// succeeded.
 std::pair<Status, int> outcome_of(const std::vector<Evaluation>& results) {
   std::pair<Status, int> outcome;
   for (const Evaluation& one : results)
@@ -47,14 +50,19 @@ TEST(Dispatcher, AProgramThatRunsAloneHasOneRank) {
 TEST(Dispatcher, ARankThatFallsSilentEndsTheJobWithItsName) {
   const Problem problem = block("");
   PlayedJob job(own_hello(), kNobody, short_times());
-  const auto [status, succeeded] = outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 8), nullptr));
+  const auto [status, succeeded] =
+      outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 8), nullptr));
   EXPECT_EQ(status.code, StatusCode::kWorkerLost);
-  EXPECT_NE(status.cause.find("rank 1 of 2 on host elsewhere has said nothing for"), std::string::npos) << status.cause;
+  EXPECT_NE(status.cause.find("rank 1 of 2 on host elsewhere has said nothing for"),
+            std::string::npos)
+      << status.cause;
   EXPECT_GE(succeeded, 1) << "what rank 0 computed is there";
   EXPECT_EQ(job.ranks()->lost().code, StatusCode::kWorkerLost);
   // The next call does not wait again.
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr)).second, 0);
+  EXPECT_EQ(
+      outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr)).second,
+      0);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, kSilence);
   EXPECT_FALSE(job.ranks()->finish());
 }
@@ -70,12 +78,14 @@ TEST(Dispatcher, ARankThatGivesSignsOfLifeIsWaitedFor) {
         Evaluation late;
         late.objective = 7.0;
         // The dispatcher's own signs of life drive the answers.
-        if (std::chrono::steady_clock::now() - begin > 1.5 * kSilence) return write_result(task, late);
+        if (std::chrono::steady_clock::now() - begin > 1.5 * kSilence)
+          return write_result(task, late);
         return write_numbered(MessageKind::kSign);
       },
       short_times());
   std::vector<double> objectives;
-  for (const Evaluation& one : MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr)) {
+  for (const Evaluation& one :
+       MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr)) {
     EXPECT_TRUE(one.status.ok()) << one.status.cause;
     objectives.push_back(one.objective);
   }
@@ -89,13 +99,17 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
     // The other rank gets a task, so that the batch does not end before that rank is pinged.
     const auto part = [answers, &cancel](MessageKind kind, std::uint64_t number) {
       if (kind == MessageKind::kTask) cancel = true;
-      return answers && kind == MessageKind::kPing ? std::optional<std::string>(write_numbered(MessageKind::kPong, number)) : std::nullopt;
+      return answers && kind == MessageKind::kPing
+                 ? std::optional<std::string>(write_numbered(MessageKind::kPong, number))
+                 : std::nullopt;
     };
     PlayedJob job(own_hello(), part, answers ? patient_times() : RankTimes{});
     job.wait_for_hello();
-    // Rank 0 may be at a task of its own when the cancel comes; that one is cancelled in either case.
+    // Rank 0 may be at a task of its own when the cancel comes; that one is cancelled in either
+    // case.
     bool has_lost = false;
-    for (const Evaluation& one : MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 3), &cancel))
+    for (const Evaluation& one :
+         MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 3), &cancel))
       has_lost = has_lost || one.status.code == StatusCode::kWorkerLost;
     EXPECT_EQ(has_lost, !answers);
     EXPECT_TRUE(job.ranks()->lost().ok()) << "it may have been busy otherwise";
@@ -112,7 +126,9 @@ TEST(Dispatcher, CallsTheRoll) {
   silent.wait_for_hello();
   const Status missed = silent.ranks()->call_roll();
   EXPECT_EQ(missed.code, StatusCode::kWorkerLost);
-  EXPECT_EQ(missed.cause, "rank 1 of 2 on host elsewhere does not answer: it was killed, or its machine cannot be reached");
+  EXPECT_EQ(missed.cause,
+            "rank 1 of 2 on host elsewhere does not answer: it was killed, or its machine cannot "
+            "be reached");
 }
 
 TEST(Dispatcher, AnotherVersionOfTheProgramIsRefused) {
@@ -121,9 +137,11 @@ TEST(Dispatcher, AnotherVersionOfTheProgramIsRefused) {
   hello.version = "0.0.1";
   PlayedJob job(hello, kNobody);
   while (job.ranks()->lost().ok()) std::this_thread::yield();
-  const Evaluation one = MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 1), nullptr).front();
+  const Evaluation one =
+      MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 1), nullptr).front();
   EXPECT_EQ(one.status.code, StatusCode::kWorkerLost);
-  EXPECT_NE(one.status.cause.find("on host elsewhere runs version 0.0.1"), std::string::npos) << one.status.cause;
+  EXPECT_NE(one.status.cause.find("on host elsewhere runs version 0.0.1"), std::string::npos)
+      << one.status.cause;
 }
 
 TEST(Dispatcher, AConnectionThatFailsIsNamed) {
@@ -132,7 +150,9 @@ TEST(Dispatcher, AConnectionThatFailsIsNamed) {
   MailTransport transport(&mail, 0);
   transport.failure_ = "the cable is cut";
   Dispatcher dispatcher(&transport);
-  EXPECT_EQ(outcome_of(MpiEngine(&dispatcher, problem).evaluate(equal_tasks(problem, 400), nullptr)).first.cause, "the cable is cut");
+  EXPECT_EQ(outcome_of(MpiEngine(&dispatcher, problem).evaluate(equal_tasks(problem, 400), nullptr))
+                .first.cause,
+            "the cable is cut");
 }
 
 }  // namespace

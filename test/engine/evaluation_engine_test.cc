@@ -18,7 +18,8 @@ namespace {
 std::vector<EvaluationTask> tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
   for (int k = 0; k < count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 3 != 0)});
+    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
+                      gradient_if(k % 3 != 0)});
   return result;
 }
 
@@ -47,7 +48,8 @@ TEST(Engine, AnyNumberOfWorkersGivesTheSameBits) {
   }
 }
 
-/// The shipped slider-crank, whose loops and frictions make the last bits depend on pivots, for a short time.
+/// The shipped slider-crank, whose loops and frictions make the last bits depend on pivots, for a
+/// short time.
 Problem slider_crank(const std::string& solver) {
   SourceText study = read_source(source_dir() + "/config/slider_crank.yaml");
   study.text.replace(study.text.find("duration: 2.0"), 13, "duration: 0.05");
@@ -74,7 +76,8 @@ TEST(Engine, AResultDoesNotDependOnWhatItsWorkerDidBefore) {
       EXPECT_EQ(again.status.code, expected[k].status.code) << solver;
       EXPECT_EQ(again.objective, expected[k].objective) << solver << ", task " << k;
       EXPECT_EQ(again.gradient, expected[k].gradient) << solver << ", task " << k;
-      EXPECT_EQ(again.statistics.constraint_drift, expected[k].statistics.constraint_drift) << solver << ", task " << k;
+      EXPECT_EQ(again.statistics.constraint_drift, expected[k].statistics.constraint_drift)
+          << solver << ", task " << k;
     }
   }
 }
@@ -87,7 +90,8 @@ TEST(Engine, SeveralCallersShareTheWorkers) {
   ThreadEngine engine(2);
   std::vector<std::vector<Evaluation>> results(4);
   std::vector<std::thread> callers;
-  for (auto& result : results) callers.emplace_back([&] { result = engine.evaluate(all, nullptr); });
+  for (auto& result : results)
+    callers.emplace_back([&] { result = engine.evaluate(all, nullptr); });
   for (std::thread& caller : callers) caller.join();
   for (const auto& result : results) expect_same_bits(result, expected);
 }
@@ -115,7 +119,9 @@ TEST(Engine, MpiNeedsAProgramThatHasIt) {
     require_engine(mpi, nullptr);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("study.yaml:9: engine.type: the engine mpi is not in this program"), std::string::npos);
+    EXPECT_NE(std::string(error.what())
+                  .find("study.yaml:9: engine.type: the engine mpi is not in this program"),
+              std::string::npos);
   }
   Dispatcher alone(nullptr);
   EXPECT_NO_THROW(require_engine(mpi, &alone));
@@ -141,7 +147,9 @@ class MapMemory final : public EvaluationMemory {
   }
   void keep(const EvaluationTask& task, const Evaluation& evaluation) override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    EXPECT_TRUE(known_.emplace(std::make_pair(task.parameters, task.derivatives), evaluation).second) << "computed twice";
+    EXPECT_TRUE(
+        known_.emplace(std::make_pair(task.parameters, task.derivatives), evaluation).second)
+        << "computed twice";
     if (known_.size() == cancel_at) cancel = true;
   }
   std::size_t size() const { return known_.size(); }
@@ -157,7 +165,8 @@ class MapMemory final : public EvaluationMemory {
 std::vector<EvaluationTask> designs(const Problem& problem, int first, int count) {
   std::vector<EvaluationTask> result;
   for (int k = first; k < first + count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 2 == 0)});
+    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
+                      gradient_if(k % 2 == 0)});
   return result;
 }
 
@@ -166,7 +175,8 @@ struct RunCounts {
 };
 
 EngineRecords records_with(const std::shared_ptr<MapMemory>& memory, RunCounts* counts) {
-  return {memory, [counts](bool computed) { ++(computed ? counts->computed : counts->remembered); }};
+  return {memory,
+          [counts](bool computed) { ++(computed ? counts->computed : counts->remembered); }};
 }
 
 TEST(RememberingEngine, ComputesOnlyWhatIsNotKnown) {
@@ -179,7 +189,8 @@ TEST(RememberingEngine, ComputesOnlyWhatIsNotKnown) {
   engine->evaluate(designs(problem, 0, 4), nullptr);
   EXPECT_EQ(memory->size(), 4u);
   const std::vector<EvaluationTask> all = designs(problem, 2, 5);
-  const std::vector<Evaluation> results = engine->evaluate(all, nullptr), expected = SerialEngine().evaluate(all, nullptr);
+  const std::vector<Evaluation> results = engine->evaluate(all, nullptr),
+                                expected = SerialEngine().evaluate(all, nullptr);
   EXPECT_EQ(counts.computed, 7);
   EXPECT_EQ(counts.remembered, 2);
   ASSERT_EQ(results.size(), 5u);
@@ -199,7 +210,8 @@ TEST(RememberingEngine, KeepsEachResultAtOnceAndNoneThatWasCancelled) {
   const std::vector<Evaluation> results = engine->evaluate(designs(problem, 0, 4), &memory->cancel);
   EXPECT_EQ(memory->size(), 2u);
   EXPECT_EQ(counts.computed, 2);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(results[k].status.code == StatusCode::kCancelled, k >= 2) << k;
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(results[k].status.code == StatusCode::kCancelled, k >= 2) << k;
 }
 
 TEST(RememberingEngine, ACancelledJobIsNotCarriedOnByItsMemory) {
@@ -209,7 +221,8 @@ TEST(RememberingEngine, ACancelledJobIsNotCarriedOnByItsMemory) {
   const auto engine = with_records(std::make_unique<SerialEngine>(), records_with(memory, &counts));
   engine->evaluate(designs(problem, 0, 1), nullptr);
   const std::atomic<bool> cancel{true};
-  EXPECT_EQ(engine->evaluate(designs(problem, 0, 1), &cancel)[0].status.code, StatusCode::kCancelled);
+  EXPECT_EQ(engine->evaluate(designs(problem, 0, 1), &cancel)[0].status.code,
+            StatusCode::kCancelled);
 }
 
 TEST(RememberingEngine, WithoutRecordsIsTheEngineItself) {

@@ -11,7 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity(),
+                 kNan = std::numeric_limits<double>::quiet_NaN();
 
 Evaluation full_evaluation() {
   Evaluation evaluation;
@@ -52,7 +53,8 @@ TEST(Messages, AnEvaluationKeepsItsBits) {
 }
 
 TEST(Messages, ATaskKeepsItsBits) {
-  const std::string message = write_task(7, 3, 2, Derivatives::kGaussNewton, {0.1, -0.0, kInfinity});
+  const std::string message =
+      write_task(7, 3, 2, Derivatives::kGaussNewton, {0.1, -0.0, kInfinity});
   ByteReader reader = body_of(message, MessageKind::kTask, 7);
   const TaskMessage task = read_task(7, &reader);
   EXPECT_TRUE(reader.at_end());
@@ -64,7 +66,13 @@ TEST(Messages, ATaskKeepsItsBits) {
 }
 
 TEST(Messages, AProblemArrivesWhole) {
-  PortableProblem problem{{"a.urdf", "<robot/>"}, {{"b.urdf", "1"}, {"c.urdf", ""}}, {"d.yaml", "x: 1"}, {}, {}, {1.5, 2.5}, {"p", "q"}};
+  PortableProblem problem{{"a.urdf", "<robot/>"},
+                          {{"b.urdf", "1"}, {"c.urdf", ""}},
+                          {"d.yaml", "x: 1"},
+                          {},
+                          {},
+                          {1.5, 2.5},
+                          {"p", "q"}};
   problem.trajectories = {{"e.bag", "/t", "j", {{0, 1}, {2, 3}, {}, {}}}};
   problem.files = {{"i.json", {"folder/i.json", "{}"}}};
   const std::string message = write_problem(9, problem);

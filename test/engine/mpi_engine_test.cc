@@ -13,7 +13,8 @@ namespace {
 std::vector<EvaluationTask> block_tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
   for (int k = 0; k < count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)), gradient_if(k % 3 != 0)});
+    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
+                      gradient_if(k % 3 != 0)});
   return result;
 }
 
@@ -31,7 +32,8 @@ void expect_the_same(const std::vector<Evaluation>& a, const std::vector<Evaluat
 Problem endless_block() {
   SourceText study = block("").study_text();
   study.text.replace(study.text.find("duration: 0.8"), 13, "duration: 1.0e+9");
-  study.text.replace(study.text.find("setpoint: 0.5"), 13, "setpoint: {type: sine, amplitude: 0.5, frequency: 20.0}");
+  study.text.replace(study.text.find("setpoint: 0.5"), 13,
+                     "setpoint: {type: sine, amplitude: 0.5, frequency: 20.0}");
   study.text += "solver: {maximum_steps: 1000000000}\n";
   return load_problem(block("").urdf(), {}, study);
 }
@@ -59,7 +61,8 @@ robust: {samples: 4}
   const Ensemble alone(problem);
   RankJob job(3);
   const Ensemble spread(problem, 1, {nullptr, nullptr, job.ranks()});
-  const EnsembleEvaluation here = alone.evaluate(problem.start(), true), there = spread.evaluate(problem.start(), true);
+  const EnsembleEvaluation here = alone.evaluate(problem.start(), true),
+                           there = spread.evaluate(problem.start(), true);
   ASSERT_TRUE(here.total.status.ok());
   EXPECT_EQ(here.total.objective, there.total.objective);
   EXPECT_EQ(here.total.gradient, there.total.gradient);
@@ -76,8 +79,11 @@ TEST(MpiEngine, SeveralCallersAndSeveralProblemsShareTheRanks) {
   MpiEngine engine(job.ranks(), problem);
   std::vector<std::vector<Evaluation>> results(4);
   std::vector<std::thread> callers;
-  for (auto& result : results) callers.emplace_back([&] { result = engine.evaluate(all, nullptr); });
-  callers.emplace_back([&] { expect_the_same(MpiEngine(job.ranks(), other).evaluate(others, nullptr), expected_others); });
+  for (auto& result : results)
+    callers.emplace_back([&] { result = engine.evaluate(all, nullptr); });
+  callers.emplace_back([&] {
+    expect_the_same(MpiEngine(job.ranks(), other).evaluate(others, nullptr), expected_others);
+  });
   for (std::thread& caller : callers) caller.join();
   for (const auto& result : results) expect_the_same(result, expected);
 }
@@ -86,7 +92,8 @@ TEST(MpiEngine, EachFinishedTaskIsToldOnce) {
   const Problem problem = block("");
   std::vector<EvaluationTask> all = block_tasks(problem, 12);
   std::vector<std::atomic<int>> told(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) all[k].finished = [&told, k](const Evaluation&) { ++told[k]; };
+  for (std::size_t k = 0; k < all.size(); ++k)
+    all[k].finished = [&told, k](const Evaluation&) { ++told[k]; };
   RankJob job(3);
   MpiEngine(job.ranks(), problem).evaluate(all, nullptr);
   for (const std::atomic<int>& count : told) EXPECT_EQ(count, 1);
@@ -107,14 +114,17 @@ TEST(MpiEngine, ACancelReachesEvaluationsThatRun) {
     canceller.join();
   }
   const std::vector<EvaluationTask> all = block_tasks(quick, 5);
-  expect_the_same(MpiEngine(job.ranks(), quick).evaluate(all, nullptr), SerialEngine().evaluate(all, nullptr));
+  expect_the_same(MpiEngine(job.ranks(), quick).evaluate(all, nullptr),
+                  SerialEngine().evaluate(all, nullptr));
 }
 
 TEST(MpiEngine, AnExceptionOfAWorkerReachesTheCaller) {
   const Problem problem = block("");
-  const auto error = std::make_exception_ptr(InputError({{"block.yaml", 7}, "path", "too long", "9", "8"}));
+  const auto error =
+      std::make_exception_ptr(InputError({{"block.yaml", 7}, "path", "too long", "9", "8"}));
   PlayedJob job(own_hello(), [&error](MessageKind kind, std::uint64_t number) {
-    return kind == MessageKind::kTask ? std::optional<std::string>(write_error(number, error)) : std::nullopt;
+    return kind == MessageKind::kTask ? std::optional<std::string>(write_error(number, error))
+                                      : std::nullopt;
   });
   try {
     MpiEngine(job.ranks(), problem).evaluate(block_tasks(problem, 50), nullptr);
@@ -137,7 +147,8 @@ class RankWorkerTest : public testing::Test {
   std::string hear() {
     for (;;) {
       std::optional<Envelope> envelope = mail_.receive(0);
-      if (envelope && ByteReader(envelope->bytes).get<MessageKind>() != MessageKind::kSign) return envelope->bytes;
+      if (envelope && ByteReader(envelope->bytes).get<MessageKind>() != MessageKind::kSign)
+        return envelope->bytes;
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   }
@@ -166,7 +177,10 @@ TEST_F(RankWorkerTest, SaysHelloAnswersAndSaysGoodbye) {
   ByteReader result(answer);
   EXPECT_EQ(result.get<MessageKind>(), MessageKind::kResult);
   EXPECT_EQ(result.get<std::uint64_t>(), 77U);
-  const Evaluation expected = SerialEngine().evaluate({{problem.system(), problem.parameters(), Derivatives::kGradient}}, nullptr).front();
+  const Evaluation expected =
+      SerialEngine()
+          .evaluate({{problem.system(), problem.parameters(), Derivatives::kGradient}}, nullptr)
+          .front();
   EXPECT_EQ(read_result(&result).gradient, expected.gradient);
   say(write_numbered(MessageKind::kPing, 3));
   EXPECT_EQ(hear(), write_numbered(MessageKind::kPong, 3));
@@ -190,7 +204,8 @@ TEST_F(RankWorkerTest, WhatItCannotDoItAnswersWithTheException) {
     if (problem == 1)
       EXPECT_THROW(std::rethrow_exception(read_error(&reader)), InputError);
     else
-      EXPECT_THROW(std::rethrow_exception(read_error(&reader)), std::runtime_error) << "a problem that it was not sent";
+      EXPECT_THROW(std::rethrow_exception(read_error(&reader)), std::runtime_error)
+          << "a problem that it was not sent";
   }
 }
 

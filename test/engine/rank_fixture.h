@@ -66,7 +66,8 @@ inline RankTimes patient_times() {
 /// A job with real workers.
 class RankJob {
  public:
-  explicit RankJob(int ranks, const RankTimes& times = patient_times()) : mail_(ranks), first_(&mail_, 0), times_(times) {
+  explicit RankJob(int ranks, const RankTimes& times = patient_times())
+      : mail_(ranks), first_(&mail_, 0), times_(times) {
     for (int rank = 1; rank < ranks; ++rank)
       threads_.emplace_back([this, rank] {
         MailTransport transport(&mail_, rank);
@@ -97,7 +98,10 @@ class PlayedJob {
   using Part = std::function<std::optional<std::string>(MessageKind, std::uint64_t)>;
 
   PlayedJob(const Hello& hello, Part part, const RankTimes& times = {})
-      : mail_(2), first_(&mail_, 0), dispatcher_(&first_, without_goodbye(times)), part_(std::move(part)) {
+      : mail_(2),
+        first_(&mail_, 0),
+        dispatcher_(&first_, without_goodbye(times)),
+        part_(std::move(part)) {
     mail_.send(1, 0, write_hello(hello));
     thread_ = std::thread([this] { play(); });
   }
@@ -126,7 +130,8 @@ class PlayedJob {
       }
       ByteReader reader(envelope->bytes);
       const auto kind = reader.get<MessageKind>();
-      if (std::optional<std::string> answer = part_(kind, reader.get<std::uint64_t>())) mail_.send(1, 0, std::move(*answer));
+      if (std::optional<std::string> answer = part_(kind, reader.get<std::uint64_t>()))
+        mail_.send(1, 0, std::move(*answer));
     }
   }
 

@@ -20,7 +20,9 @@ TEST(SideBySide, CallsEachNumberOnce) {
 }
 
 TEST(SideBySide, OneThreadIsTheCallers) {
-  side_by_side(2, 1, [caller = std::this_thread::get_id()](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); });
+  side_by_side(2, 1, [caller = std::this_thread::get_id()](std::size_t) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+  });
 }
 
 TEST(SideBySide, ThreadsWaitForEachOther) {
@@ -38,7 +40,8 @@ TEST(SideBySide, AnExceptionEndsTheWork) {
     const auto work = [&calls](std::size_t k) {
       ++calls;
       if (k == 3) throw std::runtime_error("third");
-      // Gives the thread that throws a second to be scheduled; only then could the other one have made all calls.
+      // Gives the thread that throws a second to be scheduled; only then could the other one have
+      // made all calls.
       if (k > 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
     EXPECT_THROW(side_by_side(1000, threads, work), std::runtime_error);

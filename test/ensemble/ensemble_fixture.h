@@ -7,10 +7,15 @@
 
 namespace codesign {
 
-/// A block that slides along x on the ground, with friction, held by a PD controller. Fast to simulate.
-/// @param ensemble further blocks of the study. @param parameters further entries of `parameters`, each after a comma.
-inline Problem block(const std::string& ensemble, const std::string& optimizer = "{algorithm: slsqp}", const std::string& parameters = "") {
-  const SourceText urdf{"block.urdf", R"(<robot name="block" xmlns:codesign="urn:mechanism_codesign">
+/// A block that slides along x on the ground, with friction, held by a PD controller. Fast to
+/// simulate.
+/// @param ensemble further blocks of the study. @param parameters further entries of `parameters`,
+/// each after a comma.
+inline Problem block(const std::string& ensemble,
+                     const std::string& optimizer = "{algorithm: slsqp}",
+                     const std::string& parameters = "") {
+  const SourceText urdf{"block.urdf",
+                        R"(<robot name="block" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="mu" value="0.3" lower="0.1" upper="1"/>
   <codesign:parameter name="mass" value="2" lower="0.1" upper="10"/>
   <link name="ground"/>

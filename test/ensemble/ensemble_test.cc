@@ -13,7 +13,9 @@ namespace {
 const char* const kUncertain = "uncertain: {mu: {uniform: [0.2, 0.4]}}\n";
 
 TEST(Ensemble, OneRunIsTheEvaluationBitForBit) {
-  for (const char* text : {"", "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 1, measure: worst}\n", "runs: {only: {}}\n"}) {
+  for (const char* text :
+       {"", "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 1, measure: worst}\n",
+        "runs: {only: {}}\n"}) {
     const Problem problem = block(text);
     const Evaluation one = Evaluator(problem).evaluate(problem.start(), true);
     const EnsembleEvaluation all = Ensemble(problem).evaluate(problem.start(), true);
@@ -24,34 +26,42 @@ TEST(Ensemble, OneRunIsTheEvaluationBitForBit) {
 }
 
 TEST(Ensemble, TheMeanWeighsTheRuns) {
-  const Problem problem = block("runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 4.0}, weight: 3.0}}\n");
+  const Problem problem =
+      block("runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 4.0}, weight: 3.0}}\n");
   const EnsembleEvaluation all = Ensemble(problem).evaluate(problem.start(), true);
   std::vector<double> light = problem.parameters(), heavy = light;
   light[1] = 1.0;
   heavy[1] = 4.0;
   Evaluator evaluator(problem);
-  const Evaluation a = evaluator.evaluate_design(light, true), b = evaluator.evaluate_design(heavy, true);
+  const Evaluation a = evaluator.evaluate_design(light, true),
+                   b = evaluator.evaluate_design(heavy, true);
   EXPECT_DOUBLE_EQ(all.total.objective, 0.25 * a.objective + 0.75 * b.objective);
-  EXPECT_LT((all.total.gradient - (0.25 * a.gradient + 0.75 * b.gradient)).norm(), 1e-14 * b.gradient.norm());
+  EXPECT_LT((all.total.gradient - (0.25 * a.gradient + 0.75 * b.gradient)).norm(),
+            1e-14 * b.gradient.norm());
   EXPECT_EQ(all.total.statistics.steps, a.statistics.steps + b.statistics.steps);
 }
 
 TEST(Ensemble, GradientsOfAllMeasuresAgreeWithTheComplexStep) {
-  for (const char* measure : {"mean", "worst", "cvar, level: 0.6", "mean_plus_deviation, factor: 2.0"}) {
-    const Problem problem = block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n");
+  for (const char* measure :
+       {"mean", "worst", "cvar, level: 0.6", "mean_plus_deviation, factor: 2.0"}) {
+    const Problem problem =
+        block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n");
     Ensemble ensemble(problem);
-    const GradientCheck check = check_gradient(ensemble, problem.start(), CheckMethod::kComplexStep);
+    const GradientCheck check =
+        check_gradient(ensemble, problem.start(), CheckMethod::kComplexStep);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;
     EXPECT_GT(check.reference.norm(), 0.0);
     EXPECT_LT(check.largest_relative_difference, 1e-8) << measure;
   }
 }
 
-// The complex step of the scenarios does not check the measure itself: differences of the measure do.
+// The complex step of the scenarios does not check the measure itself: differences of the measure
+// do.
 TEST(Ensemble, GradientsOfMeasuresAgreeWithDifferences) {
   for (const char* measure : {"worst", "cvar, level: 0.6", "mean_plus_deviation, factor: 2.0"}) {
-    const Problem problem = block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n" +
-                                  "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n");
+    const Problem problem =
+        block(std::string(kUncertain) + "robust: {samples: 6, measure: " + measure + "}\n" +
+              "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n");
     Ensemble ensemble(problem);
     const Eigen::VectorXd gradient = ensemble.evaluate(problem.start(), true).total.gradient;
     for (Eigen::Index k = 0; k < 2; ++k) {
@@ -66,31 +76,37 @@ TEST(Ensemble, GradientsOfMeasuresAgreeWithDifferences) {
 
 // Finite objectives of which squares overflow.
 TEST(Ensemble, AMeasureThatIsNotFiniteIsAFailure) {
-  Problem problem = block(std::string(kUncertain) + "robust: {samples: 2, measure: mean_plus_deviation}\n");
+  Problem problem =
+      block(std::string(kUncertain) + "robust: {samples: 2, measure: mean_plus_deviation}\n");
   Study study = problem.study();
   for (ObjectiveTerm& term : study.terminal) term.weight = Quantity(1e200);
   problem = with_study(problem, study);
   for (const bool with_gradient : {false, true}) {
     const EnsembleEvaluation all = Ensemble(problem).evaluate(problem.start(), with_gradient);
     EXPECT_EQ(all.total.status.code, StatusCode::kNonFinite);
-    EXPECT_NE(all.total.status.cause.find("mean_plus_deviation"), std::string::npos) << all.total.status.cause;
+    EXPECT_NE(all.total.status.cause.find("mean_plus_deviation"), std::string::npos)
+        << all.total.status.cause;
     EXPECT_EQ(all.values.size(), 0);
   }
 }
 
 TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   // A mass of the second run that no body can have.
-  const std::string runs = "runs: {a: {}, b: {weight: 0.05, set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";
+  const std::string runs =
+      "runs: {a: {}, b: {weight: 0.05, set: {mu: 0.4}}, c: {set: {mu: 0.2}}}\n";
   const Problem problem = block(runs + "robust: {measure: cvar, level: 0.9}\n");
   std::vector<Scenario> scenarios = make_scenarios(problem);
   scenarios[1].values = {{1, -1.0}};
   RobustOptions options = *problem.study().ensemble.robust;
   const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
-  const EnsembleEvaluation refused = Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
+  const EnsembleEvaluation refused =
+      Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
   EXPECT_EQ(refused.total.status.code, StatusCode::kInvalidDesign);
-  EXPECT_NE(refused.total.status.cause.find("run \"b\""), std::string::npos) << refused.total.status.cause;
+  EXPECT_NE(refused.total.status.cause.find("run \"b\""), std::string::npos)
+      << refused.total.status.cause;
   options.failed = FailedSamples::kTail;
-  const EnsembleEvaluation counted = Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
+  const EnsembleEvaluation counted =
+      Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
   ASSERT_TRUE(counted.total.status.ok()) << counted.total.status.cause;
   EXPECT_EQ(counted.failed, std::vector<int>{1});
   ASSERT_FALSE(counted.total.warnings.empty());
@@ -100,7 +116,9 @@ TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   EXPECT_NE(warning.message.find("run \"b\""), std::string::npos) << warning.message;
   EXPECT_EQ(counted.values[1], std::max(counted.values[0], counted.values[2]));
   scenarios[0].values = {{1, -1.0}};
-  EXPECT_FALSE(Ensemble(scenarios, options, engine).evaluate(problem.start(), true).total.status.ok()) << "half of all is no tail";
+  EXPECT_FALSE(
+      Ensemble(scenarios, options, engine).evaluate(problem.start(), true).total.status.ok())
+      << "half of all is no tail";
 }
 
 // The residuals of the mean are the residuals of all scenarios, times the roots of the weights.
@@ -114,11 +132,13 @@ TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
   std::vector<Eigen::MatrixXd> squares;
   Evaluator evaluator(problem);
   for (const Scenario& scenario : ensemble.scenarios()) {
-    const Evaluation one = evaluator.evaluate_design(scenario.parameters(problem.start()), Derivatives::kGaussNewton);
+    const Evaluation one =
+        evaluator.evaluate_design(scenario.parameters(problem.start()), Derivatives::kGaussNewton);
     squares.emplace_back(one.jacobian_root.transpose() * one.jacobian_root);
     sum += scenario.weight * squares.back();
   }
-  EXPECT_LE((all.total.jacobian_root.transpose() * all.total.jacobian_root - sum).norm(), 1e-12 * sum.norm());
+  EXPECT_LE((all.total.jacobian_root.transpose() * all.total.jacobian_root - sum).norm(),
+            1e-12 * sum.norm());
   EXPECT_EQ(ensemble.evaluate(problem.start(), true).total.jacobian_root.size(), 0);
   // A scenario that fails counts as the worst of the others.
   std::vector<Scenario> scenarios = make_scenarios(problem);
@@ -126,18 +146,21 @@ TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
   RobustOptions options = *problem.study().ensemble.robust;
   options.level = 0.7;
   const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
-  const EnsembleEvaluation tail = Ensemble(scenarios, options, engine).evaluate(problem.start(), Derivatives::kGaussNewton);
+  const EnsembleEvaluation tail =
+      Ensemble(scenarios, options, engine).evaluate(problem.start(), Derivatives::kGaussNewton);
   ASSERT_TRUE(tail.total.status.ok()) << tail.total.status.cause;
   ASSERT_EQ(tail.failed, std::vector<int>{2});
   const Eigen::MatrixXd& worst = squares[all.values[0] > all.values[1] ? 0 : 1];
   const Eigen::MatrixXd expected = 0.6 * squares[0] + 0.2 * squares[1] + 0.2 * worst;
-  EXPECT_LE((tail.total.jacobian_root.transpose() * tail.total.jacobian_root - expected).norm(), 1e-12 * expected.norm());
+  EXPECT_LE((tail.total.jacobian_root.transpose() * tail.total.jacobian_root - expected).norm(),
+            1e-12 * expected.norm());
 }
 
 TEST(Ensemble, CancelledIsCancelled) {
   const Problem problem = block(kUncertain);
   const std::atomic<bool> cancel{true};
-  EXPECT_EQ(Ensemble(problem).evaluate(problem.start(), true, &cancel).total.status.code, StatusCode::kCancelled);
+  EXPECT_EQ(Ensemble(problem).evaluate(problem.start(), true, &cancel).total.status.code,
+            StatusCode::kCancelled);
 }
 
 }  // namespace

@@ -12,14 +12,17 @@ namespace codesign {
 namespace {
 
 const std::string kConstraints =
-    "constraints: [\"Kp*sqrt(mass) >= Kd**2/5\", {expression: \"${Kp + Kd}\", between: [10, 100]}]\n"
-    "runs: {light: {set: {mass: 1}}, heavy: {set: {mass: 4}}, also_heavy: {set: {mass: 4}, weight: 2}}\n";
+    "constraints: [\"Kp*sqrt(mass) >= Kd**2/5\", {expression: \"${Kp + Kd}\", between: [10, "
+    "100]}]\n"
+    "runs: {light: {set: {mass: 1}}, heavy: {set: {mass: 4}}, also_heavy: {set: {mass: 4}, weight: "
+    "2}}\n";
 
 TEST(ParameterRows, DifferWhereRunsChangeWhatTheyRead) {
   const Problem problem = block(kConstraints);
   const std::vector<Scenario> scenarios = make_scenarios(problem);
   const ParameterRows rows(problem.study(), scenarios);
-  ASSERT_EQ(rows.rows().size(), 4U) << "two masses of the first constraint, one row each of the others";
+  ASSERT_EQ(rows.rows().size(), 4U)
+      << "two masses of the first constraint, one row each of the others";
   const Eigen::VectorXd rho = Eigen::Vector2d(20.0, 5.0);
   EXPECT_DOUBLE_EQ(rows.margin(rows.rows()[0], rho, nullptr), 20.0 - 5.0);
   EXPECT_DOUBLE_EQ(rows.margin(rows.rows()[1], rho, nullptr), 40.0 - 5.0);
@@ -39,7 +42,8 @@ TEST(ParameterRows, DerivativesMeetTheComplexStep) {
       const std::vector<double> parameters = scenarios[row.scenario].parameters(rho);
       std::vector<std::complex<double>> moved(parameters.begin(), parameters.end());
       moved[static_cast<std::size_t>(problem.study().tuned[k])] += std::complex<double>(0.0, 1e-30);
-      const double reference = problem.study().constraints[row.constraint].margin->value(moved).imag() / 1e-30;
+      const double reference =
+          problem.study().constraints[row.constraint].margin->value(moved).imag() / 1e-30;
       EXPECT_NEAR(by_rho[static_cast<Eigen::Index>(k)], reference, 1e-12 * std::abs(reference));
     }
   }
@@ -50,7 +54,8 @@ TEST(ParameterRows, DerivativesMeetTheComplexStep) {
 }
 
 TEST(ParameterRows, AMarginThatIsNoNumberIsNamedWithItsRun) {
-  const Problem problem = block("constraints: [\"sqrt(3 - mass)*Kp >= 0\"]\nruns: {light: {}, heavy: {set: {mass: 4}}}\n");
+  const Problem problem = block(
+      "constraints: [\"sqrt(3 - mass)*Kp >= 0\"]\nruns: {light: {}, heavy: {set: {mass: 4}}}\n");
   const std::vector<Scenario> scenarios = make_scenarios(problem);
   const ParameterRows rows(problem.study(), scenarios);
   EXPECT_TRUE(std::isnan(rows.margins(problem.start())[0]));
@@ -58,7 +63,9 @@ TEST(ParameterRows, AMarginThatIsNoNumberIsNamedWithItsRun) {
     rows.require_numbers_at(problem.start());
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("not a number at the start in run \"heavy\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not a number at the start in run \"heavy\""),
+              std::string::npos)
+        << error.what();
   }
 }
 

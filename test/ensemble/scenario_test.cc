@@ -35,9 +35,11 @@ robust: {samples: 4}
   EXPECT_DOUBLE_EQ(scenarios[0].weight, 0.25 / 4.0);
   EXPECT_DOUBLE_EQ(scenarios[7].weight, 0.75 / 4.0);
   EXPECT_EQ(scenarios[5].name(), "run \"far\", sample 2");
-  EXPECT_EQ(scenarios[0].system, problem.system()) << "values of parameters need no system of their own";
+  EXPECT_EQ(scenarios[0].system, problem.system())
+      << "values of parameters need no system of their own";
   EXPECT_NE(scenarios[4].system, problem.system());
-  const std::vector<double> light = scenarios[1].parameters(problem.start()), far = scenarios[5].parameters(problem.start());
+  const std::vector<double> light = scenarios[1].parameters(problem.start()),
+                            far = scenarios[5].parameters(problem.start());
   EXPECT_EQ(light[0], far[0]) << "both runs see the same friction";
   EXPECT_GT(light[0], 0.2);
   EXPECT_LT(light[0], 0.4);
@@ -53,19 +55,24 @@ TEST(Scenario, OneSampleIsTheNominalOne) {
 }
 
 TEST(Scenario, AFrictionLawIsASystemOfItsOwn) {
-  const Problem problem = block("uncertain: {friction_law: {choice: [brown_mcphee, gonthier]}}\nrobust: {samples: 16}\n");
+  const Problem problem = block(
+      "uncertain: {friction_law: {choice: [brown_mcphee, gonthier]}}\nrobust: {samples: 16}\n");
   int gonthier = 0;
-  for (const Scenario& scenario : make_scenarios(problem)) gonthier += scenario.system->layout().states > problem.system()->layout().states;
+  for (const Scenario& scenario : make_scenarios(problem))
+    gonthier += scenario.system->layout().states > problem.system()->layout().states;
   EXPECT_GT(gonthier, 4) << "the law of Gonthier has states";
   EXPECT_LT(gonthier, 12);
 }
 
 TEST(Scenario, ValidationDrawsOtherSamples) {
   const Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 8}\n");
-  const std::vector<Scenario> seen = make_scenarios(problem), fresh = make_validation_scenarios(problem, 8);
+  const std::vector<Scenario> seen = make_scenarios(problem),
+                              fresh = make_validation_scenarios(problem, 8);
   ASSERT_EQ(fresh.size(), 8u);
   for (const Scenario& scenario : fresh)
-    EXPECT_TRUE(std::none_of(seen.begin(), seen.end(), [&](const Scenario& known) { return known.values == scenario.values; }));
+    EXPECT_TRUE(std::none_of(seen.begin(), seen.end(), [&](const Scenario& known) {
+      return known.values == scenario.values;
+    }));
 }
 
 }  // namespace

@@ -17,11 +17,14 @@ struct Compiled {
   Assembly assembly;
   State<double> state;
 
-  /// @param sharing of redundant constraints, see CompiledSystem; planar loops need some, or at least compliance.
+  /// @param sharing of redundant constraints, see CompiledSystem; planar loops need some, or at
+  /// least compliance.
   Compiled(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {})
       : Compiled(read_urdf({"test.urdf", urdf}), study, sharing) {}
   Compiled(const RobotDescription& robot, const std::string& study, const ReactionSharing& sharing)
-      : system(robot, read_study({"test.yaml", study}, robot), sharing), equations(system), assembly(system) {}
+      : system(robot, read_study({"test.yaml", study}, robot), sharing),
+        equations(system),
+        assembly(system) {}
 
   /// Assembles the start of a design.
   Status start(const std::vector<double>& parameters) {
@@ -32,8 +35,10 @@ struct Compiled {
 };
 
 /// A study that only sets the mechanism going.
-inline std::string let_go(const std::string& initial, const std::string& signal, const std::string& more = "") {
-  return "duration: 1.0\ninitial_state: " + initial + "\nobjective: {integral: [{signal: " + signal + "}]}\n" + more;
+inline std::string let_go(const std::string& initial, const std::string& signal,
+                          const std::string& more = "") {
+  return "duration: 1.0\ninitial_state: " + initial +
+         "\nobjective: {integral: [{signal: " + signal + "}]}\n" + more;
 }
 
 }  // namespace codesign

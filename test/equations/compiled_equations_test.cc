@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The compiled code against the formulas. The tests of single elements also check the derivatives of both, for every load and controller.
+// The compiled code against the formulas. The tests of single elements also check the derivatives
+// of both, for every load and controller.
 #include "equations/compiled_equations.h"
 #include "equations/formulas.h"
 
@@ -24,10 +25,12 @@ double largest_difference(const VectorX<double>& x, const VectorX<double>& y) {
   return (x - y).lpNorm<Eigen::Infinity>() / (1.0 + y.lpNorm<Eigen::Infinity>());
 }
 
-/// The recorded equations and what they are compared with: the formulas, or for Lanes the complex step along each direction.
+/// The recorded equations and what they are compared with: the formulas, or for Lanes the complex
+/// step along each direction.
 template <class T>
 struct Twins {
-  explicit Twins(const CompiledSystem& mechanism) : system(mechanism), with(system), formulas(system) {}
+  explicit Twins(const CompiledSystem& mechanism)
+      : system(mechanism), with(system), formulas(system) {}
 
   void set_design(const std::vector<double>& parameters) {
     with.set_design(parameters);
@@ -53,7 +56,8 @@ struct Twins {
   Formulas<double> formulas;
 };
 
-/// The same for N directional derivatives, which are compared with the complex step along each direction.
+/// The same for N directional derivatives, which are compared with the complex step along each
+/// direction.
 template <int N>
 struct Twins<Lanes<N>> {
   explicit Twins(const CompiledSystem& mechanism) : with(mechanism), complex(mechanism) {}
@@ -71,7 +75,8 @@ struct Twins<Lanes<N>> {
     for (int lane = 0; lane < N; ++lane) {
       const auto along = [lane](const auto& from, auto* to) {
         to->resize(from.size());
-        for (decltype(from.size()) k = 0; k < from.size(); ++k) (*to)[k] = {from[k].a, kStep * from[k].v[lane]};
+        for (decltype(from.size()) k = 0; k < from.size(); ++k)
+          (*to)[k] = {from[k].a, kStep * from[k].v[lane]};
       };
       std::vector<Complex> design;
       along(parameters, &design);
@@ -79,13 +84,16 @@ struct Twins<Lanes<N>> {
       State<Complex> moved;
       moved.t = state.t;
       moved.turns = state.turns;
-      along(state.q, &moved.q), along(state.v, &moved.v), along(state.s, &moved.s), along(state.z, &moved.z);
+      along(state.q, &moved.q), along(state.v, &moved.v), along(state.s, &moved.s),
+          along(state.z, &moved.z);
       VectorX<Complex> expected, expected_Phi, expected_rate;
       Complex expected_g;
       complex.residual(moved, &expected, &expected_g);
       complex.constraint_errors(moved, &expected_Phi, &expected_rate);
-      expect_near(G, expected, lane), expect_near(Phi, expected_Phi, lane), expect_near(Phi_rate, expected_rate, lane);
-      expect_near(VectorX<Lanes<N>>::Constant(1, g), VectorX<Complex>::Constant(1, expected_g), lane);
+      expect_near(G, expected, lane), expect_near(Phi, expected_Phi, lane),
+          expect_near(Phi_rate, expected_rate, lane);
+      expect_near(VectorX<Lanes<N>>::Constant(1, g), VectorX<Complex>::Constant(1, expected_g),
+                  lane);
     }
   }
 
@@ -126,7 +134,8 @@ std::vector<T> some_design(const CompiledSystem& system) {
   const std::vector<double> values = system.parameters();
   std::vector<T> parameters(values.begin(), values.end());
   if constexpr (!std::is_same_v<T, double>)
-    for (std::size_t k = 0; k < parameters.size(); ++k) parameters[k].v[static_cast<int>(k) % 4] = 1.0;
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      parameters[k].v[static_cast<int>(k) % 4] = 1.0;
   return parameters;
 }
 
@@ -141,24 +150,29 @@ void expect_same(const CompiledSystem& system) {
 class CompiledJoints : public ::testing::TestWithParam<JointCase> {
  protected:
   const std::shared_ptr<const CompiledSystem> system =
-      compile(joint_cases::model(GetParam()), "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n");
+      compile(joint_cases::model(GetParam()),
+              "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n");
 };
 
 TEST_P(CompiledJoints, GiveTheSameValues) { expect_same<double>(*system); }
 TEST_P(CompiledJoints, GiveTheSameFourDerivatives) { expect_same<Lanes<4>>(*system); }
 TEST_P(CompiledJoints, GiveTheSameEightDerivatives) { expect_same<Lanes<8>>(*system); }
 
-INSTANTIATE_TEST_SUITE_P(AllJoints, CompiledJoints, ::testing::ValuesIn(joint_cases::all()), [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(AllJoints, CompiledJoints, ::testing::ValuesIn(joint_cases::all()),
+                         [](const auto& c) { return c.param.name; });
 
 /// Moving setpoints, a shaped input with parameters, positions of turning joints, springs.
 const char* const kDriven =
     "duration: 1.0\n"
     "parameters: {Kp: {initial: 3.0}, amplitude: {initial: 0.7}}\n"
     "controllers:\n"
-    "  a: {type: pid, input: shoulder/position, output: shoulder, gains: {p: \"${Kp}\", i: 2.0, d: 0.5},\n"
+    "  a: {type: pid, input: shoulder/position, output: shoulder, gains: {p: \"${Kp}\", i: 2.0, d: "
+    "0.5},\n"
     "    setpoint: {type: sine, amplitude: \"${amplitude}\", period: 1.3, phase: 0.4}}\n"
-    "  b: {type: basis, output: elbow, shape: linear, coefficients: {count: 3, initial: [0.0, -0.4, 1.0], lower: -5.0, upper: 5.0}}\n"
-    "objective: {integral: [{signal: a/output + b/output, reference: {type: waypoints, times: [0.1, 0.5, 0.9], positions: [0.2, -0.5, "
+    "  b: {type: basis, output: elbow, shape: linear, coefficients: {count: 3, initial: [0.0, "
+    "-0.4, 1.0], lower: -5.0, upper: 5.0}}\n"
+    "objective: {integral: [{signal: a/output + b/output, reference: {type: waypoints, times: "
+    "[0.1, 0.5, 0.9], positions: [0.2, -0.5, "
     "1.0]}}]}\n";
 
 template <class T>
@@ -174,7 +188,8 @@ void expect_same_at_all_times(const CompiledSystem& system) {
 }
 
 TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
-  const std::shared_ptr<const CompiledSystem> system = compile(double_pendulum(pin_friction()), kDriven);
+  const std::shared_ptr<const CompiledSystem> system =
+      compile(double_pendulum(pin_friction()), kDriven);
   expect_same_at_all_times<double>(*system);
   expect_same_at_all_times<Lanes<8>>(*system);
 }
@@ -182,12 +197,14 @@ TEST(CompiledEquations, FollowFunctionsOfTimeAndTheirParameters) {
 TEST(CompiledEquations, RecordAVariantForADesignThatDecidesOtherwise) {
   SKIP_WITHOUT_CODE();
   const std::string friction =
-      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' friction_arm='0.02' "
+      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' "
+      "joint_length='0.2' friction_arm='0.02' "
       "pin_radius='0.05' "
       "codesign:pin_radius='${radius}'/>";
-  const std::shared_ptr<const CompiledSystem> system = compile(
-      robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
-      motion_study(1.0, "{}", "shoulder/velocity", "{}"));
+  const std::shared_ptr<const CompiledSystem> system =
+      compile(robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") +
+                    hinge("shoulder", "ground", "arm", "0 0 0", friction)),
+              motion_study(1.0, "{}", "shoulder/velocity", "{}"));
   Twins<double> twins(*system);
   const State<double> state = some_state<double>(system->layout());
   VectorX<double> G, expected;
@@ -202,24 +219,31 @@ TEST(CompiledEquations, RecordAVariantForADesignThatDecidesOtherwise) {
   EXPECT_EQ(system->equation_code(2), nullptr) << "each design needs one of two variants";
 }
 
-/// A cylindrical loop has two coordinates although its chain has one element; both must have a turn reference.
+/// A cylindrical loop has two coordinates although its chain has one element; both must have a turn
+/// reference.
 TEST(CompiledEquations, CountTheTurnsOfEveryCoordinate) {
   SKIP_WITHOUT_CODE();
-  const std::string loop = joint_cases::free("tip") + joint_cases::loop("codesign:cylindrical", "base");
+  const std::string loop =
+      joint_cases::free("tip") + joint_cases::loop("codesign:cylindrical", "base");
   const std::shared_ptr<const CompiledSystem> system =
-      compile(joint_cases::model({"", loop + bar("arm") + joint_cases::tree("swing", "continuous", "base", "arm", "1 0 0.5")}),
+      compile(joint_cases::model(
+                  {"", loop + bar("arm") +
+                           joint_cases::tree("swing", "continuous", "base", "arm", "1 0 0.5")}),
               "duration: 1.0\nobjective: {integral: [{signal: swing/position}]}\n");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
   State<double> state = some_state<double>(system->layout());
-  for (std::size_t k = 0; k < state.turns.size(); ++k) state.turns[k] = 2.0 * M_PI * static_cast<double>(k + 1);
+  for (std::size_t k = 0; k < state.turns.size(); ++k)
+    state.turns[k] = 2.0 * M_PI * static_cast<double>(k + 1);
   twins.expect_same(state);
 }
 
-/// An angle exactly half a turn from its reference must be rounded to the same turn by code and formulas.
+/// An angle exactly half a turn from its reference must be rounded to the same turn by code and
+/// formulas.
 TEST(CompiledEquations, RoundHalfATurnAsTheFormulasDo) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const CompiledSystem> system = compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
+  const std::shared_ptr<const CompiledSystem> system =
+      compile(pendulum(), motion_study(1.0, "{}", "hinge/position", "{}"));
   for (double sign : {1.0, -1.0}) {
     Twins<double> twins(*system);
     twins.set_design(system->parameters());
@@ -256,9 +280,12 @@ TEST(CompiledEquations, CountTurns) {
 TEST(CompiledEquations, RecordAVariantForEachBranch) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const CompiledSystem> system =
-      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
+      compile(robot(bar("arm") +
+                    "<joint name='hinge' type='revolute'><parent link='ground'/><child "
+                    "link='arm'/><axis xyz='0 1 0'/>" +
                     narrow + "</joint>"),
-              motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
+              motion_study(1.0, "{}", "hinge/velocity", "{}") +
+                  "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
   Twins<double> twins(*system);
   twins.set_design(system->parameters());
   for (int round = 0; round < 2; ++round)
@@ -273,7 +300,8 @@ TEST(CompiledEquations, RecordAVariantForEachBranch) {
 }
 
 TEST(CompiledEquations, RecordAVariantWhereAStateIsNotANumber) {
-  const std::shared_ptr<const CompiledSystem> system = compile(double_pendulum(pin_friction()), kDriven);
+  const std::shared_ptr<const CompiledSystem> system =
+      compile(double_pendulum(pin_friction()), kDriven);
   Equations<double> equations(*system);
   equations.set_design(system->parameters());
   State<double> state = some_state<double>(system->layout());
@@ -299,13 +327,17 @@ TEST(CompiledEquations, GiveDerivativesAloneFromArraysOfTheirOwn) {
     }
   Eigen::Matrix<double, 4, Eigen::Dynamic> result(4, system->layout().columns());
   Eigen::Vector4d g_result;
-  twins.with.compiled().tangents(EquationFunction::kResidual, state.t, state.turns, {values[0], values[1], values[2], values[3]},
-                                 {directions[0], directions[1], directions[2], directions[3]}, {result, g_result, {}, {}});
+  twins.with.compiled().tangents(EquationFunction::kResidual, state.t, state.turns,
+                                 {values[0], values[1], values[2], values[3]},
+                                 {directions[0], directions[1], directions[2], directions[3]},
+                                 {result, g_result, {}, {}});
   VectorX<Lanes<4>> expected;
   Lanes<4> g;
   twins.with.residual(state, &expected, &g);
   for (Eigen::Index row = 0; row < expected.size(); ++row)
-    EXPECT_LT((result.col(row) - expected[row].directions()).norm(), 1e-11 * (1.0 + expected[row].directions().norm())) << row;
+    EXPECT_LT((result.col(row) - expected[row].directions()).norm(),
+              1e-11 * (1.0 + expected[row].directions().norm()))
+        << row;
   EXPECT_LT((g_result - g.directions()).norm(), 1e-11 * (1.0 + g.directions().norm()));
 }
 

@@ -17,20 +17,28 @@ const char* const kLugre =
     "<codesign:friction model='lugre' mu_static='0.2' mu_dynamic='0.15' transition_velocity='0.01' "
     "joint_length='0.05' pin_radius='0.02'/>";
 
-/// A tree of hinges in two branches, the last one a slide; friction by reactions, bristles and dry friction, and a controller with a filter
-/// that follows a function of time.
+/// A tree of hinges in two branches, the last one a slide; friction by reactions, bristles and dry
+/// friction, and a controller with a filter that follows a function of time.
 std::string branches() {
-  const auto turned = [](const std::string& name, const std::string& parent, const std::string& child, const std::string& axis,
+  const auto turned = [](const std::string& name, const std::string& parent,
+                         const std::string& child, const std::string& axis,
                          const std::string& inside, const char* type = "continuous") {
-    return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child +
-           "'/><origin xyz='0.1 0 -0.3' rpy='0.2 0.1 0.3'/><axis xyz='" + axis + "'/>" + inside + "</joint>";
+    return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent +
+           "'/><child link='" + child +
+           "'/><origin xyz='0.1 0 -0.3' rpy='0.2 0.1 0.3'/><axis xyz='" + axis + "'/>" + inside +
+           "</joint>";
   };
   std::string links;
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) links += bar(name);
-  return robot(links + turned("1", "ground", "a", "0 1 0", "<codesign:actuator gear_ratio='20' rotor_inertia='1e-4'/>") +
-               turned("2", "a", "b", "1 0 0", pin_friction()) + turned("3", "b", "c", "0 0.6 0.8", kLugre) +
-               turned("4", "a", "d", "1 0 0", "<dynamics damping='0.1' friction='0.2'/>") + turned("5", "d", "e", "0 1 0", "") +
-               turned("6", "e", "f", "0 0 1", "<limit lower='-1' upper='1' effort='100' velocity='10'/>", "prismatic"));
+  return robot(links +
+               turned("1", "ground", "a", "0 1 0",
+                      "<codesign:actuator gear_ratio='20' rotor_inertia='1e-4'/>") +
+               turned("2", "a", "b", "1 0 0", pin_friction()) +
+               turned("3", "b", "c", "0 0.6 0.8", kLugre) +
+               turned("4", "a", "d", "1 0 0", "<dynamics damping='0.1' friction='0.2'/>") +
+               turned("5", "d", "e", "0 1 0", "") +
+               turned("6", "e", "f", "0 0 1",
+                      "<limit lower='-1' upper='1' effort='100' velocity='10'/>", "prismatic"));
 }
 
 const char* const kBranchesStudy = R"(duration: 1.0
@@ -42,13 +50,15 @@ objective: {integral: [{signal: servo/output, weight: 0.5}, {signal: 5/velocity}
 
 /// A system in joint coordinates at a generic state.
 struct Branches : Compiled {
-  Branches(const std::string& urdf, const std::string& study, const std::string& solver = "coordinates: joint, method: rodas5p")
+  Branches(const std::string& urdf, const std::string& study,
+           const std::string& solver = "coordinates: joint, method: rodas5p")
       : Compiled(urdf, study + "solver: {" + solver + "}\n") {
     equations.set_design(system.parameters());
     state.resize(system.layout());
     double phase = 0.3;
     for (VectorX<double>* x : {&state.q, &state.v, &state.s, &state.z}) {
-      for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k] = std::sin(1.7 * static_cast<double>(k) + phase);
+      for (Eigen::Index k = 0; k < x->size(); ++k)
+        (*x)[k] = std::sin(1.7 * static_cast<double>(k) + phase);
       phase += 0.8;
     }
     state.t = 0.13;
@@ -73,7 +83,8 @@ void expect_near(const Numbers& numbers, const Expected& expected) {
   ASSERT_EQ(numbers.size(), expected.size());
   double size = 1.0;
   for (const Complex& x : expected) size = std::max(size, std::abs(x.real()));
-  for (decltype(numbers.size()) k = 0; k < numbers.size(); ++k) EXPECT_NEAR(numbers[k], expected[k].real(), 1e-13 * size) << k;
+  for (decltype(numbers.size()) k = 0; k < numbers.size(); ++k)
+    EXPECT_NEAR(numbers[k], expected[k].real(), 1e-13 * size) << k;
 }
 
 TEST(CompressedJacobian, EqualsTheProgramForTheDerivatives) {
@@ -125,7 +136,8 @@ TEST(CompressedJacobian, FollowsTheDesignAndIsTheSameWithoutMachineCode) {
 }
 
 TEST(CompressedJacobian, ServesTreesOfSomeSizeInJointCoordinates) {
-  EXPECT_FALSE(Branches(branches(), kBranchesStudy, "coordinates: absolute").system.compresses_jacobian());
+  EXPECT_FALSE(
+      Branches(branches(), kBranchesStudy, "coordinates: absolute").system.compresses_jacobian());
   EXPECT_FALSE(Branches(double_pendulum(), "duration: 1.0\n").system.compresses_jacobian());
 }
 

@@ -21,19 +21,23 @@ TEST(EquationCode, IsRecordedOnceForASystem) {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
   const EquationCode* codes[4] = {};
   std::vector<std::thread> threads;
-  for (const EquationCode*& code : codes) threads.emplace_back([&code, &system] { code = system->equation_code(); });
+  for (const EquationCode*& code : codes)
+    threads.emplace_back([&code, &system] { code = system->equation_code(); });
   for (std::thread& thread : threads) thread.join();
   ASSERT_NE(codes[0], nullptr);
   for (const EquationCode* code : codes) EXPECT_EQ(code, codes[0]);
   const CompiledFunction* functions[4] = {};
   threads.clear();
   for (const CompiledFunction*& function : functions)
-    threads.emplace_back([&] { function = &codes[0]->function(EquationFunction::kResidual, {8, true, false}); });
+    threads.emplace_back([&] {
+      function = &codes[0]->function(EquationFunction::kResidual, {8, true, false});
+    });
   for (std::thread& thread : threads) thread.join();
   for (const CompiledFunction* function : functions) EXPECT_EQ(function, functions[0]);
   const CompiledFunction* const residual = functions[0];
   ASSERT_NE(residual, nullptr);
-  EXPECT_EQ(&codes[0]->function(EquationFunction::kResidual, {8, true, false}), residual) << "compiled once";
+  EXPECT_EQ(&codes[0]->function(EquationFunction::kResidual, {8, true, false}), residual)
+      << "compiled once";
   EXPECT_NE(&codes[0]->function(EquationFunction::kResidual, {8, false, false}), residual);
 }
 
@@ -44,21 +48,27 @@ TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
   std::size_t expressions = 0;
   for (int n : code.numbered(true).numbers) {
     const Recording::Node& node = code.numbered(true).recording.node(n);
-    EXPECT_TRUE(!node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kTimed)) << "node " << n;
-    if (node.operation == Operation::kLeaf && node.a == Recording::kSupplied && node.b >= 0) ++expressions;
+    EXPECT_TRUE(!node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kTimed))
+        << "node " << n;
+    if (node.operation == Operation::kLeaf && node.a == Recording::kSupplied && node.b >= 0)
+      ++expressions;
   }
   EXPECT_EQ(expressions, 5U) << "Kp, Ki, Kd, the weight, and the start as a terminal reference";
 }
 
 TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const CompiledSystem> still = compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
+  const std::shared_ptr<const CompiledSystem> still =
+      compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
   EXPECT_TRUE(still->equation_code()->numbered(false).turns.empty()) << "no position is read";
-  EXPECT_TRUE(still->equation_code()->numbered(false).functions.empty()) << "constants are no functions of time";
-  EXPECT_EQ(servo("{}")->equation_code()->numbered(false).turns.size(), 1U) << "the shoulder's position";
+  EXPECT_TRUE(still->equation_code()->numbered(false).functions.empty())
+      << "constants are no functions of time";
+  EXPECT_EQ(servo("{}")->equation_code()->numbered(false).turns.size(), 1U)
+      << "the shoulder's position";
   const std::shared_ptr<const CompiledSystem> moved =
       compile(double_pendulum(),
-              "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: sine, amplitude: 1.0, "
+              "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: "
+              "sine, amplitude: 1.0, "
               "period: 2.0}}]}\n");
   ASSERT_EQ(moved->equation_code()->numbered(false).functions.size(), 1U);
   const auto& orders = moved->equation_code()->numbered(false).functions[0];
@@ -69,26 +79,34 @@ TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
 TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
   SKIP_WITHOUT_CODE();
   const std::string friction =
-      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' joint_length='0.2' pin_radius='0.05' "
+      "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' "
+      "joint_length='0.2' pin_radius='0.05' "
       "codesign:pin_radius='${radius}'/>";
-  const std::shared_ptr<const CompiledSystem> system = compile(
-      robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") + hinge("shoulder", "ground", "arm", "0 0 0", friction)),
-      motion_study(1.0, "{}", "shoulder/velocity", "{}"));
+  const std::shared_ptr<const CompiledSystem> system =
+      compile(robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") +
+                    hinge("shoulder", "ground", "arm", "0 0 0", friction)),
+              motion_study(1.0, "{}", "shoulder/velocity", "{}"));
   EXPECT_EQ(system->equation_code()->design_guards().size(), 1U) << "whether the pin has a radius";
 }
 
 TEST(EquationCode, EveryShippedCaseIsCompiled) {
   SKIP_WITHOUT_CODE();
-  for (const char* name : {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless", "governor",
-                           "two_link_arm", "arm_limits", "gantry"}) {
+  for (const char* name :
+       {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless",
+        "governor", "two_link_arm", "arm_limits", "gantry"}) {
     const Shipped shipped(name);
     const std::shared_ptr<const CompiledSystem> system = make_system(shipped.robot, shipped.study);
     const EquationCode* const code = system->equation_code();
     ASSERT_NE(code, nullptr) << name;
-    for (EquationFunction function : {EquationFunction::kResidual, EquationFunction::kLinearization, EquationFunction::kConstraintErrors})
-      for (const EquationCode::Scalar& scalar :
-           {EquationCode::Scalar{0, false, false}, {4, false, false}, {8, false, false}, {4, true, false}, {8, true, false}})
-        EXPECT_EQ(code->function(function, scalar).interpreter, nullptr) << name << ", lanes " << scalar.lanes;
+    for (EquationFunction function : {EquationFunction::kResidual, EquationFunction::kLinearization,
+                                      EquationFunction::kConstraintErrors})
+      for (const EquationCode::Scalar& scalar : {EquationCode::Scalar{0, false, false},
+                                                 {4, false, false},
+                                                 {8, false, false},
+                                                 {4, true, false},
+                                                 {8, true, false}})
+        EXPECT_EQ(code->function(function, scalar).interpreter, nullptr)
+            << name << ", lanes " << scalar.lanes;
   }
 }
 

@@ -13,24 +13,31 @@
 
 namespace codesign {
 
-EquationsFixture::EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing)
-    : robot(read_urdf({"all.urdf", urdf})), system(robot, read_study({"all.yaml", study}, robot), sharing), real(system), complex(system) {
+EquationsFixture::EquationsFixture(const std::string& urdf, const std::string& study,
+                                   const ReactionSharing& sharing)
+    : robot(read_urdf({"all.urdf", urdf})),
+      system(robot, read_study({"all.yaml", study}, robot), sharing),
+      real(system),
+      complex(system) {
   const std::vector<double> parameters = system.parameters();
   real.set_design(parameters);
   complex.set_design(std::vector<std::complex<double>>(parameters.begin(), parameters.end()));
   state.resize(system.layout());
   // Any point will do; the formulas hold off the constraints too.
   const auto fill = [](VectorX<double>* x, double phase) {
-    for (Eigen::Index k = 0; k < x->size(); ++k) (*x)[k] = std::sin(1.7 * static_cast<double>(k) + phase);
+    for (Eigen::Index k = 0; k < x->size(); ++k)
+      (*x)[k] = std::sin(1.7 * static_cast<double>(k) + phase);
   };
   fill(&state.q, 0.3);
   fill(&state.v, 1.1);
   fill(&state.s, 2.0);
   fill(&state.z, 0.7);
-  for (int b = 0; b < system.layout().bodies; ++b) state.q.segment<4>(kBodySize * b + 3).normalize();
+  for (int b = 0; b < system.layout().bodies; ++b)
+    state.q.segment<4>(kBodySize * b + 3).normalize();
 }
 
-Eigen::MatrixXd EquationsFixture::reference(VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at) {
+Eigen::MatrixXd EquationsFixture::reference(
+    VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at) {
   State<std::complex<double>> point;
   cast_state(state, &point);
   return complex_step_jacobian(
@@ -62,10 +69,12 @@ Eigen::VectorXd EquationsFixture::time_reference() {
   return derivative;
 }
 
-Eigen::MatrixXd EquationsFixture::dense(const Sparsity& pattern, const std::vector<double>& values) {
+Eigen::MatrixXd EquationsFixture::dense(const Sparsity& pattern,
+                                        const std::vector<double>& values) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pattern.rows, pattern.columns);
   for (int row = 0; row < pattern.rows; ++row)
-    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) matrix(row, pattern.column(e)) = values[static_cast<std::size_t>(e)];
+    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+      matrix(row, pattern.column(e)) = values[static_cast<std::size_t>(e)];
   return matrix;
 }
 
@@ -83,12 +92,20 @@ void EquationsFixture::expect_exact_derivatives_of_real(double tolerance) {
   expect_exact_residual();
   const Layout& layout = system.layout();
   const Eigen::MatrixXd by_position = dense(system.patterns().position, d.position);
-  EXPECT_LT(compare_jacobians(by_position.leftCols(layout.n), reference(&S::q, state.q)).largest, tolerance);
+  EXPECT_LT(compare_jacobians(by_position.leftCols(layout.n), reference(&S::q, state.q)).largest,
+            tolerance);
   if (layout.states > 0) {
-    EXPECT_LT(compare_jacobians(by_position.rightCols(layout.states), reference(&S::s, state.s)).largest, tolerance);
+    EXPECT_LT(
+        compare_jacobians(by_position.rightCols(layout.states), reference(&S::s, state.s)).largest,
+        tolerance);
   }
-  EXPECT_LT(compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v)).largest, tolerance);
-  EXPECT_LT(compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest, tolerance);
+  EXPECT_LT(
+      compare_jacobians(dense(system.patterns().velocity, d.velocity), reference(&S::v, state.v))
+          .largest,
+      tolerance);
+  EXPECT_LT(
+      compare_jacobians(dense(system.patterns().rate, d.rate), reference(&S::z, state.z)).largest,
+      tolerance);
   EXPECT_LT(compare_jacobians(d.time, time_reference()).largest, 1e-8);
 }
 
@@ -104,9 +121,11 @@ State<L> directed(const State<double>& state) {
   const auto direct = [](const VectorX<double>& x, VectorX<L>* lanes) {
     *lanes = x.cast<L>();
     for (Eigen::Index k = 0; k < x.size(); ++k)
-      for (int lane = 0; lane < 4; ++lane) (*lanes)[k].v[lane] = std::sin(0.9 * static_cast<double>(k) + lane);
+      for (int lane = 0; lane < 4; ++lane)
+        (*lanes)[k].v[lane] = std::sin(0.9 * static_cast<double>(k) + lane);
   };
-  direct(state.q, &point.q), direct(state.v, &point.v), direct(state.s, &point.s), direct(state.z, &point.z);
+  direct(state.q, &point.q), direct(state.v, &point.v), direct(state.s, &point.s),
+      direct(state.z, &point.z);
   return point;
 }
 
@@ -121,7 +140,8 @@ std::vector<L> directed(const std::vector<double>& values) {
 
 /// All numbers that the recorded equations give at a state, side by side.
 template <class T>
-std::vector<double> all_numbers(const CompiledSystem& system, const std::vector<T>& parameters, const State<T>& state, bool machine_code) {
+std::vector<double> all_numbers(const CompiledSystem& system, const std::vector<T>& parameters,
+                                const State<T>& state, bool machine_code) {
   Equations<T> equations(system);
   equations.compiled().allow(machine_code);
   equations.set_design(parameters);
@@ -135,9 +155,11 @@ std::vector<double> all_numbers(const CompiledSystem& system, const std::vector<
   std::vector<double> numbers;
   const auto append = [&numbers](const auto& from) {
     const auto* const first = reinterpret_cast<const double*>(from.data());
-    numbers.insert(numbers.end(), first, first + static_cast<std::size_t>(from.size()) * sizeof(T) / sizeof(double));
+    numbers.insert(numbers.end(), first,
+                   first + static_cast<std::size_t>(from.size()) * sizeof(T) / sizeof(double));
   };
-  append(G), append(Phi), append(Phi_rate), append(d.position), append(d.velocity), append(d.rate), append(d.time);
+  append(G), append(Phi), append(Phi_rate), append(d.position), append(d.velocity), append(d.rate),
+      append(d.time);
   append(std::vector<T>{g});
   return numbers;
 }
@@ -145,17 +167,20 @@ std::vector<double> all_numbers(const CompiledSystem& system, const std::vector<
 void expect_equal(const std::vector<double>& x, const std::vector<double>& y) {
   ASSERT_EQ(x.size(), y.size());
   int different = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) different += x[k] == y[k] || (std::isnan(x[k]) && std::isnan(y[k])) ? 0 : 1;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    different += x[k] == y[k] || (std::isnan(x[k]) && std::isnan(y[k])) ? 0 : 1;
   EXPECT_EQ(different, 0) << "of " << x.size();
 }
 
 }  // namespace
 
 void EquationsFixture::expect_same_bits() {
-  expect_equal(all_numbers(system, system.parameters(), state, true), all_numbers(system, system.parameters(), state, false));
+  expect_equal(all_numbers(system, system.parameters(), state, true),
+               all_numbers(system, system.parameters(), state, false));
   const std::vector<L> parameters = directed(system.parameters());
   const State<L> point = directed(state);
-  expect_equal(all_numbers(system, parameters, point, true), all_numbers(system, parameters, point, false));
+  expect_equal(all_numbers(system, parameters, point, true),
+               all_numbers(system, parameters, point, false));
 }
 
 void EquationsFixture::expect_exact_lanes() {
@@ -177,13 +202,15 @@ void EquationsFixture::expect_exact_lanes() {
     complex.set_design(design);
     State<std::complex<double>> moved;
     cast_state(state, &moved);
-    along(point.q, &moved.q), along(point.v, &moved.v), along(point.s, &moved.s), along(point.z, &moved.z);
+    along(point.q, &moved.q), along(point.v, &moved.v), along(point.s, &moved.s),
+        along(point.z, &moved.z);
     VectorX<std::complex<double>> expected;
     std::complex<double> expected_g;
     complex.residual(moved, &expected, &expected_g);
     const auto compare = [lane](const L& x, const std::complex<double>& y) {
       const double size = 1.0 + std::abs(y.real()) + x.directions().norm();
-      EXPECT_LT(std::max(std::abs(x.a - y.real()), std::abs(x.v[lane] - y.imag() / kStep)), 1e-11 * size);
+      EXPECT_LT(std::max(std::abs(x.a - y.real()), std::abs(x.v[lane] - y.imag() / kStep)),
+                1e-11 * size);
     };
     compare(g, expected_g);
     for (Eigen::Index k = 0; k < G.size(); ++k) compare(G[k], expected[k]);
@@ -197,7 +224,8 @@ void EquationsFixture::expect_exact_residual() {
   double expected_g = 0.0, g = 0.0;
   real.formulas().residual(state, &expected, &expected_g);
   real.residual(state, &G, &g);
-  EXPECT_LT((G - expected).lpNorm<Eigen::Infinity>(), 1e-12 * (1.0 + expected.lpNorm<Eigen::Infinity>()));
+  EXPECT_LT((G - expected).lpNorm<Eigen::Infinity>(),
+            1e-12 * (1.0 + expected.lpNorm<Eigen::Infinity>()));
   EXPECT_NEAR(g, expected_g, 1e-12 * (1.0 + std::abs(expected_g)));
 }
 

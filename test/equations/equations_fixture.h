@@ -14,22 +14,24 @@
 
 namespace codesign {
 
-/// The equations of a mechanism at a generic state, and the recorded values with complex numbers for derivatives by the complex step, which
-/// share nothing with the derived ones.
+/// The equations of a mechanism at a generic state, and the recorded values with complex numbers
+/// for derivatives by the complex step, which share nothing with the derived ones.
 class EquationsFixture {
  public:
-  EquationsFixture(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {});
+  EquationsFixture(const std::string& urdf, const std::string& study,
+                   const ReactionSharing& sharing = {});
 
   /// The derivative of [G; g] by one of the state's vectors at `at`, by the complex step.
-  Eigen::MatrixXd reference(VectorX<std::complex<double>> State<std::complex<double>>::*member, const VectorX<double>& at);
+  Eigen::MatrixXd reference(VectorX<std::complex<double>> State<std::complex<double>>::*member,
+                            const VectorX<double>& at);
 
   /// d[G; g]/dt by extrapolated differences.
   Eigen::VectorXd time_reference();
 
   static Eigen::MatrixXd dense(const Sparsity& pattern, const std::vector<double>& values);
 
-  /// Expects all derivatives at `state`, and those along directions, to agree with the complex step; the same numbers with and without
-  /// machine code.
+  /// Expects all derivatives at `state`, and those along directions, to agree with the complex
+  /// step; the same numbers with and without machine code.
   void expect_exact_derivatives(double tolerance);
   void expect_exact_derivatives_of_real(double tolerance);
 

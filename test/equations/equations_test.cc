@@ -8,8 +8,8 @@
 namespace codesign {
 namespace {
 
-/// Every kind of load, signal and pair that has derivatives: friction in a slide, a hinge (by direction) and a cylindrical loop, damping, a
-/// PID with all gains.
+/// Every kind of load, signal and pair that has derivatives: friction in a slide, a hinge (by
+/// direction) and a cylindrical loop, damping, a PID with all gains.
 const char* const kMechanism = R"(
 <robot name="all" xmlns:codesign="urn:test"><link name="ground"/>
   <link name="cart"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
@@ -57,7 +57,8 @@ class EquationsTest : public ::testing::Test, public EquationsFixture {
 TEST_F(EquationsTest, EveryDerivativeIsExact) { expect_exact_derivatives(1e-11); }
 
 TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
-  // Phi'' along (v, a) by differencing the rates, which the complex step does exactly: q + i h v, v + i h a.
+  // Phi'' along (v, a) by differencing the rates, which the complex step does exactly: q + i h v, v
+  // + i h a.
   using C = std::complex<double>;
   constexpr double h = 1e-30;
   VectorX<C> Phi, rates;
@@ -71,7 +72,8 @@ TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
   real.residual(state, &G, &g);
   real.constraint_errors(state, &errors, &real_rates);
   EXPECT_LT((Phi.imag() / h - real_rates).norm(), 1e-12 * (1.0 + real_rates.norm()));
-  EXPECT_LT((rates.imag() / h - G.segment(system.layout().n, system.layout().m)).norm(), 1e-12 * (1.0 + G.norm()));
+  EXPECT_LT((rates.imag() / h - G.segment(system.layout().n, system.layout().m)).norm(),
+            1e-12 * (1.0 + G.norm()));
 }
 
 TEST_F(EquationsTest, FrictionIsTheForceOnTheChildAgainstItsMotion) {

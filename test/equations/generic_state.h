@@ -21,10 +21,12 @@ inline Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
 }
 
 /// The part of a velocity that the constraints allow.
-inline Eigen::VectorXd allowed(const Eigen::MatrixXd& Phi_q, const Eigen::VectorXd& v) { return v - pseudo_inverse(Phi_q) * (Phi_q * v); }
+inline Eigen::VectorXd allowed(const Eigen::MatrixXd& Phi_q, const Eigen::VectorXd& v) {
+  return v - pseudo_inverse(Phi_q) * (Phi_q * v);
+}
 
-/// Moves a started mechanism to a generic position with generic velocities, and solves for its accelerations and multipliers. False if the
-/// constraints cannot be satisfied there.
+/// Moves a started mechanism to a generic position with generic velocities, and solves for its
+/// accelerations and multipliers. False if the constraints cannot be satisfied there.
 inline bool scramble(Compiled* c, double amount = 0.4) {
   State<double>& state = c->state;
   Eigen::VectorXd Phi, Phi_rate;
@@ -40,7 +42,8 @@ inline bool scramble(Compiled* c, double amount = 0.4) {
   }
   state.v = allowed(jacobian(), waves(state.v.size(), 1.1));
   c->equations.constraint_errors(state, &Phi, &Phi_rate);
-  return Phi.norm() < 1e-12 && Phi_rate.norm() < 1e-12 && c->assembly.solve_rates(&c->equations, &state).ok();
+  return Phi.norm() < 1e-12 && Phi_rate.norm() < 1e-12 &&
+         c->assembly.solve_rates(&c->equations, &state).ok();
 }
 
 }  // namespace codesign

@@ -53,7 +53,8 @@ struct DerivativeProducts : ::testing::Test {
     for (State<double>* s : {&state, &direction}) {
       s->resize(system->layout());
       for (VectorX<double>* part : {&s->q, &s->v, &s->s, &s->z})
-        for (Eigen::Index k = 0; k < part->size(); ++k) (*part)[k] = std::sin(3.0 * static_cast<double>(++count));
+        for (Eigen::Index k = 0; k < part->size(); ++k)
+          (*part)[k] = std::sin(3.0 * static_cast<double>(++count));
     }
     derivatives.resize(system->patterns());
     equations.linearize(state, &derivatives);
@@ -66,7 +67,9 @@ struct DerivativeProducts : ::testing::Test {
     complex.set_design({parameters.begin(), parameters.end()});
     State<Complex> moved;
     cast_state(state, &moved);
-    const auto move = [](const VectorX<double>& from, const VectorX<double>& along) { return (from + Complex(0.0, 1e-30) * along).eval(); };
+    const auto move = [](const VectorX<double>& from, const VectorX<double>& along) {
+      return (from + Complex(0.0, 1e-30) * along).eval();
+    };
     moved.q = move(state.q, direction.q);
     moved.v = move(state.v, direction.v);
     moved.s = move(state.s, direction.s);
@@ -89,7 +92,8 @@ struct DerivativeProducts : ::testing::Test {
 TEST_F(DerivativeProducts, DirectionalDerivativeMeetsTheComplexStep) {
   VectorX<double> result;
   directional_derivative(*system, derivatives, direction, &result);
-  EXPECT_LT((result - reference()).cwiseAbs().maxCoeff(), 1e-11 * (1.0 + result.cwiseAbs().maxCoeff()));
+  EXPECT_LT((result - reference()).cwiseAbs().maxCoeff(),
+            1e-11 * (1.0 + result.cwiseAbs().maxCoeff()));
 }
 
 TEST_F(DerivativeProducts, ThePositionProductIsThatOfPositionsAlone) {
@@ -100,7 +104,8 @@ TEST_F(DerivativeProducts, ThePositionProductIsThatOfPositionsAlone) {
   VectorX<double> result = VectorX<double>::Ones(columns);
   subtract_position_product(*system, derivatives, direction.q, 2.0, result);
   const VectorX<double> expected = VectorX<double>::Ones(columns) - 2.0 * reference().head(columns);
-  EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-11 * (1.0 + expected.cwiseAbs().maxCoeff()));
+  EXPECT_LT((result - expected).cwiseAbs().maxCoeff(),
+            1e-11 * (1.0 + expected.cwiseAbs().maxCoeff()));
 }
 
 }  // namespace

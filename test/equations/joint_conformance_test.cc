@@ -19,7 +19,9 @@ using C = std::complex<double>;
 class JointConformance : public ::testing::TestWithParam<JointCase> {
  protected:
   JointConformance()
-      : c(joint_cases::model(GetParam()), "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n"), complex(c.system) {
+      : c(joint_cases::model(GetParam()),
+          "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n"),
+        complex(c.system) {
     const std::vector<double> parameters = c.system.parameters();
     complex.set_design(std::vector<C>(parameters.begin(), parameters.end()));
   }
@@ -57,20 +59,28 @@ TEST_P(JointConformance, RowsAreAsManyAsTheJointTakesFreedoms) {
   Eigen::FullPivLU<Eigen::MatrixXd> lu(Phi_q);
   lu.setThreshold(1e-9);
   EXPECT_EQ(lu.rank(), layout().m);
-  EXPECT_TRUE(analyse_redundancy(c.system, &c.equations, c.assembly, c.system.parameters(), c.state).rows.empty());
+  EXPECT_TRUE(analyse_redundancy(c.system, &c.equations, c.assembly, c.system.parameters(), c.state)
+                  .rows.empty());
 }
 
 TEST_P(JointConformance, PhiQIsTheJacobianOfPhi) {
   const Eigen::MatrixXd reference = position_jacobian();
   const int own = layout().coupling_row(0);
   EXPECT_LT(compare_jacobians(Phi_q.topRows(own), reference.topRows(own)).largest, 1e-12);
-  EXPECT_LT(compare_jacobians(Phi_q.bottomRows(layout().bodies), reference.bottomRows(layout().bodies)).largest, 1e-12);
-  // The rate of a turn comes from angular velocities; it is the derivative of the arc tangent only along motions that the joint allows.
+  EXPECT_LT(
+      compare_jacobians(Phi_q.bottomRows(layout().bodies), reference.bottomRows(layout().bodies))
+          .largest,
+      1e-12);
+  // The rate of a turn comes from angular velocities; it is the derivative of the arc tangent only
+  // along motions that the joint allows.
   Eigen::MatrixXd rigid(own + layout().bodies, layout().n);
   rigid << Phi_q.topRows(own), Phi_q.bottomRows(layout().bodies);
   const Eigen::MatrixXd motions = Eigen::FullPivLU<Eigen::MatrixXd>(rigid).kernel();
   const int couplings = layout().couplings;
-  EXPECT_LT(compare_jacobians(Phi_q.middleRows(own, couplings) * motions, reference.middleRows(own, couplings) * motions).largest, 1e-11);
+  EXPECT_LT(compare_jacobians(Phi_q.middleRows(own, couplings) * motions,
+                              reference.middleRows(own, couplings) * motions)
+                .largest,
+            1e-11);
 }
 
 TEST_P(JointConformance, AccelerationRowsAreTheSecondDerivativeOfPhi) {
@@ -136,12 +146,16 @@ struct Wrench {
 
 /// The wrench that must act on a body besides its weight, by Newton-Euler from its acceleration.
 Wrench demanded(const Compiled& c, int b) {
-  const BodyConstants<double>& constants = c.equations.constants().bodies[static_cast<std::size_t>(b)];
+  const BodyConstants<double>& constants =
+      c.equations.constants().bodies[static_cast<std::size_t>(b)];
   const Eigen::Vector3d gravity(c.system.study().gravity.data());
-  const Eigen::Vector4d p = c.state.q.segment<4>(kBodySize * b + 3), pd = c.state.v.segment<4>(kBodySize * b + 3),
+  const Eigen::Vector4d p = c.state.q.segment<4>(kBodySize * b + 3),
+                        pd = c.state.v.segment<4>(kBodySize * b + 3),
                         pdd = c.state.z.segment<4>(kBodySize * b + 3);
-  const Eigen::Vector3d omega = 2.0 * (body_rate_matrix(p) * pd), alpha = 2.0 * (body_rate_matrix(p) * pdd);
-  return {constants.mass * (c.state.z.segment<3>(kBodySize * b) - gravity), constants.J * alpha + omega.cross(constants.J * omega)};
+  const Eigen::Vector3d omega = 2.0 * (body_rate_matrix(p) * pd),
+                        alpha = 2.0 * (body_rate_matrix(p) * pdd);
+  return {constants.mass * (c.state.z.segment<3>(kBodySize * b) - gravity),
+          constants.J * alpha + omega.cross(constants.J * omega)};
 }
 
 /// The wrench of the multipliers on it, by virtual work with p' = G^T omega/2.
@@ -149,7 +163,8 @@ Wrench exerted(const Compiled& c, const Eigen::MatrixXd& Phi_q, int b) {
   const Layout& layout = c.system.layout();
   const Eigen::VectorXd load = -Phi_q.transpose() * c.state.z.segment(layout.n, layout.m);
   const Eigen::Vector4d p = c.state.q.segment<4>(kBodySize * b + 3);
-  return {load.segment<3>(kBodySize * b), 0.5 * (body_rate_matrix(p) * load.segment<4>(kBodySize * b + 3))};
+  return {load.segment<3>(kBodySize * b),
+          0.5 * (body_rate_matrix(p) * load.segment<4>(kBodySize * b + 3))};
 }
 
 TEST_P(JointConformance, ReactionsBalanceEachBody) {
@@ -178,7 +193,8 @@ TEST_P(JointConformance, TheReactionInTheJointsAxesIsWhatTheTipFeels) {
     const PairConstants<double>& geometry = c.equations.constants().pairs[k];
     const Eigen::Matrix3d A_j = c.equations.formulas().body(pair.body_j).A,
                           axes = c.equations.formulas().body(pair.body_i).A * geometry.C_i;
-    const Eigen::Vector3d force = -axes * F, torque = A_j.transpose() * ((A_j * geometry.s_j).cross(force) - axes * T);
+    const Eigen::Vector3d force = -axes * F,
+                          torque = A_j.transpose() * ((A_j * geometry.s_j).cross(force) - axes * T);
     const Wrench need = demanded(c, pair.body_j);
     EXPECT_LT((force - need.force).norm(), 1e-10 * (1.0 + need.force.norm()));
     EXPECT_LT((torque - need.torque).norm(), 1e-10 * (1.0 + need.torque.norm()));
@@ -189,8 +205,11 @@ INSTANTIATE_TEST_SUITE_P(AllJoints, JointConformance, ::testing::ValuesIn(joint_
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(FixedJoint, MakesOneBodyOfTwoLinks) {
-  Compiled c(joint_cases::model({"fixed", joint_cases::tree("joint", "fixed", "base", "tip", "1 0 0", joint_cases::kOrigin), 0}),
-             "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n");
+  Compiled c(
+      joint_cases::model(
+          {"fixed",
+           joint_cases::tree("joint", "fixed", "base", "tip", "1 0 0", joint_cases::kOrigin), 0}),
+      "duration: 1.0\nobjective: {integral: [{signal: tip/position/x}]}\n");
   EXPECT_EQ(c.system.layout().bodies, 1);
   EXPECT_EQ(c.system.layout().m, 1);
   c.equations.set_design(c.system.parameters());

@@ -19,25 +19,30 @@ TEST(RecordPatterns, HaveARowPerEquationAndOneForTheIntegrand) {
   for (const Sparsity* pattern : {&patterns.position, &patterns.velocity, &patterns.rate}) {
     ASSERT_EQ(pattern->row_start.size(), static_cast<std::size_t>(pattern->rows) + 1);
     for (int row = 0; row < pattern->rows; ++row)
-      for (int e = pattern->first(row) + 1; e < pattern->first(row + 1); ++e) EXPECT_LT(pattern->column(e - 1), pattern->column(e));
+      for (int e = pattern->first(row) + 1; e < pattern->first(row + 1); ++e)
+        EXPECT_LT(pattern->column(e - 1), pattern->column(e));
   }
 }
 
-/// derive_linearization() throws for an entry outside the patterns. Each decision alone is turned round.
+/// derive_linearization() throws for an entry outside the patterns. Each decision alone is turned
+/// round.
 void expect_room_for_every_variant(const CompiledSystem& system) {
   const std::vector<bool> outcomes = system.equation_code()->outcomes();
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
-    std::vector<bool> other(outcomes.begin(), outcomes.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    std::vector<bool> other(outcomes.begin(),
+                            outcomes.begin() + static_cast<std::ptrdiff_t>(k) + 1);
     other.back() = !other.back();
     EXPECT_NO_THROW(system.record_variant(other)) << "decision " << k;
   }
 }
 
 TEST(RecordPatterns, HaveRoomForEveryBranch) {
-  const std::string stops = "limits: {position: true, effort: true, stiffness: 50.0, width: 0.01, dissipation: 0.4}\n";
+  const std::string stops =
+      "limits: {position: true, effort: true, stiffness: 50.0, width: 0.01, dissipation: 0.4}\n";
   expect_room_for_every_variant(*compile(loaded_arm(), "duration: 1.0\n" + stops));
   for (const char* friction : {"lugre", "gonthier"})
-    expect_room_for_every_variant(*compile(with_friction_model(puck(), friction), "duration: 1.0\n"));
+    expect_room_for_every_variant(
+        *compile(with_friction_model(puck(), friction), "duration: 1.0\n"));
   for (const JointCase& joint : joint_cases::all())
     expect_room_for_every_variant(*compile(joint_cases::model(joint), "duration: 1.0\n" + stops));
   expect_room_for_every_variant(*servo("{}"));

@@ -14,7 +14,8 @@ namespace {
 using C = std::complex<double>;
 
 /// All results of a function side by side.
-Eigen::VectorXcd results(EquationFunction function, const State<C>& state, Equations<C>* equations, const CompiledSystem& system) {
+Eigen::VectorXcd results(EquationFunction function, const State<C>& state, Equations<C>* equations,
+                         const CompiledSystem& system) {
   std::vector<C> all;
   const auto add = [&all](const auto& part) { all.insert(all.end(), part.begin(), part.end()); };
   VectorX<C> first, second;
@@ -44,7 +45,8 @@ class TransposedCodeTest : public ::testing::TestWithParam<Case> {
   TransposedCodeTest() {
     at.resize(system->layout());
     at.t = 0.37;
-    at.q = waves(at.q.size(), 0.2), at.v = waves(at.v.size(), 0.9), at.s = waves(at.s.size(), 0.4), at.z = waves(at.z.size(), 1.3);
+    at.q = waves(at.q.size(), 0.2), at.v = waves(at.v.size(), 0.9), at.s = waves(at.s.size(), 0.4),
+    at.z = waves(at.z.size(), 1.3);
   }
 
   /// The weighted sum of the results, with columns of the state and then tuned parameters moved.
@@ -74,8 +76,11 @@ TEST_P(TransposedCodeTest, IsTheComplexStepOfTheWeightedSum) {
   const auto sizes = [&]() -> std::array<std::ptrdiff_t, 4> {
     if (function == EquationFunction::kResidual) return {layout.columns(), 1, 0, 0};
     if (function == EquationFunction::kConstraintErrors) return {layout.m, layout.m, 0, 0};
-    const auto size = [](const Sparsity& pattern) { return static_cast<std::ptrdiff_t>(pattern.column_index.size()); };
-    return {size(patterns.position), size(patterns.velocity), size(patterns.rate), layout.columns() + 1};
+    const auto size = [](const Sparsity& pattern) {
+      return static_cast<std::ptrdiff_t>(pattern.column_index.size());
+    };
+    return {size(patterns.position), size(patterns.velocity), size(patterns.rate),
+            layout.columns() + 1};
   }();
   const Eigen::VectorXd weights = waves(sizes[0] + sizes[1] + sizes[2] + sizes[3], 0.6);
   In<double> parts[4];
@@ -85,7 +90,8 @@ TEST_P(TransposedCodeTest, IsTheComplexStepOfTheWeightedSum) {
   CompiledEquations<double> equations(*system);
   equations.allow(machine_code);
   equations.set_design(system->parameters());
-  const int columns = layout.positions() + layout.n + layout.columns(), tuned = static_cast<int>(system->study().tuned.size());
+  const int columns = layout.positions() + layout.n + layout.columns(),
+            tuned = static_cast<int>(system->study().tuned.size());
   Eigen::VectorXd derived = Eigen::VectorXd::Zero(columns + tuned);
   const Out<double> all = derived;
   // What is added twice counts twice.
@@ -93,13 +99,15 @@ TEST_P(TransposedCodeTest, IsTheComplexStepOfTheWeightedSum) {
   equations.add_transposed(function, at, parts, all.first(columns));
   equations.add_gradient(all.subspan(columns, tuned));
   const Eigen::MatrixXd reference =
-      complex_step_jacobian([&](const Eigen::VectorXcd& x) { return weighted(weights, x); }, Eigen::VectorXd::Zero(columns + tuned));
+      complex_step_jacobian([&](const Eigen::VectorXcd& x) { return weighted(weights, x); },
+                            Eigen::VectorXd::Zero(columns + tuned));
   EXPECT_GT(reference.norm(), 1.0);
   EXPECT_LT(compare_jacobians(0.5 * derived.transpose(), reference).largest, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, TransposedCodeTest,
-                         ::testing::Combine(::testing::Values(EquationFunction::kResidual, EquationFunction::kLinearization,
+                         ::testing::Combine(::testing::Values(EquationFunction::kResidual,
+                                                              EquationFunction::kLinearization,
                                                               EquationFunction::kConstraintErrors),
                                             ::testing::Bool()));
 

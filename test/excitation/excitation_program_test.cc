@@ -26,7 +26,9 @@ TEST(LimitEnvelope, Derivatives) {
   Eigen::VectorXd by_z;
   limit_envelope(z, 30.0, &by_z);
   for (Eigen::Index k = 0; k < z.size(); ++k) {
-    const auto moved = [&](double change) { return limit_envelope(z + change * Eigen::Vector4d::Unit(k), 30.0, nullptr); };
+    const auto moved = [&](double change) {
+      return limit_envelope(z + change * Eigen::Vector4d::Unit(k), 30.0, nullptr);
+    };
     EXPECT_NEAR(by_z[k], ridders_derivative(moved, 0.0, 0.005).value, 1e-8);
   }
 }
@@ -38,14 +40,18 @@ void expect_gradient(const Problem& problem, double tolerance) {
   std::vector<std::string> names;
   for (const MeasuredJoint& joint : limits.joints) names.push_back(joint.name);
   const Information information(variables, names, limits.noise);
-  const TrajectorySpace space(*problem.study().excitation, limits, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size())));
+  const TrajectorySpace space(*problem.study().excitation, limits,
+                              Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size())));
   ExcitedMotion motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), 1);
   std::vector<int> columns(static_cast<std::size_t>(variables.size()));
   std::iota(columns.begin(), columns.end(), 0);
   ExcitationProgram program(space, limits, information, columns, &motion);
   program.set_sharpness(20.0);
   const Eigen::VectorXd x = space.shrunk(
-      space.mixed(Eigen::VectorXd::LinSpaced(space.size(), 0.1, 0.9).unaryExpr([](double u) { return std::fmod(5.3 * u, 1.0); })), 0.5);
+      space.mixed(Eigen::VectorXd::LinSpaced(space.size(), 0.1, 0.9).unaryExpr([](double u) {
+        return std::fmod(5.3 * u, 1.0);
+      })),
+      0.5);
   ASSERT_TRUE(motion.begin(space.rest(x)).ok());
   const ExcitationProgram::Value value = program.evaluate(x, true);
   ASSERT_TRUE(value.status.ok()) << value.status.cause;
@@ -53,23 +59,29 @@ void expect_gradient(const Problem& problem, double tolerance) {
     const auto criterion = [&](double change) {
       return program.evaluate(x + change * Eigen::VectorXd::Unit(x.size(), k), false).criterion;
     };
-    EXPECT_NEAR(value.gradient[k], ridders_derivative(criterion, 0.0, 2e-3).value, tolerance * value.gradient.cwiseAbs().maxCoeff()) << k;
+    EXPECT_NEAR(value.gradient[k], ridders_derivative(criterion, 0.0, 2e-3).value,
+                tolerance * value.gradient.cwiseAbs().maxCoeff())
+        << k;
     for (Eigen::Index row = 0; row < program.rows(); ++row) {
       const auto limit = [&](double change) {
         return program.evaluate(x + change * Eigen::VectorXd::Unit(x.size(), k), false).limits[row];
       };
-      EXPECT_NEAR(value.limits_x(row, k), ridders_derivative(limit, 0.0, 2e-3).value, tolerance * value.limits_x.cwiseAbs().maxCoeff())
+      EXPECT_NEAR(value.limits_x(row, k), ridders_derivative(limit, 0.0, 2e-3).value,
+                  tolerance * value.limits_x.cwiseAbs().maxCoeff())
           << limits.signals[static_cast<std::size_t>(row)].name;
     }
   }
 }
 
 TEST(ExcitationProgram, GradientOfAnArmWithSensors) {
-  expect_gradient(
-      arm("harmonics: 3", "joints: {elbow: {effort_scale: {}, delay: {}, offset: {}}}", "fore_inertia, fore_mass, fore_viscous"), 1e-6);
+  expect_gradient(arm("harmonics: 3", "joints: {elbow: {effort_scale: {}, delay: {}, offset: {}}}",
+                      "fore_inertia, fore_mass, fore_viscous"),
+                  1e-6);
 }
 
-TEST(ExcitationProgram, GradientOfAClosedLoop) { expect_gradient(slider_crank("  trajectory: spline\n  knots: 8\n"), 1e-6); }
+TEST(ExcitationProgram, GradientOfAClosedLoop) {
+  expect_gradient(slider_crank("  trajectory: spline\n  knots: 8\n"), 1e-6);
+}
 
 TEST(ExcitationProgram, AMotionThatTellsNothingIsAFailure) {
   const Problem problem = pendulum("", "parameters: {mass: {}, inertia: {}}", "0 0 1");

@@ -26,12 +26,14 @@ void expect_limits_kept(const ExcitationResult& result) {
   }
 }
 
-/// The largest |z| of all limited signals at many equal steps of the trajectory found, recomputed from its coefficients.
+/// The largest |z| of all limited signals at many equal steps of the trajectory found, recomputed
+/// from its coefficients.
 double worst_on_fine_scan(const Problem& problem, const ExcitationResult& result, int count) {
   const MotionLimits limits = motion_limits(problem);
   const TrajectoryBasis basis(*problem.study().excitation);
   const SampledShapes shapes(basis, times_in_period(basis.period(), count));
-  DrivePath path{(shapes.value * result.coefficients).transpose(), (shapes.rate * result.coefficients).transpose(),
+  DrivePath path{(shapes.value * result.coefficients).transpose(),
+                 (shapes.rate * result.coefficients).transpose(),
                  (shapes.acceleration * result.coefficients).transpose()};
   path.position.colwise() += result.rest;
   ExcitedMotion motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), 1);
@@ -49,11 +51,13 @@ TEST(Excite, APendulumIsKnownBetterWithinItsLimits) {
   EXPECT_EQ(result.starts.size(), 3U);
   expect_limits_kept(result);
   EXPECT_LE(worst_on_fine_scan(problem, result, 100000), 1.0 + 1e-9);
-  for (const PredictedNumber& number : result.numbers) EXPECT_LT(number.half, number.half_before) << number.name;
+  for (const PredictedNumber& number : result.numbers)
+    EXPECT_LT(number.half, number.half_before) << number.name;
 }
 
 TEST(Excite, WaypointsBeginAndEndAtRest) {
-  const ExcitationResult result = excite(pendulum("starts: 1, periods: 2, max_evaluations: 10, sample_rate: 50"), {}, nullptr);
+  const ExcitationResult result =
+      excite(pendulum("starts: 1, periods: 2, max_evaluations: 10, sample_rate: 50"), {}, nullptr);
   const TrajectoryPoints& points = result.points;
   ASSERT_EQ(points.times.size(), 401U);
   EXPECT_EQ(points.joints, (std::vector<std::string>{"hinge"}));
@@ -78,7 +82,8 @@ TEST(Excite, AnArmByBothKindsOfTrajectories) {
 }
 
 TEST(Excite, ASearchThatEndsBeyondTheLimitsIsNotLost) {
-  const ExcitationResult result = excite(arm("starts: 1, max_evaluations: 24, harmonics: 4"), {}, nullptr);
+  const ExcitationResult result =
+      excite(arm("starts: 1, max_evaluations: 24, harmonics: 4"), {}, nullptr);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LE(result.starts[0].criterion, result.starts[0].initial_criterion);
   EXPECT_GT(result.volume_factor(), 1.5);
@@ -96,7 +101,9 @@ TEST(Excite, AClosedLoopKeepsTheLimitsOfJointsThatFollow) {
 
 TEST(Excite, WhatNoTrajectoryTellsIsNamed) {
   const ExcitationResult result =
-      excite(pendulum("starts: 1, max_evaluations: 40", "parameters: {mass: {}, inertia: {}, viscous: {}}", "0 0 1"), {}, nullptr);
+      excite(pendulum("starts: 1, max_evaluations: 40",
+                      "parameters: {mass: {}, inertia: {}, viscous: {}}", "0 0 1"),
+             {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   ASSERT_EQ(result.undetermined.size(), 1U);
   EXPECT_NE(result.undetermined[0].find("mass"), std::string::npos) << result.undetermined[0];
@@ -111,10 +118,11 @@ TEST(Excite, WhatNoTrajectoryTellsIsNamed) {
 }
 
 TEST(Excite, AMassOnTheAxisHasNoEffect) {
-  const Problem problem = load_problem({"pendulum.urdf", pendulum_urdf("0 0 1", "0 0 -0.5")}, {},
-                                       {"study.yaml",
-                                        "identify: {}\nexcite: {joints: {hinge: {noise: 0.1}}, starts: 1, max_evaluations: 20}\n"
-                                        "parameters: {mass: {}, inertia: {}, viscous: {}}\n"});
+  const Problem problem = load_problem(
+      {"pendulum.urdf", pendulum_urdf("0 0 1", "0 0 -0.5")}, {},
+      {"study.yaml",
+       "identify: {}\nexcite: {joints: {hinge: {noise: 0.1}}, starts: 1, max_evaluations: 20}\n"
+       "parameters: {mass: {}, inertia: {}, viscous: {}}\n"});
   const ExcitationResult result = excite(problem, {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   EXPECT_EQ(result.undetermined, (std::vector<std::string>{"mass has no effect"}));
@@ -141,18 +149,21 @@ TEST(Excite, ACancelKeepsTheBestTrajectory) {
 }
 
 TEST(Excite, TheSameSeedGivesTheSameBits) {
-  const Problem one = pendulum("starts: 2, max_evaluations: 20", "parameters: {inertia: {}, viscous: {}}\nengine: {type: serial}");
+  const Problem one = pendulum("starts: 2, max_evaluations: 20",
+                               "parameters: {inertia: {}, viscous: {}}\nengine: {type: serial}");
   const Problem four =
-      pendulum("starts: 2, max_evaluations: 20", "parameters: {inertia: {}, viscous: {}}\nengine: {type: threads, workers: 4}");
+      pendulum("starts: 2, max_evaluations: 20",
+               "parameters: {inertia: {}, viscous: {}}\nengine: {type: threads, workers: 4}");
   EXPECT_EQ(excite(one, {}, nullptr).coefficients, excite(four, {}, nullptr).coefficients);
 }
 
 TEST(Excite, ARestThatBreaksALimitIsInfeasible) {
-  const Problem problem = load_problem(
-      {"pendulum.urdf", pendulum_urdf()}, {},
-      {"study.yaml",
-       "initial_state: {hinge: {position: 0.5}}\nidentify: {}\nexcite: {joints: {hinge: {position: [0.4, 1.0], effort: 2.0, noise: "
-       "1}}}\nparameters: {mass: {}}\n"});
+  const Problem problem =
+      load_problem({"pendulum.urdf", pendulum_urdf()}, {},
+                   {"study.yaml",
+                    "initial_state: {hinge: {position: 0.5}}\nidentify: {}\nexcite: {joints: "
+                    "{hinge: {position: [0.4, 1.0], effort: 2.0, noise: "
+                    "1}}}\nparameters: {mass: {}}\n"});
   const ExcitationResult result = excite(problem, {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible) << result.status.cause;
   EXPECT_TRUE(result.numbers.empty());
@@ -182,7 +193,8 @@ JointRecording recorded(const TrajectoryPoints& points, double noise, unsigned s
 }
 
 TEST(Excite, ARecordingOfTheTrajectoryIsKnownAsPredicted) {
-  const Problem problem = arm("harmonics: 4, starts: 1, max_evaluations: 60, sample_rate: 200", "intervals: {noise: white}");
+  const Problem problem = arm("harmonics: 4, starts: 1, max_evaluations: 60, sample_rate: 200",
+                              "intervals: {noise: white}");
   const ExcitationResult planned = excite(problem, {}, nullptr);
   ASSERT_TRUE(planned.status.ok()) << planned.status.cause;
   for (const bool plain : {false, true}) {

@@ -15,10 +15,14 @@ struct Moved {
   explicit Moved(const Problem& of, int threads = 1)
       : problem(of),
         limits(motion_limits(problem)),
-        space(*problem.study().excitation, limits, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(limits.joints.size()))),
+        space(*problem.study().excitation, limits,
+              Eigen::VectorXd::Zero(static_cast<Eigen::Index>(limits.joints.size()))),
         motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), threads) {
     const Eigen::VectorXd x = space.shrunk(
-        space.mixed(Eigen::VectorXd::LinSpaced(space.size(), 0.1, 0.9).unaryExpr([](double u) { return std::fmod(5.3 * u, 1.0); })), 0.4);
+        space.mixed(Eigen::VectorXd::LinSpaced(space.size(), 0.1, 0.9).unaryExpr([](double u) {
+          return std::fmod(5.3 * u, 1.0);
+        })),
+        0.4);
     path = space.path(x, SampledShapes(space.basis(), times_in_period(space.basis().period(), 30)));
     EXPECT_TRUE(motion.begin(space.rest(x)).ok());
   }
@@ -46,7 +50,9 @@ void expect_slopes(Moved* moved, Eigen::Index sample, double tolerance) {
   for (Eigen::Index direction = 0; direction < 3 * n; ++direction) {
     const auto response_at = [&](double change) {
       DrivePath changed = path;
-      (direction < n ? changed.position : direction < 2 * n ? changed.velocity : changed.acceleration)(direction % n, sample) += change;
+      (direction < n       ? changed.position
+       : direction < 2 * n ? changed.velocity
+                           : changed.acceleration)(direction % n, sample) += change;
       PathResponse response;
       EXPECT_TRUE(moved->motion.respond(changed, true, &response).ok());
       return response;
@@ -57,17 +63,26 @@ void expect_slopes(Moved* moved, Eigen::Index sample, double tolerance) {
       EXPECT_NEAR(moved->slopes.effort(k, column), ridders_derivative(effort, 0.0, 1e-3).value,
                   tolerance * (1.0 + moved->slopes.effort.cwiseAbs().maxCoeff()));
       for (Eigen::Index p = 0; p < moved->motion.parameters(); ++p) {
-        const auto entry = [&](double change) { return response_at(change).jacobian(sample * n + k, p); };
-        EXPECT_NEAR(moved->slopes.jacobian(column * n + k, p), ridders_derivative(entry, 0.0, 1e-3).value,
+        const auto entry = [&](double change) {
+          return response_at(change).jacobian(sample * n + k, p);
+        };
+        EXPECT_NEAR(moved->slopes.jacobian(column * n + k, p),
+                    ridders_derivative(entry, 0.0, 1e-3).value,
                     tolerance * (1.0 + moved->slopes.jacobian.cwiseAbs().maxCoeff()))
             << "direction " << direction << ", parameter " << p;
       }
     }
     for (Eigen::Index k = 0; k < moved->motion.followers(); ++k) {
-      const auto position = [&](double change) { return response_at(change).follower_position(k, sample); };
-      const auto velocity = [&](double change) { return response_at(change).follower_velocity(k, sample); };
-      EXPECT_NEAR(moved->slopes.follower_position(k, column), ridders_derivative(position, 0.0, 1e-3).value, tolerance);
-      EXPECT_NEAR(moved->slopes.follower_velocity(k, column), ridders_derivative(velocity, 0.0, 1e-3).value, tolerance);
+      const auto position = [&](double change) {
+        return response_at(change).follower_position(k, sample);
+      };
+      const auto velocity = [&](double change) {
+        return response_at(change).follower_velocity(k, sample);
+      };
+      EXPECT_NEAR(moved->slopes.follower_position(k, column),
+                  ridders_derivative(position, 0.0, 1e-3).value, tolerance);
+      EXPECT_NEAR(moved->slopes.follower_velocity(k, column),
+                  ridders_derivative(velocity, 0.0, 1e-3).value, tolerance);
     }
   }
 }
@@ -89,7 +104,9 @@ TEST(ExcitedMotion, EffortsOfAPendulumAreThoseOfTheFormula) {
   moved.run();
   const auto& path = moved.path;
   for (Eigen::Index k = 0; k < path.samples(); ++k) {
-    const double expected = 0.6 * path.acceleration(0, k) + 2.0 * 9.81 * 0.5 * std::sin(path.position(0, k)) + 0.3 * path.velocity(0, k);
+    const double expected = 0.6 * path.acceleration(0, k) +
+                            2.0 * 9.81 * 0.5 * std::sin(path.position(0, k)) +
+                            0.3 * path.velocity(0, k);
     EXPECT_NEAR(moved.response.effort(0, k), expected, 0.55) << "but for Coulomb friction";
     EXPECT_NEAR(moved.response.jacobian(k, 1), path.acceleration(0, k), 1e-9);
     EXPECT_NEAR(moved.response.jacobian(k, 2), path.velocity(0, k), 1e-9);
@@ -108,7 +125,9 @@ TEST(ExcitedMotion, ResultsDoNotDependOnTheNumberOfThreads) {
 
 TEST(ExcitedMotion, JointsThatDoNotDetermineTheMotionAreRefused) {
   const Problem problem = load_problem(
-      {"arm.urdf", arm_urdf()}, {}, {"study.yaml", "identify: {}\nexcite: {joints: {elbow: {noise: 1}}}\nparameters: {fore_mass: {}}\n"});
+      {"arm.urdf", arm_urdf()}, {},
+      {"study.yaml",
+       "identify: {}\nexcite: {joints: {elbow: {noise: 1}}}\nparameters: {fore_mass: {}}\n"});
   const MotionLimits limits = motion_limits(problem);
   try {
     ExcitedMotion(*problem.system(), limits.joints, {}, problem.parameters(), 1);

@@ -30,9 +30,9 @@ PathResponse made_up() {
 
 class InformationOfAPendulum : public testing::Test {
  protected:
-  const Problem problem_ =
-      pendulum("", "parameters: {inertia: {}, viscous: {}}", "0 1 0",
-               "joints: {hinge: {effort_scale: {initial: 2.0}, delay: {initial: 0.01, upper: 0.02}, offset: {initial: 0.5}}}");
+  const Problem problem_ = pendulum("", "parameters: {inertia: {}, viscous: {}}", "0 1 0",
+                                    "joints: {hinge: {effort_scale: {initial: 2.0}, delay: "
+                                    "{initial: 0.01, upper: 0.02}, offset: {initial: 0.5}}}");
   const FitVariables variables_{problem_.study()};
   const Information information_{variables_, {"hinge"}, Eigen::VectorXd::Constant(1, 0.1)};
 };
@@ -78,7 +78,8 @@ TEST(InformationCriterion, IsTheLogarithmOfTheDeterminant) {
   J << 1, 2, 7, 0, 3, 7, 4, 0, 7;
   const Eigen::MatrixXd chosen = J.leftCols(2);
   const Eigen::Matrix2d M = chosen.transpose() * chosen;
-  EXPECT_NEAR(information_criterion(J, {0, 1}, nullptr), -std::log(M(0, 0) * M(1, 1) - M(0, 1) * M(1, 0)), 1e-12);
+  EXPECT_NEAR(information_criterion(J, {0, 1}, nullptr),
+              -std::log(M(0, 0) * M(1, 1) - M(0, 1) * M(1, 0)), 1e-12);
   EXPECT_EQ(information_criterion(J, {}, nullptr), 0.0) << "nothing is known at once";
 }
 
@@ -95,7 +96,9 @@ TEST(InformationCriterion, UnitsOfParametersAreAConstant) {
   const Eigen::MatrixXd J = Eigen::MatrixXd::Random(6, 2);
   Eigen::MatrixXd scaled = J;
   scaled.col(1) *= 1e-8;
-  EXPECT_NEAR(information_criterion(scaled, {0, 1}, nullptr) - information_criterion(J, {0, 1}, nullptr), 16.0 * std::log(10.0), 1e-9);
+  EXPECT_NEAR(
+      information_criterion(scaled, {0, 1}, nullptr) - information_criterion(J, {0, 1}, nullptr),
+      16.0 * std::log(10.0), 1e-9);
 }
 
 }  // namespace

@@ -14,16 +14,21 @@ class LimitScanOf : public testing::Test {
   void open(const Problem& problem) {
     limits_ = motion_limits(problem);
     const auto joints = static_cast<Eigen::Index>(limits_.joints.size());
-    space_ = std::make_unique<TrajectorySpace>(*problem.study().excitation, limits_, Eigen::VectorXd::Zero(joints));
-    motion_ = std::make_unique<ExcitedMotion>(*problem.system(), limits_.joints, limits_.followers, problem.parameters(), 1);
+    space_ = std::make_unique<TrajectorySpace>(*problem.study().excitation, limits_,
+                                               Eigen::VectorXd::Zero(joints));
+    motion_ = std::make_unique<ExcitedMotion>(*problem.system(), limits_.joints, limits_.followers,
+                                              problem.parameters(), 1);
     scan_ = std::make_unique<LimitScan>(*space_, limits_, motion_.get());
-    x_ = space_->mixed(Eigen::VectorXd::LinSpaced(space_->size(), 0.1, 0.9).unaryExpr([](double u) { return std::fmod(5.3 * u, 1.0); }));
+    x_ = space_->mixed(Eigen::VectorXd::LinSpaced(space_->size(), 0.1, 0.9).unaryExpr([](double u) {
+      return std::fmod(5.3 * u, 1.0);
+    }));
     ASSERT_TRUE(motion_->begin(space_->rest(x_)).ok());
   }
 
   /// The largest |z| at many equal steps.
   double worst_of(int count) {
-    const DrivePath path = space_->path(x_, SampledShapes(space_->basis(), times_in_period(space_->basis().period(), count)));
+    const DrivePath path = space_->path(
+        x_, SampledShapes(space_->basis(), times_in_period(space_->basis().period(), count)));
     return worst_along(limits_, path, motion_.get());
   }
 
@@ -45,15 +50,19 @@ TEST_F(LimitScanOf, FindsPeaksThatAFineGridApproaches) {
 TEST_F(LimitScanOf, KnowsBothEndsOfEachSignal) {
   open(arm("harmonics: 3"));
   const LimitScan::Extremes found = scan_->scan(x_);
-  const DrivePath path = space_->path(x_, SampledShapes(space_->basis(), times_in_period(space_->basis().period(), 100000)));
+  const DrivePath path = space_->path(
+      x_, SampledShapes(space_->basis(), times_in_period(space_->basis().period(), 100000)));
   for (std::size_t s = 0; s < limits_.signals.size(); ++s) {
     const LimitedSignal& signal = limits_.signals[s];
     if (signal.kind == LimitedSignal::Kind::kEffort) continue;
-    const Eigen::MatrixXd& rows = signal.kind == LimitedSignal::Kind::kPosition   ? path.position
-                                  : signal.kind == LimitedSignal::Kind::kVelocity ? path.velocity
-                                                                                  : path.acceleration;
-    EXPECT_NEAR(found.signals[s].lowest, rows.row(signal.joint).minCoeff(), 1e-7 * signal.half()) << signal.name;
-    EXPECT_NEAR(found.signals[s].highest, rows.row(signal.joint).maxCoeff(), 1e-7 * signal.half()) << signal.name;
+    const Eigen::MatrixXd& rows = signal.kind == LimitedSignal::Kind::kPosition ? path.position
+                                  : signal.kind == LimitedSignal::Kind::kVelocity
+                                      ? path.velocity
+                                      : path.acceleration;
+    EXPECT_NEAR(found.signals[s].lowest, rows.row(signal.joint).minCoeff(), 1e-7 * signal.half())
+        << signal.name;
+    EXPECT_NEAR(found.signals[s].highest, rows.row(signal.joint).maxCoeff(), 1e-7 * signal.half())
+        << signal.name;
   }
 }
 
@@ -81,9 +90,11 @@ TEST_F(LimitScanOf, JointsThatFollowCount) {
 
 TEST_F(LimitScanOf, ARestBeyondALimitCannotBeFitted) {
   // 2 kg at 0.5 m need 9.81 N m to be held level, and more than 2 N m from 0.2 rad on.
-  const Problem problem = load_problem(
-      {"pendulum.urdf", pendulum_urdf()}, {},
-      {"study.yaml", "identify: {}\nexcite: {joints: {hinge: {position: [0.4, 1.0], effort: 2.0, noise: 1}}}\nparameters: {mass: {}}\n"});
+  const Problem problem =
+      load_problem({"pendulum.urdf", pendulum_urdf()}, {},
+                   {"study.yaml",
+                    "identify: {}\nexcite: {joints: {hinge: {position: [0.4, 1.0], effort: 2.0, "
+                    "noise: 1}}}\nparameters: {mass: {}}\n"});
   open(problem);
   LimitScan::Extremes extremes;
   EXPECT_FALSE(scan_->fit(&x_, &extremes));

@@ -55,16 +55,20 @@ TEST(MotionLimits, JointsThatFollowKeepTheirs) {
 TEST(MotionLimits, RefusesWhatLeavesNoMotion) {
   const auto excite = [](const std::string& keys) {
     return load_problem({"pendulum.urdf", pendulum_urdf()}, {},
-                        {"study.yaml", "identify: {}\nexcite: {noise: 1, joints: {hinge: {" + keys + "}}}\nparameters: {mass: {}}\n"});
+                        {"study.yaml", "identify: {}\nexcite: {noise: 1, joints: {hinge: {" + keys +
+                                           "}}}\nparameters: {mass: {}}\n"});
   };
   const InputFault fault = fault_of(excite("position: [1.3, 2.0]"));
   EXPECT_EQ(fault.element, "excite.joints.hinge");
   EXPECT_EQ(fault.where.line, 2);
   std::string urdf = pendulum_urdf();
   const std::string limit = R"(<limit lower="-1.2" upper="1.2" velocity="4" effort="14"/>)";
-  urdf.replace(urdf.find(limit), limit.size(), R"(<limit lower="-1.2" upper="1.2" velocity="0" effort="14"/>)");
+  urdf.replace(urdf.find(limit), limit.size(),
+               R"(<limit lower="-1.2" upper="1.2" velocity="0" effort="14"/>)");
   const InputFault still = fault_of(load_problem(
-      {"pendulum.urdf", urdf}, {}, {"study.yaml", "identify: {}\nexcite: {noise: 1, joints: {hinge: {}}}\nparameters: {mass: {}}\n"}));
+      {"pendulum.urdf", urdf}, {},
+      {"study.yaml",
+       "identify: {}\nexcite: {noise: 1, joints: {hinge: {}}}\nparameters: {mass: {}}\n"}));
   EXPECT_NE(still.message.find("velocity"), std::string::npos) << still.message;
 }
 

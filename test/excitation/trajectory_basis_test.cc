@@ -40,7 +40,8 @@ TEST_P(TrajectoryBasisOf, RatesAndAccelerationsAreTheDerivatives) {
       const auto value = [&](double t) { return basis_.at(t).value[k]; };
       const auto rate = [&](double t) { return basis_.at(t).rate[k]; };
       EXPECT_NEAR(basis_.at(time).rate[k], ridders_derivative(value, time, 0.02).value, 1e-9);
-      EXPECT_NEAR(basis_.at(time).acceleration[k], ridders_derivative(rate, time, 0.02).value, 1e-8);
+      EXPECT_NEAR(basis_.at(time).acceleration[k], ridders_derivative(rate, time, 0.02).value,
+                  1e-8);
     }
 }
 
@@ -55,12 +56,14 @@ TEST_P(TrajectoryBasisOf, PlainMotionsDiffer) {
   EXPECT_GT((first.normalized() - second.normalized()).norm(), 0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, TrajectoryBasisOf, testing::Values(TrajectoryKind::kFourier, TrajectoryKind::kSpline));
+INSTANTIATE_TEST_SUITE_P(Both, TrajectoryBasisOf,
+                         testing::Values(TrajectoryKind::kFourier, TrajectoryKind::kSpline));
 
 TEST(TrajectoryBasis, SplinesAreOneTogether) {
   // In the middle all four overlapping splines are not zero.
   const TrajectoryBasis basis(described(TrajectoryKind::kSpline));
-  for (const double time : {1.0, 1.3, 1.5, 2.0}) EXPECT_NEAR(basis.at(time).value.sum(), 1.0, 1e-14);
+  for (const double time : {1.0, 1.3, 1.5, 2.0})
+    EXPECT_NEAR(basis.at(time).value.sum(), 1.0, 1e-14);
   EXPECT_NEAR(basis.at(4.0 / 6.0).value[0], 2.0 / 3.0, 1e-14) << "in its middle";
 }
 

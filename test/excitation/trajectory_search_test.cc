@@ -11,8 +11,8 @@ namespace {
 class TrajectorySearchOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(TrajectorySearchOf, LowersTheCriterionWithinTheLimits) {
-  const Problem problem =
-      pendulum("harmonics: 4, max_evaluations: 120, search: " + GetParam(), "parameters: {mass: {}, inertia: {}, viscous: {}}");
+  const Problem problem = pendulum("harmonics: 4, max_evaluations: 120, search: " + GetParam(),
+                                   "parameters: {mass: {}, inertia: {}, viscous: {}}");
   const MotionLimits limits = motion_limits(problem);
   const FitVariables variables(problem.study());
   const Information information(variables, {"hinge"}, limits.noise);
@@ -27,7 +27,8 @@ TEST_P(TrajectorySearchOf, LowersTheCriterionWithinTheLimits) {
     EXPECT_EQ(trial.evaluation, ++trials);
     return true;
   };
-  const TrajectorySearchResult found = search_trajectory(*problem.study().excitation, x, 3, count, &program);
+  const TrajectorySearchResult found =
+      search_trajectory(*problem.study().excitation, x, 3, count, &program);
   EXPECT_EQ(found.evaluations, trials);
   EXPECT_LE(found.evaluations, 120);
   EXPECT_LT(found.criterion, found.initial_criterion - 3.0);
@@ -48,7 +49,8 @@ TEST(TrajectorySearch, EndsWhenToldWithTheBestPointSoFar) {
   const Eigen::VectorXd x = space.shrunk(space.plain(), 0.5);
   ASSERT_TRUE(motion.begin(space.rest(x)).ok());
   const auto stop = [](const ExcitationTrial& trial) { return trial.evaluation < 6; };
-  const TrajectorySearchResult found = search_trajectory(*problem.study().excitation, x, 1, stop, &program);
+  const TrajectorySearchResult found =
+      search_trajectory(*problem.study().excitation, x, 1, stop, &program);
   EXPECT_EQ(found.evaluations, 6);
   EXPECT_EQ(found.termination, "cancelled");
   EXPECT_LE(found.criterion, found.initial_criterion);

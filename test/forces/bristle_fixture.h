@@ -37,20 +37,24 @@ Eigen::Matrix<T, 7, 1> outputs(const Bristle<T>& b) {
 template <class LanesLaw, class ComplexLaw>
 void expect_parameter_derivatives(const LanesLaw& lanes_law, const ComplexLaw& complex_law) {
   const auto members = [](auto& c) {
-    return std::array<decltype(&c.mu_static), 6>{&c.mu_static,         &c.mu_dynamic,      &c.transition_velocity,
-                                                 &c.bristle_stiffness, &c.bristle_damping, &c.dwell_time};
+    return std::array<decltype(&c.mu_static), 6>{&c.mu_static,           &c.mu_dynamic,
+                                                 &c.transition_velocity, &c.bristle_stiffness,
+                                                 &c.bristle_damping,     &c.dwell_time};
   };
   const Eigen::Vector3d u(0.004, -0.006, 0.002), zeta(0.3, 0.1, -0.2);
   auto lanes = bristle_constants<Lanes<8>>();
   for (std::size_t k = 0; k < 6; ++k) members(lanes)[k]->v[static_cast<int>(k)] = 1.0;
-  const auto result = outputs<Lanes<8>>(lanes_law(u.cast<Lanes<8>>(), {zeta.cast<Lanes<8>>(), Lanes<8>(0.3)}, lanes));
+  const auto result = outputs<Lanes<8>>(
+      lanes_law(u.cast<Lanes<8>>(), {zeta.cast<Lanes<8>>(), Lanes<8>(0.3)}, lanes));
   for (std::size_t k = 0; k < 6; ++k) {
     auto c = bristle_constants<Complex>();
     *members(c)[k] += Complex(0.0, 1e-30);
-    const auto reference = outputs<Complex>(complex_law(u.cast<Complex>(), {zeta.cast<Complex>(), Complex(0.3)}, c));
+    const auto reference =
+        outputs<Complex>(complex_law(u.cast<Complex>(), {zeta.cast<Complex>(), Complex(0.3)}, c));
     for (Eigen::Index row = 0; row < 7; ++row) {
       const double expected = reference[row].imag() / 1e-30;
-      EXPECT_NEAR(result[row].v[static_cast<int>(k)], expected, 1e-12 * (1.0 + std::abs(expected))) << k << " " << row;
+      EXPECT_NEAR(result[row].v[static_cast<int>(k)], expected, 1e-12 * (1.0 + std::abs(expected)))
+          << k << " " << row;
     }
   }
 }

@@ -7,7 +7,8 @@
 namespace codesign {
 namespace {
 
-// mu_s = 0.5, mu_d = 0.4, v_s = 0.01 m/s, sigma_0 = 1000 1/m, sigma_1 = 5 s/m, tau_dw = 2 s: tau_br = 5 ms.
+// mu_s = 0.5, mu_d = 0.4, v_s = 0.01 m/s, sigma_0 = 1000 1/m, sigma_1 = 5 s/m, tau_dw = 2 s: tau_br
+// = 5 ms.
 Bristle<double> at(double u, double zeta, double dwell) {
   return gonthier<double>({u, 0.0, 0.0}, {{zeta, 0.0, 0.0}, dwell}, bristle_constants<double>());
 }
@@ -29,7 +30,8 @@ TEST(Gonthier, AtTheStribeckVelocity) {
 }
 
 TEST(Gonthier, CutsOffAtWhatTheDwellStateHolds) {
-  // f = s (1 + 0.05) + (1 - s) 0.4 = 0.639: cut at 0.4 + 0.1 * 0.25 = 0.425; s < 0.5 in the second, so the dwell state falls within 5 ms.
+  // f = s (1 + 0.05) + (1 - s) 0.4 = 0.639: cut at 0.4 + 0.1 * 0.25 = 0.425; s < 0.5 in the second,
+  // so the dwell state falls within 5 ms.
   const Bristle<double> b = at(0.01, 1.0, 0.25);
   EXPECT_NEAR(b.mu[0], 0.425, 1e-15);
   EXPECT_NEAR(at(0.01, 1.0, 0.5).dwell_rate, (std::exp(-1.0) - 0.5) / 0.005, 1e-12);
@@ -38,16 +40,20 @@ TEST(Gonthier, CutsOffAtWhatTheDwellStateHolds) {
 TEST(Gonthier, SlidingItIsCoulombs) {
   for (double u : {0.2, -0.2, 3.0}) {
     const double sign = u < 0.0 ? -1.0 : 1.0;
-    for (double zeta : {-0.4, 0.0, 0.3}) EXPECT_NEAR(at(u, zeta, 0.0).mu[0], 0.4 * sign, 1e-15) << "whatever the deflection";
+    for (double zeta : {-0.4, 0.0, 0.3})
+      EXPECT_NEAR(at(u, zeta, 0.0).mu[0], 0.4 * sign, 1e-15) << "whatever the deflection";
     EXPECT_NEAR(at(u, 0.4 * sign, 0.0).rate[0], 0.0, 1e-12);
   }
 }
 
 TEST(Gonthier, DirectionMeetsItsParabola) {
   const double edge = 1e-3;
-  const double below = direction_per_speed(edge * edge * (1.0 - 1e-12), edge), above = direction_per_speed(edge * edge, edge);
+  const double below = direction_per_speed(edge * edge * (1.0 - 1e-12), edge),
+               above = direction_per_speed(edge * edge, edge);
   EXPECT_NEAR(below / above, 1.0, 1e-11);
-  const auto slope = [edge](double square) { return direction_per_speed(Complex(square, 1e-30), Complex(edge)).imag() / 1e-30; };
+  const auto slope = [edge](double square) {
+    return direction_per_speed(Complex(square, 1e-30), Complex(edge)).imag() / 1e-30;
+  };
   EXPECT_NEAR(slope(edge * edge * (1.0 - 1e-12)) / slope(edge * edge), 1.0, 1e-11);
   EXPECT_DOUBLE_EQ(above, 1000.0);
   EXPECT_DOUBLE_EQ(direction_per_speed(0.0, edge), 1500.0);
@@ -63,18 +69,24 @@ TEST(Gonthier, SaturationIsContinuous) {
 }
 
 TEST(Gonthier, DoesNotDependOnTheDirection) {
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Vector3d u(0.004, -0.006, 0.002), zeta(0.3, 0.1, -0.2);
   const auto c = bristle_constants<double>();
-  const Bristle<double> b = gonthier<double>(u, {zeta, 0.3}, c), turned = gonthier<double>(R * u, {R * zeta, 0.3}, c);
+  const Bristle<double> b = gonthier<double>(u, {zeta, 0.3}, c),
+                        turned = gonthier<double>(R * u, {R * zeta, 0.3}, c);
   EXPECT_NEAR((turned.mu - R * b.mu).norm(), 0.0, 1e-14);
   EXPECT_NEAR((turned.rate - R * b.rate).norm(), 0.0, 1e-11);
   EXPECT_NEAR(turned.dwell_rate, b.dwell_rate, 1e-13);
 }
 
-TEST(Gonthier, ParametersEnterTheLanes) { expect_parameter_derivatives(gonthier<Lanes<8>>, gonthier<std::complex<double>>); }
+TEST(Gonthier, ParametersEnterTheLanes) {
+  expect_parameter_derivatives(gonthier<Lanes<8>>, gonthier<std::complex<double>>);
+}
 
-Bristle<double> at(double u, double zeta) { return lugre<double>({u, 0.0, 0.0}, {{zeta, 0.0, 0.0}, 0.0}, bristle_constants<double>()); }
+Bristle<double> at(double u, double zeta) {
+  return lugre<double>({u, 0.0, 0.0}, {{zeta, 0.0, 0.0}, 0.0}, bristle_constants<double>());
+}
 
 TEST(LuGre, AtRestItIsASpringAndADamper) {
   const Bristle<double> b = at(0.0, 0.3);
@@ -100,15 +112,19 @@ TEST(LuGre, SteadySlidingIsTheStribeckCurve) {
 }
 
 TEST(LuGre, DoesNotDependOnTheDirection) {
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Vector3d u(0.004, -0.006, 0.002), zeta(0.3, 0.1, -0.2);
   const auto c = bristle_constants<double>();
-  const Bristle<double> b = lugre<double>(u, {zeta, 0.0}, c), turned = lugre<double>(R * u, {R * zeta, 0.0}, c);
+  const Bristle<double> b = lugre<double>(u, {zeta, 0.0}, c),
+                        turned = lugre<double>(R * u, {R * zeta, 0.0}, c);
   EXPECT_NEAR((turned.mu - R * b.mu).norm(), 0.0, 1e-14);
   EXPECT_NEAR((turned.rate - R * b.rate).norm(), 0.0, 1e-11);
 }
 
-TEST(LuGre, ParametersEnterTheLanes) { expect_parameter_derivatives(lugre<Lanes<8>>, lugre<std::complex<double>>); }
+TEST(LuGre, ParametersEnterTheLanes) {
+  expect_parameter_derivatives(lugre<Lanes<8>>, lugre<std::complex<double>>);
+}
 
 }  // namespace
 

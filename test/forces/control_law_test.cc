@@ -27,7 +27,8 @@ TEST(Saturation, ByHand) {
   const auto rest = saturate(0.0, 4.0);
   EXPECT_EQ(rest.value, 0.0);
   EXPECT_EQ(rest.slope, 1.0);
-  // At the limit, on either side of the switch between the two forms: u_max / 2^(1/8), slope 2^(-9/8).
+  // At the limit, on either side of the switch between the two forms: u_max / 2^(1/8), slope
+  // 2^(-9/8).
   for (double u : {4.0, std::nextafter(4.0, 5.0)}) {
     EXPECT_NEAR(saturate(u, 4.0).value, 4.0 * std::pow(2.0, -0.125), 1e-14);
     EXPECT_NEAR(saturate(u, 4.0).slope, std::pow(2.0, -1.125), 1e-14);
@@ -55,15 +56,27 @@ TEST(Saturation, SmallEffortsPassUnchanged) {
 TEST(Saturation, DerivativesAreExact) {
   using C = std::complex<double>;
   for (double u : {-9.0, -3.0, 0.0, 1e-3, 3.99, 4.01, 50.0}) {
-    const auto by_u = [](const Eigen::VectorXcd& x) { return Eigen::VectorXcd::Constant(1, saturate<C>(x[0], C(4.0)).value); };
+    const auto by_u = [](const Eigen::VectorXcd& x) {
+      return Eigen::VectorXcd::Constant(1, saturate<C>(x[0], C(4.0)).value);
+    };
     const Eigen::MatrixXd slope = Eigen::MatrixXd::Constant(1, 1, saturate(u, 4.0).slope);
-    EXPECT_LT(compare_jacobians(slope, complex_step_jacobian(by_u, Eigen::VectorXd::Constant(1, u))).largest, 1e-14) << u;
+    EXPECT_LT(compare_jacobians(slope, complex_step_jacobian(by_u, Eigen::VectorXd::Constant(1, u)))
+                  .largest,
+              1e-14)
+        << u;
     // Lanes carry the derivative by the limit too.
     Lanes<4> limit(4.0);
     limit.v[0] = 1.0;
-    const auto by_limit = [u](const Eigen::VectorXcd& x) { return Eigen::VectorXcd::Constant(1, saturate<C>(C(u), x[0]).value); };
-    const Eigen::MatrixXd lane = Eigen::MatrixXd::Constant(1, 1, saturate(Lanes<4>(u), limit).value.v[0]);
-    EXPECT_LT(compare_jacobians(lane, complex_step_jacobian(by_limit, Eigen::VectorXd::Constant(1, 4.0))).largest, 1e-14) << u;
+    const auto by_limit = [u](const Eigen::VectorXcd& x) {
+      return Eigen::VectorXcd::Constant(1, saturate<C>(C(u), x[0]).value);
+    };
+    const Eigen::MatrixXd lane =
+        Eigen::MatrixXd::Constant(1, 1, saturate(Lanes<4>(u), limit).value.v[0]);
+    EXPECT_LT(
+        compare_jacobians(lane, complex_step_jacobian(by_limit, Eigen::VectorXd::Constant(1, 4.0)))
+            .largest,
+        1e-14)
+        << u;
   }
 }
 

@@ -14,11 +14,13 @@ TEST(BrownMcPhee, HandComputedPoints) {
   // At v = v_t: d = 1, S = mu_d tanh 4 + (mu_s - mu_d).
   EXPECT_NEAR(brown_mcphee(kVt, kMuS, kMuD, kVt), kMuD * std::tanh(4.0) + 0.1, 1e-16);
   // At v = 2 v_t: d = 7/4, S = mu_d tanh 8 + 0.1 * 2 * 16/49.
-  EXPECT_NEAR(brown_mcphee(2.0 * kVt, kMuS, kMuD, kVt), kMuD * std::tanh(8.0) + 0.1 * 2.0 * 16.0 / 49.0, 1e-15);
+  EXPECT_NEAR(brown_mcphee(2.0 * kVt, kMuS, kMuD, kVt),
+              kMuD * std::tanh(8.0) + 0.1 * 2.0 * 16.0 / 49.0, 1e-15);
   // At rest S = 0 and S' = (4 mu_d + 16/9 (mu_s - mu_d)) / v_t.
   EXPECT_EQ(brown_mcphee(0.0, kMuS, kMuD, kVt), 0.0);
   using C = std::complex<double>;
-  EXPECT_NEAR(brown_mcphee(C(0.0, 1e-30), C(kMuS), C(kMuD), C(kVt)).imag() / 1e-30, (4.0 * kMuD + 16.0 / 9.0 * 0.1) / kVt, 1e-12);
+  EXPECT_NEAR(brown_mcphee(C(0.0, 1e-30), C(kMuS), C(kMuD), C(kVt)).imag() / 1e-30,
+              (4.0 * kMuD + 16.0 / 9.0 * 0.1) / kVt, 1e-12);
 }
 
 TEST(BrownMcPhee, IsOddAndSettlesAtTheDynamicCoefficient) {
@@ -43,8 +45,9 @@ FrictionNumbers<T> directional_numbers() {
 
 template <class T>
 T directional_brown_mcphee(const T& v, const FrictionNumbers<T>& c) {
-  return directional_friction<T>(
-      [](const T& at, const T& mu_s, const T& mu_d, const T& v_t) { return brown_mcphee<T>(at, mu_s, mu_d, v_t); }, v, c);
+  return directional_friction<T>([](const T& at, const T& mu_s, const T& mu_d,
+                                    const T& v_t) { return brown_mcphee<T>(at, mu_s, mu_d, v_t); },
+                                 v, c);
 }
 
 TEST(DirectionalFriction, TheShareChangesOverAtRest) {
@@ -68,11 +71,13 @@ TEST(DirectionalFriction, FarFromRestEachDirectionHasItsOwnNumbers) {
 TEST(DirectionalFriction, ByHandWithinTheTransition) {
   const FrictionNumbers<double> c = directional_numbers<double>();
   const double w = 0.5 * (1.0 + std::tanh(4.0)), th = std::tanh(4.0);
-  EXPECT_NEAR(directional_brown_mcphee(0.01, c), w * (0.3 * th + 0.1) + (1.0 - w) * (0.1 * th + 0.15), 1e-15);
+  EXPECT_NEAR(directional_brown_mcphee(0.01, c),
+              w * (0.3 * th + 0.1) + (1.0 - w) * (0.1 * th + 0.15), 1e-15);
   EXPECT_EQ(directional_brown_mcphee(0.0, c), 0.0);
   // At rest: the mean of both slopes, (4 mu_d + 16/9 (mu_s - mu_d)) / v_t.
-  EXPECT_NEAR(directional_brown_mcphee(Complex(0.0, 1e-30), directional_numbers<Complex>()).imag() / 1e-30,
-              0.5 * (4.0 * 0.4 + 16.0 / 9.0 * 0.25) / 0.01, 1e-12);
+  EXPECT_NEAR(
+      directional_brown_mcphee(Complex(0.0, 1e-30), directional_numbers<Complex>()).imag() / 1e-30,
+      0.5 * (4.0 * 0.4 + 16.0 / 9.0 * 0.25) / 0.01, 1e-12);
   // A turn on a radius of 2 cm slides at 0.01 m/s.
   EXPECT_NEAR(directional_viscous(0.5, 0.02, c), 0.5 * (0.5 + 1.5 * w), 1e-15);
 }
@@ -107,14 +112,17 @@ T per_speed(const T& square) {
 /// The derivative of the load at N = 7 by the slip, by the complex step.
 Eigen::MatrixXd expected_slope(const Eigen::Vector3d& u) {
   using C = std::complex<double>;
-  const auto law = [](const Eigen::VectorXcd& z) { return Eigen::VectorXcd(isotropic_friction<C, 3>(z.head<3>(), C(7.0), per_speed<C>)); };
+  const auto law = [](const Eigen::VectorXcd& z) {
+    return Eigen::VectorXcd(isotropic_friction<C, 3>(z.head<3>(), C(7.0), per_speed<C>));
+  };
   return complex_step_jacobian(law, u);
 }
 
 TEST(IsotropicFriction, IsTheScalarLawAlongTheSlip) {
   for (double s : {1e-5, 0.0007, 0.0009, 0.01, 0.02, 0.5}) {
     const double S = brown_mcphee(s, kIsotropicMuS, kIsotropicMuD, kIsotropicVt);
-    EXPECT_NEAR(friction_per_speed(s * s, kIsotropicMuS, kIsotropicMuD, kIsotropicVt) * s, S, 1e-15) << s;
+    EXPECT_NEAR(friction_per_speed(s * s, kIsotropicMuS, kIsotropicMuD, kIsotropicVt) * s, S, 1e-15)
+        << s;
     const Eigen::Vector2d u(0.6 * s, -0.8 * s);
     const auto f = isotropic_friction<double, 2>(u, 7.0, per_speed<double>);
     EXPECT_NEAR((f - 7.0 * S * Eigen::Vector2d(0.6, -0.8)).norm(), 0.0, 1e-13) << s;
@@ -126,7 +134,10 @@ TEST(IsotropicFriction, AtRestItIsLinear) {
   EXPECT_EQ(f.norm(), 0.0);
   // S'(0) = (4 mu_d + 16/9 (mu_s - mu_d))/v_t in every direction.
   const Eigen::Matrix3d by_slip = expected_slope(Eigen::Vector3d::Zero());
-  EXPECT_NEAR((by_slip - 7.0 * (4.0 * kIsotropicMuD + 16.0 / 9.0 * 0.1) / kIsotropicVt * Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-11);
+  EXPECT_NEAR((by_slip - 7.0 * (4.0 * kIsotropicMuD + 16.0 / 9.0 * 0.1) / kIsotropicVt *
+                             Eigen::Matrix3d::Identity())
+                  .norm(),
+              0.0, 1e-11);
 }
 
 TEST(IsotropicFriction, LanesCarryTheDerivatives) {

@@ -31,24 +31,31 @@ TEST(NormalForce, TranslationalByHand) {
 
 TEST(NormalForce, PinAndRevoluteByHand) {
   const double parabolic = std::pow(M_PI, 3) / 24.0;
-  const double pin = parabolic * (std::sqrt(11.0 * 11.0 + 19.6 * 19.6 + 1e-4) + std::sqrt(64.0 + 0.16 + 1e-4)) + 2.0;
+  const double pin =
+      parabolic * (std::sqrt(11.0 * 11.0 + 19.6 * 19.6 + 1e-4) + std::sqrt(64.0 + 0.16 + 1e-4)) +
+      2.0;
   EXPECT_NEAR(pin_normal_force<double>(kF, kTorque, geometry<double>()), pin, 1e-12);
-  EXPECT_NEAR(revolute_normal_force<double>(kF, kTorque, geometry<double>()), pin + 1.5 * std::hypot(5.0, 0.01), 1e-12);
+  EXPECT_NEAR(revolute_normal_force<double>(kF, kTorque, geometry<double>()),
+              pin + 1.5 * std::hypot(5.0, 0.01), 1e-12);
 }
 
 TEST(NormalForce, PinDoesNotSeeATurnAboutItsAxis) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::Vector3d F = R * kF, torque = R * kTorque;
-  EXPECT_NEAR(pin_normal_force<double>(F, torque, geometry<double>()), pin_normal_force<double>(kF, kTorque, geometry<double>()), 1e-12);
+  EXPECT_NEAR(pin_normal_force<double>(F, torque, geometry<double>()),
+              pin_normal_force<double>(kF, kTorque, geometry<double>()), 1e-12);
 }
 
 TEST(NormalForce, PlanarAndBallByHand) {
-  EXPECT_NEAR(planar_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()), std::hypot(5.0, 0.01) + 2.0, 1e-12);
+  EXPECT_NEAR(planar_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()),
+              std::hypot(5.0, 0.01) + 2.0, 1e-12);
   EXPECT_EQ(planar_normal_force<double>(-kF, Eigen::Vector3d::Zero(), geometry<double>()),
             planar_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()));
-  EXPECT_NEAR(ball_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()), std::sqrt(9.0 + 400.0 + 25.0 + 1e-4) + 2.0,
-              1e-12);
-  EXPECT_NEAR(ball_normal_force<double>(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), geometry<double>()), 0.01 + 2.0, 1e-15);
+  EXPECT_NEAR(ball_normal_force<double>(kF, Eigen::Vector3d::Zero(), geometry<double>()),
+              std::sqrt(9.0 + 400.0 + 25.0 + 1e-4) + 2.0, 1e-12);
+  EXPECT_NEAR(ball_normal_force<double>(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                        geometry<double>()),
+              0.01 + 2.0, 1e-15);
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 
 Input governor(const std::string& study) {
   Input input;
-  input.arguments = {"simulate", "SHIPPED/urdf/governor.urdf", "study.yaml", "--json", "--samples", "3"};
+  input.arguments = {"simulate", "SHIPPED/urdf/governor.urdf", "study.yaml", "--json", "--samples",
+                     "3"};
   input.files["study.yaml"] = study;
   return input;
 }
@@ -41,7 +42,8 @@ TEST(CommandOracle, FindsWhatIsNotAsExpected) {
   input.says = "study.yaml:1: duration";
   EXPECT_EQ(run_command(input, default_limits()), "");
   input.exit = 0;
-  EXPECT_NE(run_command(input, default_limits()).find("exit code 2 instead of 0"), std::string::npos);
+  EXPECT_NE(run_command(input, default_limits()).find("exit code 2 instead of 0"),
+            std::string::npos);
   input.exit = 2;
   input.says = "something else";
   EXPECT_NE(run_command(input, default_limits()).find("does not say"), std::string::npos);
@@ -49,7 +51,8 @@ TEST(CommandOracle, FindsWhatIsNotAsExpected) {
 
 TEST(Inputs, ReadBackAsTheyAreKept) {
   const std::vector<Seed> seeds = shipped_seeds();
-  const std::string path = (std::filesystem::temp_directory_path() / "codesign_fuzz_input.yaml").string();
+  const std::string path =
+      (std::filesystem::temp_directory_path() / "codesign_fuzz_input.yaml").string();
   Dice dice(7);
   for (int k = 0; k < 50; ++k) {
     const Input input = random_input(seeds, &dice);

@@ -11,7 +11,8 @@
 
 namespace codesign::fuzz {
 
-/// A place of a number of four bytes that is small, as lengths and counts are; any place if there is none.
+/// A place of a number of four bytes that is small, as lengths and counts are; any place if there
+/// is none.
 inline std::size_t place_of_length(const std::string& bytes, Dice* dice) {
   std::size_t place = 0;
   for (int tries = 0; tries < 200; ++tries) {
@@ -23,26 +24,31 @@ inline std::size_t place_of_length(const std::string& bytes, Dice* dice) {
   return place;
 }
 
-/// A binary file with one fault: changed bytes, a cut, a changed length, two lengths exchanged, bytes that are missing or too many.
+/// A binary file with one fault: changed bytes, a cut, a changed length, two lengths exchanged,
+/// bytes that are missing or too many.
 inline std::string damage(std::string bytes, Dice* dice) {
-  static const std::vector<std::uint32_t> kLengths = {0, 1, 5, 0x7fffffff, 0x80000000, 0xffffffff, 0x10000000};
+  static const std::vector<std::uint32_t> kLengths = {0,          1,          5,         0x7fffffff,
+                                                      0x80000000, 0xffffffff, 0x10000000};
   if (bytes.size() < 8) return bytes;
   const std::size_t at = dice->below(bytes.size());
   switch (dice->below(6)) {
     case 0:
-      for (std::size_t left = 1 + dice->below(20); left > 0; --left) bytes[dice->below(bytes.size())] = static_cast<char>(dice->below(256));
+      for (std::size_t left = 1 + dice->below(20); left > 0; --left)
+        bytes[dice->below(bytes.size())] = static_cast<char>(dice->below(256));
       break;
     case 1:
       bytes.resize(at);
       break;
     case 2: {
-      const std::uint32_t number = dice->one_in(2) ? dice->pick(kLengths) : static_cast<std::uint32_t>(dice->below(5000));
+      const std::uint32_t number =
+          dice->one_in(2) ? dice->pick(kLengths) : static_cast<std::uint32_t>(dice->below(5000));
       std::memcpy(bytes.data() + place_of_length(bytes, dice), &number, sizeof number);
       break;
     }
     case 3: {
       const auto one = bytes.begin() + static_cast<std::ptrdiff_t>(place_of_length(bytes, dice));
-      std::swap_ranges(one, one + 4, bytes.begin() + static_cast<std::ptrdiff_t>(place_of_length(bytes, dice)));
+      std::swap_ranges(one, one + 4,
+                       bytes.begin() + static_cast<std::ptrdiff_t>(place_of_length(bytes, dice)));
       break;
     }
     case 4:

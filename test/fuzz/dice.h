@@ -8,13 +8,16 @@
 
 namespace codesign::fuzz {
 
-/// Random choices that are the same on every machine: std::mt19937_64 is fixed by the standard, its distributions are not.
+/// Random choices that are the same on every machine: std::mt19937_64 is fixed by the standard, its
+/// distributions are not.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
 
   /// 0 to count - 1; 0 if there is nothing to choose from.
-  std::size_t below(std::size_t count) { return count == 0 ? 0 : static_cast<std::size_t>(engine_() % count); }
+  std::size_t below(std::size_t count) {
+    return count == 0 ? 0 : static_cast<std::size_t>(engine_() % count);
+  }
   bool one_in(std::size_t count) { return below(count) == 0; }
   template <class T>
   const T& pick(const std::vector<T>& from) {

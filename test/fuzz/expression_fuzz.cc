@@ -31,7 +31,8 @@ Known known_expression(int depth, Dice* dice);
 
 Known known_binary(int depth, Dice* dice) {
   const Known a = known_expression(depth - 1, dice), b = known_expression(depth - 1, dice);
-  const std::string left = "(" + a.text + ")" + space(dice), right = space(dice) + "(" + b.text + ")";
+  const std::string left = "(" + a.text + ")" + space(dice),
+                    right = space(dice) + "(" + b.text + ")";
   switch (dice->below(5)) {
     case 0:
       return {left + "+" + right, a.value + b.value};
@@ -40,10 +41,12 @@ Known known_binary(int depth, Dice* dice) {
     case 2:
       return {left + "*" + right, a.value * b.value};
     case 3:
-      return {"atan2" + space(dice) + left.substr(0, left.rfind(')')) + "," + right.substr(right.find('(') + 1),
+      return {"atan2" + space(dice) + left.substr(0, left.rfind(')')) + "," +
+                  right.substr(right.find('(') + 1),
               std::atan2(a.value, b.value)};
     default:
-      return {left + "<" + right + "?" + a.text + ":" + b.text, a.value < b.value ? a.value : b.value};
+      return {left + "<" + right + "?" + a.text + ":" + b.text,
+              a.value < b.value ? a.value : b.value};
   }
 }
 
@@ -56,7 +59,8 @@ Known known_expression(int depth, Dice* dice) {
   }
   if (dice->one_in(4)) {
     const Known a = known_expression(depth - 1, dice);
-    return dice->one_in(2) ? Known{"-(" + a.text + ")", -a.value} : Known{"sin(" + a.text + ")", std::sin(a.value)};
+    return dice->one_in(2) ? Known{"-(" + a.text + ")", -a.value}
+                           : Known{"sin(" + a.text + ")", std::sin(a.value)};
   }
   return known_binary(depth, dice);
 }
@@ -65,7 +69,8 @@ std::string try_known(Dice* dice) {
   const Known known = known_expression(5, dice);
   const double value = Expression(known.text, names()).value(values());
   if (std::abs(value - known.value) <= 1e-12 * (1.0 + std::abs(known.value))) return "";
-  return "an expression of the value " + std::to_string(known.value) + " has " + std::to_string(value) + ": " + known.text;
+  return "an expression of the value " + std::to_string(known.value) + " has " +
+         std::to_string(value) + ": " + known.text;
 }
 
 std::string try_any(Dice* dice) {
@@ -76,8 +81,10 @@ std::string try_any(Dice* dice) {
     for (int k = 0; k < 3; ++k) expression.derivative(k, values());
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();
-    const bool has_place = message.find(" at position ") != std::string::npos || message.find("empty") != std::string::npos;
-    if (!has_place || message.size() > 1000) return "refused without a position, or at length: " + text + ": " + message;
+    const bool has_place = message.find(" at position ") != std::string::npos ||
+                           message.find("empty") != std::string::npos;
+    if (!has_place || message.size() > 1000)
+      return "refused without a position, or at length: " + text + ": " + message;
   }
   return "";
 }

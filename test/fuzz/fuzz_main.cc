@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Tries random inputs, or inputs from files, and prints the ones that fail. Exit code 1 if one fails, 2 for an invalid command line.
+// Tries random inputs, or inputs from files, and prints the ones that fail. Exit code 1 if one
+// fails, 2 for an invalid command line.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -41,7 +42,9 @@ Options parse(int argc, char** argv) {
     } else if (!word.empty() && word[0] != '-') {
       options.replay.push_back(word);
     } else {
-      throw std::invalid_argument("fuzz: what is \"" + word + "\"? [--minutes M | --inputs N] [--seed S] [--keep FOLDER] [FILE...]");
+      throw std::invalid_argument(
+          "fuzz: what is \"" + word +
+          "\"? [--minutes M | --inputs N] [--seed S] [--keep FOLDER] [FILE...]");
     }
   }
   return options;
@@ -59,10 +62,13 @@ int replay(const std::vector<std::string>& paths) {
   return failures > 0 ? 1 : 0;
 }
 
-/// Tries one input, made from its number alone. Returns a sentence about a fault; empty if there is none.
+/// Tries one input, made from its number alone. Returns a sentence about a fault; empty if there is
+/// none.
 std::string try_one(const std::vector<Seed>& seeds, std::uint64_t number, const std::string& keep) {
   Dice dice(number);
-  if (number % 20 == 1) return run_isolated([&](const std::atomic<bool>&) { return try_expressions(300, &dice); }, default_limits());
+  if (number % 20 == 1)
+    return run_isolated([&](const std::atomic<bool>&) { return try_expressions(300, &dice); },
+                        default_limits());
   if (number % 20 == 3) return run_resumed(seeds, default_limits(), &dice);
 #ifdef CODESIGN_FUZZ_REQUESTS
   if (number % 10 == 2) return run_request(seeds, default_limits(), &dice);
@@ -79,7 +85,9 @@ std::string try_one(const std::vector<Seed>& seeds, std::uint64_t number, const 
 int fuzz(const Options& options) {
   const std::vector<Seed> seeds = shipped_seeds();
   const auto begin = std::chrono::steady_clock::now();
-  const auto minutes = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60.0; };
+  const auto minutes = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 60.0;
+  };
   long inputs = 0, failures = 0;
   for (; options.minutes > 0.0 ? minutes() < options.minutes : inputs < options.inputs; ++inputs) {
     const std::uint64_t number = options.seed * 1000000000 + static_cast<std::uint64_t>(inputs);
@@ -88,7 +96,8 @@ int fuzz(const Options& options) {
     ++failures;
     std::cout << number << ": " << fault << std::endl;
   }
-  std::cout << inputs << " inputs, " << failures << " failures, " << minutes() << " min" << std::endl;
+  std::cout << inputs << " inputs, " << failures << " failures, " << minutes() << " min"
+            << std::endl;
   return failures > 0 ? 1 : 0;
 }
 

@@ -29,7 +29,8 @@ std::string text_of(const YAML::Node& node) {
 }
 
 bool is_plain(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
 }
 
 void emit(const std::string& text, YAML::Emitter* out) {

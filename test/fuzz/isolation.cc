@@ -12,9 +12,11 @@
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define CODESIGN_SANITIZED 1
-// A sanitizer's report must end the process by a signal, so that it differs from every exit code of the program. Leaks are not detected,
-// because the child exits without freeing its memory.
-extern "C" const char* __asan_default_options() { return "abort_on_error=1:detect_leaks=0:allocator_may_return_null=0"; }
+// A sanitizer's report must end the process by a signal, so that it differs from every exit code of
+// the program. Leaks are not detected, because the child exits without freeing its memory.
+extern "C" const char* __asan_default_options() {
+  return "abort_on_error=1:detect_leaks=0:allocator_may_return_null=0";
+}
 extern "C" const char* __ubsan_default_options() { return "abort_on_error=1:print_stacktrace=1"; }
 #endif
 
@@ -29,7 +31,9 @@ extern "C" void on_time_up(int) { time_is_up = true; }
 double processor_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -38,7 +42,8 @@ void set_limits(const Limits& limits, const std::optional<long>& disk) {
   std::signal(SIGPROF, on_time_up);
   itimerval timer{};
   timer.it_value.tv_sec = static_cast<time_t>(limits.cancel_after);
-  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (limits.cancel_after - static_cast<double>(timer.it_value.tv_sec)));
+  timer.it_value.tv_usec = static_cast<suseconds_t>(
+      1e6 * (limits.cancel_after - static_cast<double>(timer.it_value.tv_sec)));
   setitimer(ITIMER_PROF, &timer, nullptr);
   const auto most = static_cast<rlim_t>(limits.cancel_after + 10.0 * limits.obey_within + 2.0);
   const rlimit cpu{most, most + 1}, core{0, 0};
@@ -52,14 +57,18 @@ void set_limits(const Limits& limits, const std::optional<long>& disk) {
 
 std::string judge_resources(const Limits& limits) {
   const double late = processor_seconds() - limits.cancel_after - limits.obey_within;
-  if (late > 0.0) return "did not obey a cancel after " + std::to_string(limits.cancel_after) + " s: " + std::to_string(late) + " s late";
+  if (late > 0.0)
+    return "did not obey a cancel after " + std::to_string(limits.cancel_after) +
+           " s: " + std::to_string(late) + " s late";
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  if (limits.kilobytes > 0 && usage.ru_maxrss > limits.kilobytes) return "took " + std::to_string(usage.ru_maxrss) + " kB of memory";
+  if (limits.kilobytes > 0 && usage.ru_maxrss > limits.kilobytes)
+    return "took " + std::to_string(usage.ru_maxrss) + " kB of memory";
   return "";
 }
 
-[[noreturn]] void be_the_child(const Body& body, const Limits& limits, const std::optional<long>& disk, int report) {
+[[noreturn]] void be_the_child(const Body& body, const Limits& limits,
+                               const std::optional<long>& disk, int report) {
   set_limits(limits, disk);
   std::string fault;
   try {
@@ -99,7 +108,8 @@ std::string run_isolated(const Body& body, const Limits& limits, std::optional<l
   close(ends[1]);
   std::string report;
   char buffer[4096];
-  for (ssize_t count = 0; (count = read(ends[0], buffer, sizeof buffer)) > 0;) report.append(buffer, static_cast<std::size_t>(count));
+  for (ssize_t count = 0; (count = read(ends[0], buffer, sizeof buffer)) > 0;)
+    report.append(buffer, static_cast<std::size_t>(count));
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);

@@ -18,12 +18,14 @@ struct Limits {
 /// The limits for this build, with or without sanitizers.
 Limits default_limits();
 
-/// The function to run in a separate process. It returns a sentence about a fault of the outcome; empty if there is none. `cancel` is set
-/// when the time is up.
+/// The function to run in a separate process. It returns a sentence about a fault of the outcome;
+/// empty if there is none. `cancel` is set when the time is up.
 using Body = std::function<std::string(const std::atomic<bool>& cancel)>;
 
-/// Runs `body` in a separate process and returns a sentence about a fault, empty if there is none: the result of the body, a crash, a
-/// sanitizer's report, too much time or memory. @param disk limit of the size of any file that is written [bytes].
-std::string run_isolated(const Body& body, const Limits& limits, std::optional<long> disk = std::nullopt);
+/// Runs `body` in a separate process and returns a sentence about a fault, empty if there is none:
+/// the result of the body, a crash, a sanitizer's report, too much time or memory. @param disk
+/// limit of the size of any file that is written [bytes].
+std::string run_isolated(const Body& body, const Limits& limits,
+                         std::optional<long> disk = std::nullopt);
 
 }  // namespace codesign::fuzz

@@ -12,9 +12,13 @@ namespace {
 
 const Limits kShort{0.1, 0.1, 0};
 
-std::string found(const Body& body, const Limits& limits = kShort) { return run_isolated(body, limits); }
+std::string found(const Body& body, const Limits& limits = kShort) {
+  return run_isolated(body, limits);
+}
 
-void expect_found(const std::string& fault, const std::string& part) { EXPECT_NE(fault.find(part), std::string::npos) << fault; }
+void expect_found(const std::string& fault, const std::string& part) {
+  EXPECT_NE(fault.find(part), std::string::npos) << fault;
+}
 
 TEST(Isolation, PassesOnWhatTheBodySays) {
   EXPECT_EQ(found([](const auto&) { return ""; }), "");
@@ -23,7 +27,8 @@ TEST(Isolation, PassesOnWhatTheBodySays) {
 
 TEST(Isolation, FindsCrashesAndExceptions) {
   expect_found(found([](const auto&) -> std::string { std::abort(); }), "killed by a signal");
-  expect_found(found([](const auto&) -> std::string { throw std::runtime_error("lost"); }), "an exception got out: lost");
+  expect_found(found([](const auto&) -> std::string { throw std::runtime_error("lost"); }),
+               "an exception got out: lost");
   expect_found(found([](const auto&) -> std::string { std::_Exit(0); }), "left with exit code 0");
 }
 

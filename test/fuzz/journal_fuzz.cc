@@ -27,7 +27,8 @@ struct Result {
 Result optimize_with(const char* option, const std::atomic<bool>& cancel) {
   std::ostringstream out, err;
   Result result;
-  result.code = cli::run({"optimize", "model.urdf", "study.yaml", "--json", option, "job"}, {out, err, cancel});
+  result.code = cli::run({"optimize", "model.urdf", "study.yaml", "--json", option, "job"},
+                         {out, err, cancel});
   result.json = Json::parse(out.str(), nullptr, false);
   result.err = err.str();
   return result;
@@ -42,7 +43,9 @@ std::string journal_text() {
 /// Changes the content of one line and gives it the checksum of the new content.
 std::string forge_line(const std::string& journal, Dice* dice) {
   std::vector<std::size_t> begins = {0};
-  for (std::size_t at = journal.find('\n'); at + 1 < journal.size(); at = journal.find('\n', at + 1)) begins.push_back(at + 1);
+  for (std::size_t at = journal.find('\n'); at + 1 < journal.size();
+       at = journal.find('\n', at + 1))
+    begins.push_back(at + 1);
   const std::size_t begin = dice->pick(begins), end = journal.find('\n', begin);
   const std::string line = journal.substr(begin, end - begin);
   std::string content = mutate_text(line.substr(0, line.rfind(",\"checksum\"")), dice);
@@ -58,12 +61,15 @@ std::string judge(const Result& first, const Result& again, bool is_forged) {
     const bool has_place = error.value("file", "") == kJournal && error.value("line", 0) >= 1;
     return has_place ? "" : "bad input without its place: " + error.dump();
   }
-  if (again.code == 1 && error.value("code", "") == "failed") return "an exception instead of a status: " + error.dump();
-  if (is_forged) return again.code == 0 || again.code == 1 ? "" : "exit code " + std::to_string(again.code);
+  if (again.code == 1 && error.value("code", "") == "failed")
+    return "an exception instead of a status: " + error.dump();
+  if (is_forged)
+    return again.code == 0 || again.code == 1 ? "" : "exit code " + std::to_string(again.code);
   for (const char* key : {"objective", "gradient", "evaluations", "termination"})
     if (again.json.value(key, Json()) != first.json.value(key, Json()))
       return "another " + std::string(key) + " after damage of the journal: " + again.err;
-  return again.code == first.code ? "" : "exit code " + std::to_string(again.code) + ": " + again.err;
+  return again.code == first.code ? ""
+                                  : "exit code " + std::to_string(again.code) + ": " + again.err;
 }
 
 std::string damage_and_resume(const std::atomic<bool>& cancel, Dice* dice) {
@@ -82,7 +88,8 @@ std::string damage_and_resume(const std::atomic<bool>& cancel, Dice* dice) {
 
 std::string run_resumed(const std::vector<Seed>& seeds, const Limits& limits, Dice* dice) {
   const Seed& seed = dice->pick(seeds);
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("codesign_fuzz_job_" + std::to_string(getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("codesign_fuzz_job_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   const auto body = [&](const std::atomic<bool>& cancel) {
     std::filesystem::current_path(folder);

@@ -7,8 +7,9 @@
 
 namespace codesign::fuzz {
 
-/// Small valid cases that the shipped ones leave out: constraints and peaks, sampled controllers, way-points, samples with a measure,
-/// recordings as table and as bag, motions to record, gains for a robot, values set by an overlay.
+/// Small valid cases that the shipped ones leave out: constraints and peaks, sampled controllers,
+/// way-points, samples with a measure, recordings as table and as bag, motions to record, gains for
+/// a robot, values set by an overlay.
 std::vector<Seed> language_seeds();
 
 }  // namespace codesign::fuzz

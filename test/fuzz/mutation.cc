@@ -123,7 +123,8 @@ const std::vector<std::string>& odd_values() {
 }
 
 bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-' || c == '+';
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '.' || c == '-' || c == '+';
 }
 
 /// Words and numbers.
@@ -163,9 +164,11 @@ std::string with_typo(std::string word, Dice* dice) {
 }
 
 std::string scaled(const std::string& number, Dice* dice) {
-  static const std::vector<double> kFactors = {0.0, -1.0, 0.5, 2.0, 0.99, 1.01, 10.0, 0.1, 1e3, 1e-3, 1e-8, 1e8};
+  static const std::vector<double> kFactors = {0.0,  -1.0, 0.5, 2.0,  0.99, 1.01,
+                                               10.0, 0.1,  1e3, 1e-3, 1e-8, 1e8};
   char text[64];
-  std::snprintf(text, sizeof text, "%.17g", std::strtod(number.c_str(), nullptr) * dice->pick(kFactors));
+  std::snprintf(text, sizeof text, "%.17g",
+                std::strtod(number.c_str(), nullptr) * dice->pick(kFactors));
   return text;
 }
 
@@ -180,7 +183,8 @@ void change_word(std::string* text, Dice* dice) {
   } else if (is_number(word)) {
     text->replace(at, length, scaled(word, dice));
   } else {
-    text->replace(at, length, dice->one_in(2) ? with_typo(word, dice) : text->substr(other, other_length));
+    text->replace(at, length,
+                  dice->one_in(2) ? with_typo(word, dice) : text->substr(other, other_length));
   }
 }
 
@@ -235,7 +239,8 @@ void change_bytes(std::string* text, Dice* dice) {
 }
 
 void collect(tinyxml2::XMLElement* element, std::vector<tinyxml2::XMLElement*>* all) {
-  for (tinyxml2::XMLElement* child = element->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (tinyxml2::XMLElement* child = element->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     all->push_back(child);
     collect(child, all);
   }
@@ -247,10 +252,12 @@ bool stands_in(const tinyxml2::XMLNode* node, const tinyxml2::XMLNode* above) {
   return false;
 }
 
-void change_element(tinyxml2::XMLDocument* document, const std::vector<tinyxml2::XMLElement*>& all, Dice* dice) {
+void change_element(tinyxml2::XMLDocument* document, const std::vector<tinyxml2::XMLElement*>& all,
+                    Dice* dice) {
   tinyxml2::XMLElement *const one = dice->pick(all), *const other = dice->pick(all);
   const tinyxml2::XMLAttribute* attribute = one->FirstAttribute();
-  for (std::size_t skip = dice->below(4); attribute != nullptr && attribute->Next() != nullptr && skip > 0; --skip)
+  for (std::size_t skip = dice->below(4);
+       attribute != nullptr && attribute->Next() != nullptr && skip > 0; --skip)
     attribute = attribute->Next();
   switch (dice->below(6)) {
     case 0:
@@ -269,7 +276,9 @@ void change_element(tinyxml2::XMLDocument* document, const std::vector<tinyxml2:
       if (attribute != nullptr) one->DeleteAttribute(std::string(attribute->Name()).c_str());
       break;
     default:
-      if (attribute != nullptr) one->SetAttribute(with_typo(attribute->Name(), dice).c_str(), dice->pick(odd_values()).c_str());
+      if (attribute != nullptr)
+        one->SetAttribute(with_typo(attribute->Name(), dice).c_str(),
+                          dice->pick(odd_values()).c_str());
   }
 }
 
@@ -298,7 +307,9 @@ std::string mutate_text(const std::string& text, Dice* dice) {
 
 std::string mutate_xml(const std::string& text, Dice* dice) {
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) return text;
+  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
+      document.RootElement() == nullptr)
+    return text;
   std::vector<tinyxml2::XMLElement*> all;
   collect(document.RootElement(), &all);
   if (all.empty()) return text;
@@ -309,8 +320,10 @@ std::string mutate_xml(const std::string& text, Dice* dice) {
 }
 
 std::string random_expression(const std::vector<std::string>& names, int depth, Dice* dice) {
-  static const std::vector<std::string> kOperators = {"+", "-", "*", "/", "^", "**", "<", ">=", "==", "?", ":", ",", " ", "\n", "="};
-  static const std::vector<std::string> kFunctions = {"sqrt", "sin", "atan2", "min", "max", "log", "pow", "abs", "nosuch", "pi"};
+  static const std::vector<std::string> kOperators = {
+      "+", "-", "*", "/", "^", "**", "<", ">=", "==", "?", ":", ",", " ", "\n", "="};
+  static const std::vector<std::string> kFunctions = {"sqrt", "sin", "atan2", "min",    "max",
+                                                      "log",  "pow", "abs",   "nosuch", "pi"};
   const auto inner = [&] { return random_expression(names, depth - 1, dice); };
   if (depth <= 0 || dice->one_in(4)) {
     if (dice->one_in(3)) return dice->pick(odd_values());
@@ -320,7 +333,8 @@ std::string random_expression(const std::vector<std::string>& names, int depth, 
     case 0:
       return "(" + inner() + ")";
     case 1:
-      return dice->pick(kFunctions) + "(" + inner() + (dice->one_in(2) ? ", " + inner() : "") + (dice->one_in(12) ? "" : ")");
+      return dice->pick(kFunctions) + "(" + inner() + (dice->one_in(2) ? ", " + inner() : "") +
+             (dice->one_in(12) ? "" : ")");
     case 2:
       return inner() + " < " + inner() + " ? " + inner() + " : " + inner();
     case 3:

@@ -12,7 +12,8 @@ namespace {
 constexpr double kRate = 20.0;
 
 struct Compared {
-  explicit Compared(const SwingingRig& rig, const std::string& more = "", std::function<bool()> stop = {})
+  explicit Compared(const SwingingRig& rig, const std::string& more = "",
+                    std::function<bool()> stop = {})
       : problem(swinging_problem("{csv: data.csv}", more)) {
     recordings.data = {rig.record("identify.data[0]")};
     SwingingRig later = rig;
@@ -42,7 +43,8 @@ TEST(CompareMotion, TheModelMovesAsMeasuredAndNeedsTheEffortsThatItNeeds) {
     ASSERT_EQ(recording.measured.size(), 100U);
     for (std::size_t k = 0; k < recording.model.size(); ++k) {
       const Frame &model = recording.model[k], &measured = recording.measured[k];
-      const double t = (r == 0 ? 0.0 : 7.0) + 0.02 + 0.05 * static_cast<double>(k);  // four samples at the ends are not fitted
+      const double t = (r == 0 ? 0.0 : 7.0) + 0.02 +
+                       0.05 * static_cast<double>(k);  // four samples at the ends are not fitted
       ASSERT_NEAR(model.time, t, 1e-12);
       EXPECT_EQ(measured.time, model.time);
       EXPECT_NEAR(model.joints[0].position, rig.position(t), 1e-9);
@@ -62,10 +64,11 @@ TEST(CompareMotion, EffortsAreWhatTheIdentifiedSensorSaysOfThem) {
   SwingingRig rig;
   rig.scale = 11.0;
   rig.offset = 0.2;
-  Problem problem = load_problem({"arm.urdf", kSwingingArm}, {},
-                                 {"study.yaml",
-                                  "identify:\n  data: [{csv: data.csv}]\n  joints: {hinge: {effort_scale: 11.0, offset: {}}}\n"
-                                  "parameters: {inertia: {}, viscous: {}}\n"});
+  Problem problem = load_problem(
+      {"arm.urdf", kSwingingArm}, {},
+      {"study.yaml",
+       "identify:\n  data: [{csv: data.csv}]\n  joints: {hinge: {effort_scale: 11.0, offset: {}}}\n"
+       "parameters: {inertia: {}, viscous: {}}\n"});
   StudyRecordings recordings;
   recordings.data = {rig.record("identify.data[0]")};
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
@@ -81,7 +84,8 @@ TEST(CompareMotion, PositionsBeginAtTheIdentifiedStart) {
   StudyRecordings recordings;
   recordings.data = {rig.record("identify.data[0]")};
   recordings.data[0].joints[0].position.clear();
-  recordings.data[0].joints[0].start = problem.study().identification->data[0].starts.at(0).position;
+  recordings.data[0].joints[0].start =
+      problem.study().identification->data[0].starts.at(0).position;
   IdentificationResult result;
   result.parameters = {0.3, 0.4};
   result.x = Eigen::Vector3d(0.3, 0.4, 0.0);  // the arm begins at 0, not at 0.7
@@ -89,7 +93,8 @@ TEST(CompareMotion, PositionsBeginAtTheIdentifiedStart) {
   ASSERT_EQ(motion.recordings.size(), 1U);
   ASSERT_TRUE(motion.recordings[0].status.ok()) << motion.recordings[0].status.cause;
   for (std::size_t k = 0; k < motion.recordings[0].model.size(); ++k) {
-    const Frame &model = motion.recordings[0].model[k], &measured = motion.recordings[0].measured[k];
+    const Frame &model = motion.recordings[0].model[k],
+                &measured = motion.recordings[0].measured[k];
     EXPECT_NEAR(measured.joints[0].position, rig.position(measured.time), 1e-6);
     EXPECT_NEAR(model.joints[0].position, rig.position(measured.time), 1e-6);
   }
@@ -104,7 +109,8 @@ TEST(CompareMotion, WhichJointsAreCompared) {
   EXPECT_TRUE(motion.joints[0].is_torque);
 }
 
-// The columns of a series with residuals in motion, here 0.1 rad and 0.2 rad/s from the measured values, at every fourth sample.
+// The columns of a series with residuals in motion, here 0.1 rad and 0.2 rad/s from the measured
+// values, at every fourth sample.
 TEST(CompareMotion, AModelThatMovesByItselfIsShownWhereItWas) {
   const SwingingRig rig;
   const Problem problem = swinging_problem("{csv: data.csv}", "  residual: motion\n");
@@ -121,7 +127,8 @@ TEST(CompareMotion, AModelThatMovesByItselfIsShownWhereItWas) {
   series.recorded.resize(250, 2);
   for (Eigen::Index row = 0; row < 250; ++row) {
     series.times.push_back(0.02 * static_cast<double>(row));
-    series.recorded.row(row) << rig.position(series.times.back()), rig.velocity(series.times.back());
+    series.recorded.row(row) << rig.position(series.times.back()),
+        rig.velocity(series.times.back());
   }
   series.computed = series.recorded.rowwise() + Eigen::RowVector2d(0.1, 0.2);
   const ComparedMotion motion = compare_motion(problem, recordings, result, kRate);
@@ -137,7 +144,8 @@ TEST(CompareMotion, AModelThatMovesByItselfIsShownWhereItWas) {
     EXPECT_NEAR(model.joints[0].position, rig.position(t) + 0.1, 1e-9);
     EXPECT_NEAR(model.joints[0].velocity, rig.velocity(t) + 0.2, 1e-9);
     EXPECT_NEAR(model.joints[0].effort, rig.torque(t), 1e-9) << "the recorded effort was applied";
-    EXPECT_NEAR(model.links[1].orientation.angularDistance(measured.links[1].orientation), 0.1, 1e-9);
+    EXPECT_NEAR(model.links[1].orientation.angularDistance(measured.links[1].orientation), 0.1,
+                1e-9);
   }
 }
 
@@ -151,7 +159,8 @@ TEST(CompareMotion, WhatCannotBeShownIsToldByTheStatus) {
   const ComparedMotion motion = compare_motion(problem, recordings, result, kRate);
   ASSERT_EQ(motion.recordings.size(), 1U);
   EXPECT_FALSE(motion.recordings[0].status.ok());
-  EXPECT_NE(motion.recordings[0].status.cause.find("elbow"), std::string::npos) << motion.recordings[0].status.cause;
+  EXPECT_NE(motion.recordings[0].status.cause.find("elbow"), std::string::npos)
+      << motion.recordings[0].status.cause;
   EXPECT_TRUE(motion.recordings[0].model.empty());
 }
 

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Whether 95 % intervals hold the truth in 95 % of many runs with correlated noise, through the whole identification.
+// Whether 95 % intervals hold the truth in 95 % of many runs with correlated noise, through the
+// whole identification.
 #include <cmath>
 #include <random>
 
@@ -10,7 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kSwing = R"(<robot name="swing" xmlns:codesign="https://mechanism-codesign.org">
+constexpr const char* kSwing =
+    R"(<robot name="swing" xmlns:codesign="https://mechanism-codesign.org">
   <codesign:parameter name="mass" value="1.5"/><codesign:parameter name="viscous" value="0.1"/>
   <codesign:parameter name="mu_static" value="0.3"/><codesign:parameter name="mu_dynamic" value="0.2"/>
   <link name="base"/>
@@ -44,9 +46,13 @@ optimizer: {algorithm: levenberg_marquardt}
 
 /// In how many of `runs` each interval holds the truth.
 std::map<std::string, double> coverage(const std::string& noise, int runs) {
-  const std::map<std::string, double> truth = {
-      {"mass", 2.0}, {"viscous", 0.3}, {"mu_static", 0.4}, {"mu_dynamic", 0.25}, {"hinge/offset", 0.0}};
-  const Problem problem = load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", swing_study(noise)});
+  const std::map<std::string, double> truth = {{"mass", 2.0},
+                                               {"viscous", 0.3},
+                                               {"mu_static", 0.4},
+                                               {"mu_dynamic", 0.25},
+                                               {"hinge/offset", 0.0}};
+  const Problem problem =
+      load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", swing_study(noise)});
   const JointRecording clean = record_run(problem, truth, {"hinge"}, 100.0);
   std::map<std::string, double> held;
   for (int run = 0; run < runs; ++run) {
@@ -58,12 +64,15 @@ std::map<std::string, double> coverage(const std::string& noise, int runs) {
     double error = kDeviation * normal(random);
     for (double& effort : recordings.data[0].joints[0].effort) {
       effort += error;
-      error = kCorrelation * error + std::sqrt(1.0 - kCorrelation * kCorrelation) * kDeviation * normal(random);
+      error = kCorrelation * error +
+              std::sqrt(1.0 - kCorrelation * kCorrelation) * kDeviation * normal(random);
     }
     const IdentificationResult result = identify(problem, recordings, {}, nullptr);
     EXPECT_TRUE(result.status.ok()) << result.status.cause;
     for (const IdentifiedNumber& number : result.numbers)
-      held[number.name] += number.low <= truth.at(number.name) && truth.at(number.name) <= number.high ? 1.0 / runs : 0.0;
+      held[number.name] +=
+          number.low <= truth.at(number.name) && truth.at(number.name) <= number.high ? 1.0 / runs
+                                                                                      : 0.0;
   }
   return held;
 }
@@ -90,8 +99,12 @@ TEST(IntervalCoverage, IsFarFromPromisedIfTheNoiseIsTakenForWhite) {
 struct DelayFits {
   DelayFits(const std::string& filter, const std::string& intervals, double noise, int runs) {
     std::string study = swing_study(intervals);
-    const std::string old = "  filter: {cutoff: 30.0, residual_cutoff: 15.0, decimate: 2}\n  joints: {hinge: {offset: {}}}\n";
-    study.replace(study.find(old), old.size(), "  filter: {" + filter + "}\n  joints: {hinge: {delay: {lower: 0, upper: 0.05}}}\n");
+    const std::string old =
+        "  filter: {cutoff: 30.0, residual_cutoff: 15.0, decimate: 2}\n  joints: {hinge: {offset: "
+        "{}}}\n";
+    study.replace(
+        study.find(old), old.size(),
+        "  filter: {" + filter + "}\n  joints: {hinge: {delay: {lower: 0, upper: 0.05}}}\n");
     const Problem problem = load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", study});
     constexpr double kDelay = 0.012;
     JointRecording clean = record_run(problem, {}, {"hinge"}, 100.0);
@@ -103,7 +116,8 @@ struct DelayFits {
       std::mt19937 random(static_cast<unsigned>(run) + 1);
       std::normal_distribution<double> normal;
       for (std::size_t k = 0; k < clean.times.size(); ++k)
-        recordings.data[0].joints[0].effort[k] = effort.at(clean.times[k] - kDelay).value + noise * normal(random);
+        recordings.data[0].joints[0].effort[k] =
+            effort.at(clean.times[k] - kDelay).value + noise * normal(random);
       const IdentificationResult result = identify(problem, recordings, {}, nullptr);
       EXPECT_TRUE(result.status.ok()) << result.status.cause;
       const IdentifiedNumber& delay = result.numbers.back();
@@ -112,7 +126,8 @@ struct DelayFits {
       signal += delay.slope_signal / runs;
       sum += (delay.value - kDelay) / runs;
       squares += (delay.value - kDelay) * (delay.value - kDelay) / runs;
-      for (const Warning& warning : result.warnings) warned += warning.code == "delay_in_noise" ? 1 : 0;
+      for (const Warning& warning : result.warnings)
+        warned += warning.code == "delay_in_noise" ? 1 : 0;
     }
     bias = sum;
     error = std::sqrt(squares - sum * sum);
@@ -121,10 +136,12 @@ struct DelayFits {
     RecordProperty("error", std::to_string(error));
     RecordProperty("signal", std::to_string(signal));
   }
-  static void RecordProperty(const std::string& key, const std::string& value) { testing::Test::RecordProperty(key, value); }
+  static void RecordProperty(const std::string& key, const std::string& value) {
+    testing::Test::RecordProperty(key, value);
+  }
 
   double stated = 0.0, signal = 0.0;  ///< means
-  double bias = 0.0, error = 0.0;     ///< mean and standard deviation of the errors of the delays [s]
+  double bias = 0.0, error = 0.0;  ///< mean and standard deviation of the errors of the delays [s]
   int warned = 0;
 };
 

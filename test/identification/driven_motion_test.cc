@@ -13,18 +13,22 @@ namespace {
 class DrivenMotionTest : public testing::Test {
  protected:
   DrivenMotionTest()
-      : system(compiled(four_bar(pin_friction()), let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity"))),
+      : system(compiled(four_bar(pin_friction()),
+                        let_go("{left_hinge: {position: 0.3}}", "left_hinge/velocity"))),
         joints(measured({"left_hinge"})),
         driven(make_driven_system(*system, joints)),
         motion(driven) {
     motion.set_design(system->parameters());
-    const Status status = assemble_driven(*system, joints, driven, system->parameters(), Eigen::VectorXd::Constant(1, 0.3), &state);
+    const Status status = assemble_driven(*system, joints, driven, system->parameters(),
+                                          Eigen::VectorXd::Constant(1, 0.3), &state);
     EXPECT_TRUE(status.ok()) << status.cause;
   }
 
   Status follow(double position, double velocity, double acceleration) {
     const double given[] = {position, velocity, acceleration};
-    return motion.follow({In<double>(given).subspan(0, 1), In<double>(given).subspan(1, 1), In<double>(given).subspan(2, 1)}, &state);
+    return motion.follow({In<double>(given).subspan(0, 1), In<double>(given).subspan(1, 1),
+                          In<double>(given).subspan(2, 1)},
+                         &state);
   }
 
   std::shared_ptr<const CompiledSystem> system;
@@ -55,7 +59,9 @@ TEST_F(DrivenMotionTest, SatisfiesAllEquations) {
 TEST_F(DrivenMotionTest, FollowsALongWayOnTheSameBranch) {
   ASSERT_TRUE(follow(1.2, 0.0, 0.0).ok());
   // The parallelogram stays one: the right bar turns as far as the left one.
-  const CouplingTerm right = drive_of(system->robot(), system->topology(), joint_index(system->robot(), "right_hinge")).terms.front();
+  const CouplingTerm right =
+      drive_of(system->robot(), system->topology(), joint_index(system->robot(), "right_hinge"))
+          .terms.front();
   Formulas<double>& formulas = motion.equations().formulas();
   formulas.load(state);
   EXPECT_NEAR(formulas.coordinate(right.pair, right.element).position, 1.2, 1e-9);
@@ -66,8 +72,11 @@ TEST_F(DrivenMotionTest, SolvesFromNearbyToTheSameEffort) {
   const double effort = motion.effort(state, 0);
   ASSERT_TRUE(follow(0.52, 1.5, 4.0).ok());
   const double given[] = {0.5, 2.0, -3.0};
-  ASSERT_TRUE(
-      motion.solve({In<double>(given).subspan(0, 1), In<double>(given).subspan(1, 1), In<double>(given).subspan(2, 1)}, &state).ok());
+  ASSERT_TRUE(motion
+                  .solve({In<double>(given).subspan(0, 1), In<double>(given).subspan(1, 1),
+                          In<double>(given).subspan(2, 1)},
+                         &state)
+                  .ok());
   EXPECT_NEAR(motion.effort(state, 0), effort, 1e-10);
 }
 
@@ -85,15 +94,19 @@ TEST_F(DrivenMotionTest, ForgettingMakesResultsRepeatToTheLastBit) {
   EXPECT_EQ(motion.effort(state, 0), first);
 }
 
-// A tree all of whose joints are driven has nothing to iterate: its coordinates are set, and one residual gives the efforts.
+// A tree all of whose joints are driven has nothing to iterate: its coordinates are set, and one
+// residual gives the efforts.
 TEST(DrivenMotion, ATreeFollowsAnyMotionAtOnce) {
-  const auto system = compiled(double_pendulum(pin_friction()), let_go("{shoulder: {position: 0.3}}", "shoulder/velocity"));
+  const auto system = compiled(double_pendulum(pin_friction()),
+                               let_go("{shoulder: {position: 0.3}}", "shoulder/velocity"));
   const std::vector<MeasuredJoint> joints = measured({"elbow", "shoulder"});
   const DrivenSystem driven = make_driven_system(*system, joints);
   DrivenMotion motion(driven);
   motion.set_design(system->parameters());
   State<double> state;
-  ASSERT_TRUE(assemble_driven(*system, joints, driven, system->parameters(), Eigen::Vector2d(0.0, 0.3), &state).ok());
+  ASSERT_TRUE(assemble_driven(*system, joints, driven, system->parameters(),
+                              Eigen::Vector2d(0.0, 0.3), &state)
+                  .ok());
   const Eigen::Vector2d position(-40.0, 9.0), velocity(3.0, -0.02), acceleration(-7.0, 11.0);
   ASSERT_TRUE(motion.follow({position, velocity, acceleration}, &state).ok());
   EXPECT_EQ(state.q, position.reverse());  // the coordinates have the order of the bodies
@@ -103,7 +116,8 @@ TEST(DrivenMotion, ATreeFollowsAnyMotionAtOnce) {
   double g = 0.0;
   motion.equations().residual(state, &G, &g);
   EXPECT_LT(G.head(2).cwiseAbs().maxCoeff(), 1e-13 * state.z.cwiseAbs().maxCoeff());
-  EXPECT_EQ(motion.follow({position, velocity, Eigen::Vector2d(0.0, std::nan(""))}, &state).code, StatusCode::kNonFinite);
+  EXPECT_EQ(motion.follow({position, velocity, Eigen::Vector2d(0.0, std::nan(""))}, &state).code,
+            StatusCode::kNonFinite);
 }
 
 TEST_F(DrivenMotionTest, APositionThatIsNoNumberIsAStatus) {

@@ -29,7 +29,8 @@ constexpr const char* kTwo = R"(<robot name="two" xmlns:codesign="https://mechan
 Problem two_pendulums() {
   return load_problem({"two.urdf", kTwo}, {},
                       {"study.yaml",
-                       "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 20.0}\nparameters: {long_mass: {}, short_mass: {}}\n"
+                       "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: "
+                       "20.0}\nparameters: {long_mass: {}, short_mass: {}}\n"
                        "optimizer: {algorithm: levenberg_marquardt}\n"});
 }
 
@@ -40,11 +41,13 @@ JointRecording both_swing() {
   recording.element = "identify.data[0]";
   recording.where = {"study.yaml", 2};
   JointSamples a{"a", {}, {}, {}}, b{"b", {}, {}, {}};
-  const auto add = [](JointSamples* joint, double t, double w, double amplitude, double mass, double length) {
+  const auto add = [](JointSamples* joint, double t, double w, double amplitude, double mass,
+                      double length) {
     const double position = amplitude * std::sin(w * t), acceleration = -w * w * position;
     joint->position.push_back(position);
     joint->velocity.push_back(amplitude * w * std::cos(w * t));
-    joint->effort.push_back((mass * length * length + 0.01) * acceleration + mass * 9.81 * length * std::cos(position));
+    joint->effort.push_back((mass * length * length + 0.01) * acceleration +
+                            mass * 9.81 * length * std::cos(position));
   };
   for (int k = 0; k < 1000; ++k) {
     const double t = 0.005 * k;
@@ -64,14 +67,18 @@ IdentificationResult fit(const Problem& problem, const JointRecording& recording
 }
 
 /// The fit is a failure, and one of its warnings has these words; so has one of `codesign check`.
-void expect_named(const Problem& problem, const JointRecording& recording, const std::string& words) {
+void expect_named(const Problem& problem, const JointRecording& recording,
+                  const std::string& words) {
   const IdentificationResult result = fit(problem, recording);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable) << words;
   const auto has = [&words](const Warning& warning) {
-    return warning.code == "effort_not_explained" && warning.message.find(words) != std::string::npos;
+    return warning.code == "effort_not_explained" &&
+           warning.message.find(words) != std::string::npos;
   };
-  EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), has)) << words << ": " << result.status.cause;
-  const Warnings checked = warnings_of(*problem.study().identification, find_effort_doubts(problem, {recording}));
+  EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), has))
+      << words << ": " << result.status.cause;
+  const Warnings checked =
+      warnings_of(*problem.study().identification, find_effort_doubts(problem, {recording}));
   ASSERT_FALSE(checked.empty()) << words;
   EXPECT_EQ(checked[0].code, "recording_effort");
   EXPECT_NE(checked[0].message.find(words), std::string::npos) << checked[0].message;
@@ -131,7 +138,8 @@ TEST(EffortDoubts, TheShareIsCountedAboutTheMean) {
   EXPECT_DOUBLE_EQ(explained_share(recorded, Eigen::Vector4d::Zero()), 1.0);
   EXPECT_DOUBLE_EQ(explained_share(recorded, recorded), 0.0);
   EXPECT_DOUBLE_EQ(explained_share(recorded.array() + 1.0, recorded), 0.0);
-  EXPECT_NEAR(explained_share(Eigen::Vector4d::Constant(100.0), Eigen::Vector4d::Constant(1.0)), 0.99, 1e-12);
+  EXPECT_NEAR(explained_share(Eigen::Vector4d::Constant(100.0), Eigen::Vector4d::Constant(1.0)),
+              0.99, 1e-12);
 }
 
 TEST(EffortDoubts, InMotionTheMistakeOfTheRecordedEffortIsNamed) {
@@ -140,13 +148,16 @@ TEST(EffortDoubts, InMotionTheMistakeOfTheRecordedEffortIsNamed) {
   StudyRecordings recordings;
   recordings.data = {record_pendulum(rig)};
   for (double& effort : recordings.data[0].joints[0].effort) effort = -effort;
-  const Problem problem = motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}");
+  const Problem problem =
+      motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}");
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable) << result.status.cause;
-  const auto found = std::find_if(result.warnings.begin(), result.warnings.end(),
-                                  [](const Warning& warning) { return warning.code == "motion_not_explained"; });
+  const auto found =
+      std::find_if(result.warnings.begin(), result.warnings.end(),
+                   [](const Warning& warning) { return warning.code == "motion_not_explained"; });
   ASSERT_NE(found, result.warnings.end());
-  const std::string words = " % of hinge/position: sign, unit, order? the recorded effort of hinge: with the other sign";
+  const std::string words =
+      " % of hinge/position: sign, unit, order? the recorded effort of hinge: with the other sign";
   EXPECT_NE(found->message.find(words), std::string::npos) << found->message;
 }
 

@@ -26,10 +26,14 @@ TEST(EffortSensor, DerivativesAgreeWithDifferences) {
     return effort_residual({scale, offset, delay, 2.0}, recorded, time, at).value;
   };
   const auto slope = [](const auto& of, double x) { return ridders_derivative(of, x, 1e-3).value; };
-  EXPECT_NEAR(r.by_scale, slope([&](double x) { return residual(x, 0.4, 0.03, effort); }, 2.5), 1e-9);
-  EXPECT_NEAR(r.by_effort, slope([&](double x) { return residual(2.5, x, 0.03, effort); }, 0.4), 1e-9);
-  EXPECT_NEAR(r.by_effort, slope([&](double x) { return residual(2.5, 0.4, 0.03, x); }, effort), 1e-9);
-  EXPECT_NEAR(r.by_delay, slope([&](double x) { return residual(2.5, 0.4, x, effort); }, 0.03), 1e-7);
+  EXPECT_NEAR(r.by_scale, slope([&](double x) { return residual(x, 0.4, 0.03, effort); }, 2.5),
+              1e-9);
+  EXPECT_NEAR(r.by_effort, slope([&](double x) { return residual(2.5, x, 0.03, effort); }, 0.4),
+              1e-9);
+  EXPECT_NEAR(r.by_effort, slope([&](double x) { return residual(2.5, 0.4, 0.03, x); }, effort),
+              1e-9);
+  EXPECT_NEAR(r.by_delay, slope([&](double x) { return residual(2.5, 0.4, x, effort); }, 0.03),
+              1e-7);
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 namespace codesign {
 namespace {
 
-/// A bench of two joints with everything that a joint can have, and a head on three crossing axes that are apart from each other.
-constexpr const char* kBench = R"(<robot name="bench" xmlns:codesign="https://mechanism-codesign.org">
+/// A bench of two joints with everything that a joint can have, and a head on three crossing axes
+/// that are apart from each other.
+constexpr const char* kBench =
+    R"(<robot name="bench" xmlns:codesign="https://mechanism-codesign.org">
   <codesign:parameter name="mu_static" value="0.3"/><codesign:parameter name="mu_dynamic" value="0.2"/>
   <codesign:parameter name="preload" value="20"/><codesign:parameter name="viscous" value="0.1"/>
   <codesign:parameter name="mu_backward" value="0.2"/><codesign:parameter name="viscous_backward" value="0.1"/>
@@ -92,13 +94,17 @@ void PrintTo(const TwinCase& c, std::ostream* out) { *out << c.name; }
 
 std::vector<TwinCase> twin_cases() {
   const std::vector<std::string> bench = {"shoulder", "elbow"};
-  const auto on_bench = [&bench](const std::string& name, std::map<std::string, double> truth, double tolerance = 0.002) {
+  const auto on_bench = [&bench](const std::string& name, std::map<std::string, double> truth,
+                                 double tolerance = 0.002) {
     return TwinCase{name, kBench, kBenchStudy, bench, std::move(truth), tolerance};
   };
-  return {on_bench("friction_coefficients", {{"mu_static", 0.45}, {"mu_dynamic", 0.28}, {"mu_backward", 0.33}}),
-          on_bench("preload_beside_coefficients", {{"mu_dynamic", 0.25}, {"mu_backward", 0.25}, {"preload", 45.0}}),
+  return {on_bench("friction_coefficients",
+                   {{"mu_static", 0.45}, {"mu_dynamic", 0.28}, {"mu_backward", 0.33}}),
+          on_bench("preload_beside_coefficients",
+                   {{"mu_dynamic", 0.25}, {"mu_backward", 0.25}, {"preload", 45.0}}),
           on_bench("viscous_friction_by_direction", {{"viscous", 0.8}, {"viscous_backward", 0.3}}),
-          on_bench("torsion_spring", {{"stiffness", 5.0}, {"spring_damping", 0.6}, {"free_position", 0.4}}),
+          on_bench("torsion_spring",
+                   {{"stiffness", 5.0}, {"spring_damping", 0.6}, {"free_position", 0.4}}),
           on_bench("spring_damper", {{"strut_stiffness", 80.0}, {"strut_damping", 5.0}}),
           on_bench("payload", {{"payload", 1.3}, {"payload_height", -0.52}}),
           on_bench("motor", {{"rotor", 2.5e-4}, {"gear_coulomb", 1.1}, {"damping", 0.35}}),
@@ -125,7 +131,8 @@ TEST_P(IdentifiedTwins, AreFoundAgain) {
   const TwinCase& c = GetParam();
   std::string tuned;
   for (const auto& [name, value] : c.truth) tuned += (tuned.empty() ? "" : ", ") + name + ": {}";
-  const Problem problem = load_problem({"bench.urdf", c.urdf}, {}, {"study.yaml", c.study + ("parameters: {" + tuned + "}\n")});
+  const Problem problem = load_problem({"bench.urdf", c.urdf}, {},
+                                       {"study.yaml", c.study + ("parameters: {" + tuned + "}\n")});
   StudyRecordings recordings;
   recordings.data = {record_run(problem, c.truth, c.joints, 500.0)};
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
@@ -133,14 +140,17 @@ TEST_P(IdentifiedTwins, AreFoundAgain) {
   ASSERT_EQ(result.numbers.size(), c.truth.size());
   for (const IdentifiedNumber& number : result.numbers) {
     const double truth = c.truth.at(number.name);
-    EXPECT_GT(std::abs(number.start - truth), 5.0 * c.tolerance * std::abs(truth)) << number.name << ": a start at the truth tests nothing";
+    EXPECT_GT(std::abs(number.start - truth), 5.0 * c.tolerance * std::abs(truth))
+        << number.name << ": a start at the truth tests nothing";
     EXPECT_NEAR(number.value, truth, c.tolerance * std::abs(truth)) << number.name;
     EXPECT_TRUE(number.is_determined) << number.name;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, IdentifiedTwins, ::testing::ValuesIn(twin_cases()),
-                         [](const ::testing::TestParamInfo<TwinCase>& of) { return of.param.name; });
+                         [](const ::testing::TestParamInfo<TwinCase>& of) {
+                           return of.param.name;
+                         });
 
 }  // namespace
 }  // namespace codesign

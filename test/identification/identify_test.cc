@@ -14,7 +14,8 @@
 namespace codesign {
 namespace {
 
-/// An arm that turns about a vertical axis: gravity does not act on it. Its centre is 0.5 m from the axis.
+/// An arm that turns about a vertical axis: gravity does not act on it. Its centre is 0.5 m from
+/// the axis.
 constexpr const char* kArm = R"(<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
   <codesign:parameter name="mass" value="2" lower="0.1" upper="10"/>
   <codesign:parameter name="inertia" value="0.1" lower="0.001" upper="5"/>
@@ -28,7 +29,8 @@ constexpr const char* kArm = R"(<robot name="arm" xmlns:codesign="https://mechan
 </robot>)";
 
 std::string study_of(const std::string& parameters, const std::string& more = "") {
-  return "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 20.0}\n" + more + "parameters: {" + parameters +
+  return "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 20.0}\n" + more +
+         "parameters: {" + parameters +
          "}\noptimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n";
 }
 
@@ -36,7 +38,8 @@ Problem problem_of(const std::string& parameters, const std::string& more = "") 
   return load_problem({"arm.urdf", kArm}, {}, {"study.yaml", study_of(parameters, more)});
 }
 
-/// A recording of the arm on a rig: `total` is its inertia about the axis [kg m^2], `damping` the damping of the joint [N m s].
+/// A recording of the arm on a rig: `total` is its inertia about the axis [kg m^2], `damping` the
+/// damping of the joint [N m s].
 struct Rig {
   double total = 0.8, damping = 0.4, scale = 1.0, offset = 0.0, noise = 0.0;
   double speed = 2.0;
@@ -55,7 +58,8 @@ struct Rig {
       recording.places.push_back(static_cast<std::size_t>(k) + 2);
       hinge.position.push_back(std::sin(w * t) + 0.3 * std::sin(2.3 * w * t));
       hinge.velocity.push_back(w * std::cos(w * t) + 0.69 * w * std::cos(2.3 * w * t));
-      const double acceleration = -w * w * (std::sin(w * t) + 0.3 * 2.3 * 2.3 * std::sin(2.3 * w * t));
+      const double acceleration =
+          -w * w * (std::sin(w * t) + 0.3 * 2.3 * 2.3 * std::sin(2.3 * w * t));
       const double effort = total * acceleration + damping * hinge.velocity.back() + offset;
       hinge.effort.push_back(effort / scale + noise * normal(random));
     }
@@ -92,7 +96,8 @@ TEST(Identify, AConstraintThatTheFitDoesNotKeepIsTold) {
   const IdentificationResult result = run(constrained("inertia >= viscous"), Rig());
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_EQ(result.warnings[0].code, "identified_outside_constraint");
-  EXPECT_NE(result.warnings[0].message.find("inertia >= viscous"), std::string::npos) << result.warnings[0].message;
+  EXPECT_NE(result.warnings[0].message.find("inertia >= viscous"), std::string::npos)
+      << result.warnings[0].message;
 }
 
 TEST(Identify, ScaleAndOffsetOfTheSensor) {
@@ -100,8 +105,9 @@ TEST(Identify, ScaleAndOffsetOfTheSensor) {
   rig.total = 0.6;  // as in the model
   rig.scale = 11.0;
   rig.offset = 0.2;
-  const IdentificationResult result =
-      run(problem_of("viscous: {}", "  joints: {hinge: {effort_scale: {initial: 9.0}, offset: {}}}\n"), rig);
+  const IdentificationResult result = run(
+      problem_of("viscous: {}", "  joints: {hinge: {effort_scale: {initial: 9.0}, offset: {}}}\n"),
+      rig);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   ASSERT_EQ(result.numbers.size(), 3U);
   EXPECT_EQ(result.numbers[1].name, "hinge/effort_scale");
@@ -127,7 +133,8 @@ TEST(Identify, MassAndInertiaOfAnArmWithoutGravityCannotBeToldApart) {
 TEST(Identify, IntervalsCoverTheTruth) {
   Rig rig;
   rig.noise = 0.05;
-  const IdentificationResult result = run(problem_of("inertia: {}, viscous: {}", "  intervals: {profiles: true}\n"), rig);
+  const IdentificationResult result =
+      run(problem_of("inertia: {}, viscous: {}", "  intervals: {profiles: true}\n"), rig);
   ASSERT_TRUE(result.status.ok());
   const double truth[] = {0.3, 0.4};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -165,11 +172,14 @@ TEST(Identify, ANumberOnItsBoundIsReported) {
 }
 
 TEST(Identify, ABoundDoesNotMakeKnownWhatOthersMakeUpFor) {
-  // Only 0.25 mass + inertia is known, 0.8: with the mass on its bound, any inertia near 0.55 fits exactly.
-  const IdentificationResult result = run(problem_of("mass: {upper: 2.0}, inertia: {}, viscous: {}"), Rig());
+  // Only 0.25 mass + inertia is known, 0.8: with the mass on its bound, any inertia near 0.55 fits
+  // exactly.
+  const IdentificationResult result =
+      run(problem_of("mass: {upper: 2.0}, inertia: {}, viscous: {}"), Rig());
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   for (std::size_t k : {0U, 1U}) EXPECT_FALSE(result.numbers[k].is_determined);
-  EXPECT_TRUE(result.numbers[0].is_on_bound) << "a number on its bound is on it, whatever the data tell";
+  EXPECT_TRUE(result.numbers[0].is_on_bound)
+      << "a number on its bound is on it, whatever the data tell";
   EXPECT_FALSE(result.numbers[1].is_on_bound);
   EXPECT_TRUE(result.numbers[2].is_determined);
   EXPECT_EQ(result.rank, 2);
@@ -193,21 +203,26 @@ TEST(Identify, WhatIsKnownOfNumbersThatAreNotKnownEachIsReported) {
 
 TEST(Identify, APriorChoosesAmongWhatTheDataLeaveOpen) {
   const std::string parameters = "mass: {}, inertia: {}, viscous: {}";
-  const IdentificationResult of_mass = run(problem_of(parameters, "  prior: {mass: 1.0e-4}\n"), Rig());
+  const IdentificationResult of_mass =
+      run(problem_of(parameters, "  prior: {mass: 1.0e-4}\n"), Rig());
   EXPECT_NEAR(of_mass.numbers[0].value, 2.0, 1e-3);
   EXPECT_NEAR(of_mass.numbers[1].value, 0.3, 1e-3);
-  const IdentificationResult of_inertia = run(problem_of(parameters, "  prior: {inertia: 1.0e-4}\n"), Rig());
+  const IdentificationResult of_inertia =
+      run(problem_of(parameters, "  prior: {inertia: 1.0e-4}\n"), Rig());
   EXPECT_NEAR(of_inertia.numbers[1].value, 0.1, 1e-3);
   EXPECT_NEAR(of_inertia.numbers[0].value, 2.8, 1e-3);
-  EXPECT_EQ(of_inertia.status.code, StatusCode::kNotIdentifiable) << "a prior is not what the data tell";
+  EXPECT_EQ(of_inertia.status.code, StatusCode::kNotIdentifiable)
+      << "a prior is not what the data tell";
   EXPECT_THROW(problem_of(parameters, "  prior: {masss: 0.3}\n"), InputError);
   EXPECT_THROW(problem_of(parameters, "  prior: {viscous: 0}\n"), InputError);
 }
 
 TEST(Identify, ADriveGainComesFromMotionsWithAndWithoutAPayload) {
-  // A payload of the other motion is the only known inertia: efforts without it determine inertia and damping per drive gain.
+  // A payload of the other motion is the only known inertia: efforts without it determine inertia
+  // and damping per drive gain.
   const Problem problem = problem_of("mass: {tune: false}, inertia: {}, viscous: {}",
-                                     "  holdout: [{csv: data.csv, set: {mass: 3.0}}]\n  joints: {hinge: {effort_scale: {initial: 5.0}}}\n");
+                                     "  holdout: [{csv: data.csv, set: {mass: 3.0}}]\n  joints: "
+                                     "{hinge: {effort_scale: {initial: 5.0}}}\n");
   Rig without, with;
   without.scale = with.scale = 11.0;
   with.total = without.total + 0.25;
@@ -222,7 +237,9 @@ TEST(Identify, ADriveGainComesFromMotionsWithAndWithoutAPayload) {
   EXPECT_NEAR(result.numbers[2].value, 11.0, 1e-3);
   EXPECT_EQ(result.data_series.lengths.size(), 2U);
   EXPECT_LT(result.data[0].rms, 1e-4 * result.data[0].recorded);
-  EXPECT_THROW(problem_of("inertia: {}", "  holdout: [{csv: data.csv, set: {inertia: 3.0}}]\n"), InputError) << "it is tuned";
+  EXPECT_THROW(problem_of("inertia: {}", "  holdout: [{csv: data.csv, set: {inertia: 3.0}}]\n"),
+               InputError)
+      << "it is tuned";
 }
 
 TEST(Identify, ACancelledFitStillJudgesItsHoldout) {
@@ -235,7 +252,8 @@ TEST(Identify, ACancelledFitStillJudgesItsHoldout) {
     cancel = true;
     return false;
   };
-  const IdentificationResult result = identify(problem_of("inertia: {}, viscous: {}"), recordings, stop, &cancel);
+  const IdentificationResult result =
+      identify(problem_of("inertia: {}, viscous: {}"), recordings, stop, &cancel);
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   ASSERT_EQ(result.holdout.size(), 1U);
   EXPECT_GT(result.holdout[0].rms, 0.0);
@@ -246,24 +264,28 @@ TEST(Identify, AFitThatMeetsItsLimitIsUsableAndSaysSo) {
   study.replace(study.find("relative_tolerance"), 0, "max_evaluations: 1, ");
   StudyRecordings recordings;
   recordings.data = {Rig().record("identify.data[0]")};
-  const IdentificationResult result = identify(load_problem({"arm.urdf", kArm}, {}, {"study.yaml", study}), recordings, {}, nullptr);
+  const IdentificationResult result = identify(
+      load_problem({"arm.urdf", kArm}, {}, {"study.yaml", study}), recordings, {}, nullptr);
   EXPECT_TRUE(result.status.ok()) << "its numbers are those of the best point";
-  EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
-                          [](const Warning& warning) { return warning.code == "max_evaluations_reached"; }));
+  EXPECT_TRUE(std::any_of(
+      result.warnings.begin(), result.warnings.end(),
+      [](const Warning& warning) { return warning.code == "max_evaluations_reached"; }));
 }
 
 TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
   // Gravity acts on this arm, so that the effort determines its position.
   std::string hanging = kArm;
   hanging.replace(hanging.find("<axis xyz=\"0 0 1\"/>"), 19, "<axis xyz=\"0 -1 0\"/>");
-  const Problem problem = load_problem({"arm.urdf", hanging}, {},
-                                       {"study.yaml",
-                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {initial: 0.7, lower: -1, upper: 1}}}]\n"
-                                        "  filter: {cutoff: 20.0}\nparameters: {inertia: {}, viscous: {}}\n"
-                                        "optimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
+  const Problem problem = load_problem(
+      {"arm.urdf", hanging}, {},
+      {"study.yaml",
+       "identify:\n  data: [{csv: data.csv, start: {hinge: {initial: 0.7, lower: -1, upper: 1}}}]\n"
+       "  filter: {cutoff: 20.0}\nparameters: {inertia: {}, viscous: {}}\n"
+       "optimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
   JointRecording recording = Rig().record("identify.data[0]");
   JointSamples& hinge = recording.joints[0];
-  for (std::size_t k = 0; k < hinge.effort.size(); ++k) hinge.effort[k] += 2.0 * 9.81 * 0.5 * std::cos(hinge.position[k] - 0.35);
+  for (std::size_t k = 0; k < hinge.effort.size(); ++k)
+    hinge.effort[k] += 2.0 * 9.81 * 0.5 * std::cos(hinge.position[k] - 0.35);
   hinge.position.clear();
   hinge.start = problem.study().identification->data[0].starts.at(0).position;
   StudyRecordings recordings;
@@ -275,7 +297,8 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
   EXPECT_NEAR(result.numbers[1].value, 0.4, 1e-4);
   EXPECT_EQ(result.numbers[2].name, "data[0].start.hinge");
   EXPECT_EQ(result.numbers[2].unit, "rad");
-  EXPECT_NEAR(result.numbers[2].value, -0.35, 1e-3) << "the recording begins at 0, which the sensor of the test calls -0.35";
+  EXPECT_NEAR(result.numbers[2].value, -0.35, 1e-3)
+      << "the recording begins at 0, which the sensor of the test calls -0.35";
   EXPECT_GT(result.numbers[2].deviation, 0.0);
   recordings.data[0].joints[0].start.reset();
   try {
@@ -283,20 +306,23 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().value, "hinge");
-    EXPECT_NE(error.fault().allowed.find("start: {hinge: POSITION}"), std::string::npos) << error.fault().allowed;
+    EXPECT_NE(error.fault().allowed.find("start: {hinge: POSITION}"), std::string::npos)
+        << error.fault().allowed;
   }
 }
 
 TEST(Identify, AStartThatNothingTellsIsNamed) {
   // Nothing depends on the angle about a vertical axis.
-  const Problem problem = load_problem({"arm.urdf", kArm}, {},
-                                       {"study.yaml",
-                                        "identify:\n  data: [{csv: data.csv, start: {hinge: {}}}]\n  filter: {cutoff: 20.0}\n"
-                                        "parameters: {inertia: {}, viscous: {}}\noptimizer: {algorithm: levenberg_marquardt}\n"});
+  const Problem problem = load_problem(
+      {"arm.urdf", kArm}, {},
+      {"study.yaml",
+       "identify:\n  data: [{csv: data.csv, start: {hinge: {}}}]\n  filter: {cutoff: 20.0}\n"
+       "parameters: {inertia: {}, viscous: {}}\noptimizer: {algorithm: levenberg_marquardt}\n"});
   StudyRecordings recordings;
   recordings.data = {Rig().record("identify.data[0]")};
   recordings.data[0].joints[0].position.clear();
-  recordings.data[0].joints[0].start = problem.study().identification->data[0].starts.at(0).position;
+  recordings.data[0].joints[0].start =
+      problem.study().identification->data[0].starts.at(0).position;
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   ASSERT_EQ(result.undetermined.size(), 1U);
@@ -305,13 +331,15 @@ TEST(Identify, AStartThatNothingTellsIsNamed) {
 }
 
 TEST(Identify, AFitThatRunsAgainstImpossibleDesignsSaysSo) {
-  // The rig's inertia is less than the inertia of the mass at its place, so that the model would need a negative inertia.
+  // The rig's inertia is less than the inertia of the mass at its place, so that the model would
+  // need a negative inertia.
   Rig rig;
   rig.total = 0.4;
   const IdentificationResult result = run(problem_of("inertia: {lower: -5}, viscous: {}"), rig);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_EQ(result.warnings[0].code, "fit_hindered");
-  EXPECT_NE(result.warnings[0].message.find("inertia"), std::string::npos) << result.warnings[0].message;
+  EXPECT_NE(result.warnings[0].message.find("inertia"), std::string::npos)
+      << result.warnings[0].message;
 }
 
 TEST(Identify, RecordingsNeedTheSameJoints) {
@@ -336,7 +364,8 @@ void expect_pendulum(const IdentificationResult& result, double deviations) {
     const IdentifiedNumber& number = result.numbers[k];
     EXPECT_GT(number.deviation, 0.0);
     EXPECT_LT(number.deviation, 0.05 * truth[k]) << number.name;
-    EXPECT_LT(std::abs(number.value - truth[k]), deviations * number.deviation + 1e-4) << number.name;
+    EXPECT_LT(std::abs(number.value - truth[k]), deviations * number.deviation + 1e-4)
+        << number.name;
   }
 }
 
@@ -346,8 +375,10 @@ TEST(Identify, InMotionUnderRecordedEfforts) {
   StudyRecordings recordings;
   recordings.data = {record_pendulum(rig)};
   recordings.holdout = {record_pendulum(rig)};
-  const IdentificationResult result = identify(
-      motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"), recordings, {}, nullptr);
+  const IdentificationResult result =
+      identify(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0}\n",
+                              "inertia: {}, viscous: {}, dry: {}"),
+               recordings, {}, nullptr);
   expect_pendulum(result, 4.0);
   ASSERT_EQ(result.data.size(), 1U);
   EXPECT_EQ(result.data[0].joint, "hinge/position");
@@ -362,9 +393,11 @@ TEST(Identify, InMotionWithTheControllerInTheLoopAndOutliers) {
   rig.with_velocity = true;
   StudyRecordings recordings;
   recordings.data = {record_pendulum(rig)};
-  for (std::size_t k = 7; k < recordings.data[0].times.size(); k += 23) recordings.data[0].joints[0].position[k] += 0.2;
+  for (std::size_t k = 7; k < recordings.data[0].times.size(); k += 23)
+    recordings.data[0].joints[0].position[k] += 0.2;
   const IdentificationResult result =
-      identify(motion_problem(motion_servo(), "  segment: 1.5\n  filter: {cutoff: 20.0}\n  loss: {type: huber}\n",
+      identify(motion_problem(motion_servo(),
+                              "  segment: 1.5\n  filter: {cutoff: 20.0}\n  loss: {type: huber}\n",
                               "inertia: {}, viscous: {}, dry: {}"),
                recordings, {}, nullptr);
   expect_pendulum(result, 4.0);
@@ -378,12 +411,14 @@ TEST(Identify, InMotionWhatTheDataDoNotTellIsNamed) {
   recordings.data = {record_pendulum(rig)};
   // Without the recorded effort as an input its scale changes nothing.
   for (double& effort : recordings.data[0].joints[0].effort) effort = 0.0;
-  const IdentificationResult result =
-      identify(motion_problem(motion_servo(), "  segment: 1.5\n  joints: {hinge: {effort_scale: {}}}\n", "inertia: {}, viscous: {}"),
-               recordings, {}, nullptr);
+  const IdentificationResult result = identify(
+      motion_problem(motion_servo(), "  segment: 1.5\n  joints: {hinge: {effort_scale: {}}}\n",
+                     "inertia: {}, viscous: {}"),
+      recordings, {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   ASSERT_EQ(result.undetermined.size(), 1U);
-  EXPECT_NE(result.undetermined[0].find("hinge/effort_scale"), std::string::npos) << result.undetermined[0];
+  EXPECT_NE(result.undetermined[0].find("hinge/effort_scale"), std::string::npos)
+      << result.undetermined[0];
 }
 
 }  // namespace

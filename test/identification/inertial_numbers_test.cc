@@ -9,7 +9,8 @@ namespace codesign {
 namespace {
 
 const Eigen::Matrix<double, 10, 1> kBody =
-    (Eigen::Matrix<double, 10, 1>() << 0.3, -1.5, -1.2, -1.9, 0.05, -0.03, 0.02, 0.1, -0.2, 0.15).finished();
+    (Eigen::Matrix<double, 10, 1>() << 0.3, -1.5, -1.2, -1.9, 0.05, -0.03, 0.02, 0.1, -0.2, 0.15)
+        .finished();
 
 TEST(InertialNumbers, AreThoseOfTheBody) {
   std::array<double, 10> numbers;
@@ -33,7 +34,8 @@ TEST(InertialNumbers, DerivativesAgreeWithDifferences) {
     Eigen::Matrix<double, 10, 1> step = Eigen::Matrix<double, 10, 1>::Zero();
     step[k] = kStep;
     const Eigen::Matrix<double, 10, 1> slope =
-        (inertial_numbers(kBody + step).values - inertial_numbers(kBody - step).values) / (2.0 * kStep);
+        (inertial_numbers(kBody + step).values - inertial_numbers(kBody - step).values) /
+        (2.0 * kStep);
     EXPECT_LT((slope - here.derivatives.col(k)).norm(), 1e-8) << k;
   }
 }

@@ -17,8 +17,8 @@ struct MotionCase {
   MotionCase(const Problem& of, const std::vector<JointRecording>& recordings, int threads = 1)
       : problem(of),
         variables(problem.study()),
-        residuals(*problem.system(), variables, *problem.study().identification, require_same_joints(recordings), recordings, threads,
-                  &warnings) {}
+        residuals(*problem.system(), variables, *problem.study().identification,
+                  require_same_joints(recordings), recordings, threads, &warnings) {}
 
   Problem problem;
   FitVariables variables;
@@ -29,7 +29,8 @@ struct MotionCase {
 TEST(MotionResiduals, AreSmallAtTheTruthUnderRecordedEfforts) {
   MotionRig rig;
   rig.begin = 1.5e6;
-  MotionCase c(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0, decimate: 2}\n", "inertia: {}, viscous: {}, dry: {}"),
+  MotionCase c(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0, decimate: 2}\n",
+                              "inertia: {}, viscous: {}, dry: {}"),
                {record_pendulum(rig)});
   EXPECT_EQ(c.residuals.outputs(), std::vector<std::string>{"hinge/position"});
   EXPECT_EQ(c.residuals.rows(), 301);
@@ -50,7 +51,9 @@ TEST(MotionResiduals, AreSmallAtTheTruthUnderRecordedEfforts) {
 TEST(MotionResiduals, TheControllersOfTheStudyDriveWhereTheyAreInTheLoop) {
   MotionRig rig;
   rig.with_effort = false;
-  MotionCase c(motion_problem(motion_servo(), "  segment: 1.0\n", "inertia: {}, viscous: {}, dry: {}"), {record_pendulum(rig)});
+  MotionCase c(
+      motion_problem(motion_servo(), "  segment: 1.0\n", "inertia: {}, viscous: {}, dry: {}"),
+      {record_pendulum(rig)});
   EXPECT_EQ(c.residuals.outputs(), std::vector<std::string>{"hinge/position"});
   EXPECT_EQ(c.residuals.own_unknowns(), 6 * 3) << "the integral of the servo is free, too";
   const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
@@ -62,13 +65,17 @@ TEST(MotionResiduals, TheControllersOfTheStudyDriveWhereTheyAreInTheLoop) {
 }
 
 TEST(MotionResiduals, TheJacobianIsThatOfTheBestStarts) {
-  // Close to the truth, where residuals are small and the neglected second derivatives do not count.
+  // Close to the truth, where residuals are small and the neglected second derivatives do not
+  // count.
   MotionRig rig;
   rig.with_velocity = true;
-  MotionCase c(motion_problem(motion_servo() + "solver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n", "  segment: 1.5\n",
-                              "inertia: {}, viscous: {}, dry: {}"),
-               {record_pendulum(rig)});
-  EXPECT_EQ(c.residuals.outputs(), (std::vector<std::string>{"hinge/position", "hinge/velocity", "hinge/effort"}));
+  MotionCase c(
+      motion_problem(
+          motion_servo() + "solver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n",
+          "  segment: 1.5\n", "inertia: {}, viscous: {}, dry: {}"),
+      {record_pendulum(rig)});
+  EXPECT_EQ(c.residuals.outputs(),
+            (std::vector<std::string>{"hinge/position", "hinge/velocity", "hinge/effort"}));
   const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
   ASSERT_TRUE(c.residuals.begin(truth).ok());
   Eigen::MatrixXd residuals, jacobian, before, after;
@@ -92,7 +99,8 @@ TEST(MotionResiduals, TheJacobianIsThatOfTheBestStarts) {
 TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
   MotionRig rig;
   rig.noise = 1e-3;
-  MotionCase c(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+  MotionCase c(motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0}\n",
+                              "inertia: {}, viscous: {}, dry: {}"),
                {record_pendulum(rig)});
   const Eigen::VectorXd truth = Eigen::Vector3d(0.2, 0.3, 0.5);
   ASSERT_TRUE(c.residuals.begin(truth).ok());
@@ -101,7 +109,8 @@ TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
   EXPECT_EQ(c.residuals.whole_runs(), 0.0) << "no derivatives were asked for";
   // The same from the measured starts, step by step.
   MotionCase steps(c.problem, {record_pendulum(rig)});
-  steps.residuals.count_by(Eigen::VectorXd::Constant(1, 1e-3), c.problem.study().identification->loss);
+  steps.residuals.count_by(Eigen::VectorXd::Constant(1, 1e-3),
+                           c.problem.study().identification->loss);
   ASSERT_TRUE(steps.residuals.begin(truth).ok());
   double owed = 0.0, cost = 0.0;
   for (int step = 1; step <= 3; ++step) {
@@ -123,16 +132,19 @@ TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
 }
 
 TEST(MotionResiduals, APointWhoseStartsWentTooFarGetsItsBestStarts) {
-  // The second point is far from the first one, where the starts were bad, too: they do not keep their promise.
+  // The second point is far from the first one, where the starts were bad, too: they do not keep
+  // their promise.
   MotionRig rig;
   rig.noise = 1e-3;
-  MotionCase c(motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+  MotionCase c(motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n",
+                              "inertia: {}, viscous: {}, dry: {}"),
                {record_pendulum(rig)}),
       other(c.problem, {record_pendulum(rig)});
   const Eigen::VectorXd near = Eigen::Vector3d(0.2, 0.3, 0.5), far = Eigen::Vector3d(0.6, 0.9, 0.1);
   for (MotionCase* each : {&c, &other}) ASSERT_TRUE(each->residuals.begin(near).ok());
   Eigen::MatrixXd best, residuals, jacobian;
-  for (int step = 1; step <= 4; ++step) ASSERT_TRUE(c.residuals.evaluate(near, &residuals, &jacobian).ok());
+  for (int step = 1; step <= 4; ++step)
+    ASSERT_TRUE(c.residuals.evaluate(near, &residuals, &jacobian).ok());
   ASSERT_TRUE(c.residuals.evaluate(far, &residuals, &jacobian).ok());
   ASSERT_TRUE(other.residuals.evaluate(far, &best, nullptr).ok());
   EXPECT_GT(best.norm(), 0.1);
@@ -143,7 +155,8 @@ TEST(MotionResiduals, APointWhoseStartsWentTooFarGetsItsBestStarts) {
 TEST(MotionResiduals, ManyThreadsGiveTheSameBits) {
   MotionRig rig;
   rig.noise = 1e-3;
-  const Problem problem = motion_problem("", "  segment: 0.7\n", "inertia: {}, viscous: {}, dry: {}");
+  const Problem problem =
+      motion_problem("", "  segment: 0.7\n", "inertia: {}, viscous: {}, dry: {}");
   const JointRecording recording = record_pendulum(rig);
   MotionCase one(problem, {recording, recording}, 1), many(problem, {recording, recording}, 3);
   Eigen::MatrixXd residuals[2], jacobians[2];
@@ -159,7 +172,8 @@ TEST(MotionResiduals, ManyThreadsGiveTheSameBits) {
 }
 
 TEST(MotionResiduals, ASegmentThatCannotBeSimulatedIsNamed) {
-  const Problem problem = motion_problem("solver: {maximum_steps: 3}\n", "  segment: 1.0\n", "inertia: {}, viscous: {}");
+  const Problem problem = motion_problem("solver: {maximum_steps: 3}\n", "  segment: 1.0\n",
+                                         "inertia: {}, viscous: {}");
   MotionRig rig;
   rig.begin = 7.0;
   MotionCase c(problem, {record_pendulum(rig)});
@@ -167,7 +181,8 @@ TEST(MotionResiduals, ASegmentThatCannotBeSimulatedIsNamed) {
   Eigen::MatrixXd residuals;
   const Status status = c.residuals.evaluate(c.variables.start(), &residuals, nullptr);
   EXPECT_EQ(status.code, StatusCode::kTooManySteps);
-  EXPECT_NE(status.cause.find("segment at 7 s of identify.data[0]"), std::string::npos) << status.cause;
+  EXPECT_NE(status.cause.find("segment at 7 s of identify.data[0]"), std::string::npos)
+      << status.cause;
 }
 
 TEST(MotionResiduals, CancelEndsAnEvaluation) {
@@ -176,7 +191,8 @@ TEST(MotionResiduals, CancelEndsAnEvaluation) {
   ASSERT_TRUE(c.residuals.begin(c.variables.start()).ok());
   c.residuals.obey(&cancel);
   Eigen::MatrixXd residuals;
-  EXPECT_EQ(c.residuals.evaluate(c.variables.start(), &residuals, nullptr).code, StatusCode::kCancelled);
+  EXPECT_EQ(c.residuals.evaluate(c.variables.start(), &residuals, nullptr).code,
+            StatusCode::kCancelled);
 }
 
 TEST(MotionResiduals, RefusesShortSegmentsAndIdas) {
@@ -201,15 +217,19 @@ TEST(MotionResiduals, FrictionStatesThatNobodyRecordedAreTold) {
   const std::string damper = "<dynamics damping=\"0.1\"";
   ASSERT_NE(robot.find(damper), std::string::npos);
   robot.insert(robot.find(damper),
-               "<codesign:friction model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0.2\" transition_velocity=\"0.02\" joint_length=\"0.1\" "
+               "<codesign:friction model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0.2\" "
+               "transition_velocity=\"0.02\" joint_length=\"0.1\" "
                "pin_radius=\"0.05\"/>");
-  const std::string study = "identify: {data: [{csv: data.csv}], residual: motion}\nparameters: {inertia: {}}\n";
+  const std::string study =
+      "identify: {data: [{csv: data.csv}], residual: motion}\nparameters: {inertia: {}}\n";
   const Problem bristles = load_problem({"pendulum.urdf", robot}, {}, {"study.yaml", study});
   const auto told = [](const MotionCase& c) {
-    return std::count_if(c.warnings.begin(), c.warnings.end(), [](const Warning& w) { return w.code == "segment_friction_states"; });
+    return std::count_if(c.warnings.begin(), c.warnings.end(),
+                         [](const Warning& w) { return w.code == "segment_friction_states"; });
   };
   EXPECT_EQ(told(MotionCase(bristles, {recording})), 1);
-  EXPECT_EQ(told(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording})), 0);
+  EXPECT_EQ(told(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording})),
+            0);
 }
 
 TEST(MotionResiduals, RefusesSampledControllers) {
@@ -217,13 +237,16 @@ TEST(MotionResiduals, RefusesSampledControllers) {
   const std::string pid = "type: pid, ";
   ASSERT_NE(servo.find(pid), std::string::npos) << servo;
   servo.replace(servo.find(pid), pid.size(), pid + "sample_time: 0.01, ");
-  EXPECT_THROW(MotionCase(motion_problem(servo, "  segment: 1.0\n", "inertia: {}"), {record_pendulum(MotionRig())}), InputError);
+  EXPECT_THROW(MotionCase(motion_problem(servo, "  segment: 1.0\n", "inertia: {}"),
+                          {record_pendulum(MotionRig())}),
+               InputError);
 }
 
 TEST(MotionResiduals, RefusesRecordingsWithoutPositions) {
   JointRecording recording = record_pendulum(MotionRig());
   recording.joints.front().position.clear();
-  EXPECT_THROW(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording}), InputError);
+  EXPECT_THROW(MotionCase(motion_problem("", "  segment: 1.0\n", "inertia: {}"), {recording}),
+               InputError);
 }
 
 }  // namespace

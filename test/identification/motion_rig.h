@@ -31,19 +31,23 @@ inline std::string motion_pendulum() {
 /// The blocks of a study that drive the pendulum.
 inline std::string motion_servo() {
   return "initial_state: {hinge: {position: 0.3, velocity: 0.5}}\n"
-         "controllers: {servo: {type: pid, input: hinge/position, setpoint: {type: sine, amplitude: 1.2, frequency: 0.6}, output: hinge, "
+         "controllers: {servo: {type: pid, input: hinge/position, setpoint: {type: sine, "
+         "amplitude: 1.2, frequency: 0.6}, output: hinge, "
          "gains: {p: 20.0, i: 4.0, d: 2.0}}}\n";
 }
 
-/// The recording of `joint` on a rig in a run of `study`, at `rate` samples per second, with normal noise on positions and velocities.
+/// The recording of `joint` on a rig in a run of `study`, at `rate` samples per second, with normal
+/// noise on positions and velocities.
 struct MotionRig {
   double duration = 6.0, rate = 100.0, noise = 0.0;
   bool with_velocity = false, with_effort = true;
   double begin = 0.0;  ///< of the clock of the recording [s]
 
   /// @param changes values of parameters that differ from the model
-  JointRecording record(const Problem& problem, const std::string& joint, const std::vector<double>& parameters) const {
-    Simulation simulation(problem, parameters, {joint + "/position", joint + "/velocity", joint + "/effort"});
+  JointRecording record(const Problem& problem, const std::string& joint,
+                        const std::vector<double>& parameters) const {
+    Simulation simulation(problem, parameters,
+                          {joint + "/position", joint + "/velocity", joint + "/effort"});
     JointRecording recording;
     recording.file = "data.csv";
     recording.element = "identify.data[0]";
@@ -51,32 +55,41 @@ struct MotionRig {
     JointSamples samples{joint, {}, {}, {}};
     std::mt19937 random(5);
     std::normal_distribution<double> normal;
-    const Status status = simulate(&simulation, duration, static_cast<int>(duration * rate) + 1, [&](const Frame& frame) {
-      recording.times.push_back(frame.time + begin);
-      recording.places.push_back(recording.times.size());
-      samples.position.push_back(frame.signals[0] + noise * normal(random));
-      if (with_velocity) samples.velocity.push_back(frame.signals[1] + 5.0 * noise * normal(random));
-      if (with_effort) samples.effort.push_back(frame.signals[2]);
-      return true;
-    });
+    const Status status = simulate(
+        &simulation, duration, static_cast<int>(duration * rate) + 1, [&](const Frame& frame) {
+          recording.times.push_back(frame.time + begin);
+          recording.places.push_back(recording.times.size());
+          samples.position.push_back(frame.signals[0] + noise * normal(random));
+          if (with_velocity)
+            samples.velocity.push_back(frame.signals[1] + 5.0 * noise * normal(random));
+          if (with_effort) samples.effort.push_back(frame.signals[2]);
+          return true;
+        });
     EXPECT_TRUE(status.ok()) << status.cause;
     recording.joints = {samples};
     return recording;
   }
 };
 
-/// A problem of the pendulum that identifies in motion. @param blocks of the study beside `identify` and `parameters`
-inline Problem motion_problem(const std::string& blocks, const std::string& identify, const std::string& parameters) {
-  return load_problem({"pendulum.urdf", motion_pendulum()}, {},
-                      {"study.yaml", blocks + "identify:\n  data: [{csv: data.csv}]\n  residual: motion\n" + identify + "parameters: {" +
-                                         parameters + "}\noptimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
+/// A problem of the pendulum that identifies in motion. @param blocks of the study beside
+/// `identify` and `parameters`
+inline Problem motion_problem(const std::string& blocks, const std::string& identify,
+                              const std::string& parameters) {
+  return load_problem(
+      {"pendulum.urdf", motion_pendulum()}, {},
+      {"study.yaml",
+       blocks + "identify:\n  data: [{csv: data.csv}]\n  residual: motion\n" + identify +
+           "parameters: {" + parameters +
+           "}\noptimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
 }
 
-/// The recording of a pendulum with other parameters than the model's: inertia 0.2, viscous 0.3, dry 0.5.
+/// The recording of a pendulum with other parameters than the model's: inertia 0.2, viscous 0.3,
+/// dry 0.5.
 inline JointRecording record_pendulum(const MotionRig& rig) {
   const Problem truth = load_problem(
       {"pendulum.urdf", motion_pendulum()}, {},
-      {"truth.yaml", "duration: 6.0\n" + motion_servo() + "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n"});
+      {"truth.yaml", "duration: 6.0\n" + motion_servo() +
+                         "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n"});
   return rig.record(truth, "hinge", {0.2, 0.3, 0.5});
 }
 

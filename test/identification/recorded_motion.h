@@ -19,8 +19,8 @@
 
 namespace codesign {
 
-/// A simulated motion as an ideal rig would record it, at the ends of the integrator's steps: accelerations and efforts are those of the
-/// equations at the very positions and velocities.
+/// A simulated motion as an ideal rig would record it, at the ends of the integrator's steps:
+/// accelerations and efforts are those of the equations at the very positions and velocities.
 struct RecordedMotion {
   MotionSamples motion;
   Eigen::MatrixXd efforts;  ///< of the controllers, joints x samples [N m or N]
@@ -33,12 +33,14 @@ inline int joint_index(const RobotDescription& robot, const std::string& name) {
   return 0;
 }
 
-inline RecordedMotion record_motion(const CompiledSystem& system, const std::vector<std::string>& joints, int samples,
+inline RecordedMotion record_motion(const CompiledSystem& system,
+                                    const std::vector<std::string>& joints, int samples,
                                     double largest_step) {
   RosenbrockIntegrator integrator(system);
   EXPECT_TRUE(integrator.start(system.parameters()).ok());
   RecordedMotion recorded;
-  for (Eigen::MatrixXd* part : {&recorded.motion.position, &recorded.motion.velocity, &recorded.motion.acceleration, &recorded.efforts})
+  for (Eigen::MatrixXd* part : {&recorded.motion.position, &recorded.motion.velocity,
+                                &recorded.motion.acceleration, &recorded.efforts})
     part->resize(static_cast<Eigen::Index>(joints.size()), samples);
   Assembly assembly(system);
   for (int sample = 0; sample < samples; ++sample) {
@@ -47,7 +49,9 @@ inline RecordedMotion record_motion(const CompiledSystem& system, const std::vec
     Formulas<double>& formulas = integrator.equations().formulas();
     formulas.load(state);
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      const CouplingTerm at = drive_of(system.robot(), system.topology(), joint_index(system.robot(), joints[k])).terms.front();
+      const CouplingTerm at =
+          drive_of(system.robot(), system.topology(), joint_index(system.robot(), joints[k]))
+              .terms.front();
       const CoordinateMotion<double>& motion = formulas.coordinate(at.pair, at.element);
       const auto row = static_cast<Eigen::Index>(k);
       recorded.motion.position(row, sample) = motion.position;
@@ -60,14 +64,17 @@ inline RecordedMotion record_motion(const CompiledSystem& system, const std::vec
   return recorded;
 }
 
-inline std::shared_ptr<const CompiledSystem> compiled(const std::string& urdf, const std::string& study) {
+inline std::shared_ptr<const CompiledSystem> compiled(const std::string& urdf,
+                                                      const std::string& study) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   return make_system(robot, read_study({"test.yaml", study}, robot), nullptr);
 }
 
-inline std::vector<MeasuredJoint> measured(const std::vector<std::string>& with_effort, const std::vector<std::string>& without = {}) {
+inline std::vector<MeasuredJoint> measured(const std::vector<std::string>& with_effort,
+                                           const std::vector<std::string>& without = {}) {
   std::vector<MeasuredJoint> joints;
-  for (const std::string& name : with_effort) joints.push_back({name, true, 1.0, {"study.yaml", 3}});
+  for (const std::string& name : with_effort)
+    joints.push_back({name, true, 1.0, {"study.yaml", 3}});
   for (const std::string& name : without) joints.push_back({name, false, 1.0, {"study.yaml", 4}});
   return joints;
 }

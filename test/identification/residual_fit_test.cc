@@ -20,16 +20,21 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Decays x0 exp(-x1 t), one output per row of `measured`, of amplitude x0 times `factors`.
 class Decays final : public ResidualSource {
  public:
-  Decays(Eigen::MatrixXd measured, Eigen::VectorXd factors) : measured_(std::move(measured)), factors_(std::move(factors)) {
+  Decays(Eigen::MatrixXd measured, Eigen::VectorXd factors)
+      : measured_(std::move(measured)), factors_(std::move(factors)) {
     lengths_ = {measured_.rows()};
-    for (Eigen::Index k = 0; k < measured_.cols(); ++k) outputs_.push_back("output_" + std::to_string(k));
+    for (Eigen::Index k = 0; k < measured_.cols(); ++k)
+      outputs_.push_back("output_" + std::to_string(k));
   }
-  static double value(const Eigen::VectorXd& x, Eigen::Index row) { return x[0] * std::exp(-x[1] * time(row)); }
+  static double value(const Eigen::VectorXd& x, Eigen::Index row) {
+    return x[0] * std::exp(-x[1] * time(row));
+  }
   static double time(Eigen::Index row) { return 0.05 * static_cast<double>(row); }
 
   const std::vector<std::string>& outputs() const override { return outputs_; }
   const SeriesLengths& lengths() const override { return lengths_; }
-  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override {
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                  Eigen::MatrixXd* jacobian) override {
     if (x[0] < fails_below) return {StatusCode::kInvalidDesign, 0.0, "the amplitude is too small"};
     residuals->resize(measured_.rows(), measured_.cols());
     if (jacobian) jacobian->setZero(measured_.size(), x.size());
@@ -54,12 +59,14 @@ class Decays final : public ResidualSource {
 
 const Eigen::Vector2d kTruth(3.0, 0.7);
 
-Eigen::MatrixXd decay(Eigen::Index rows, const Eigen::VectorXd& factors, const Eigen::VectorXd& noise) {
+Eigen::MatrixXd decay(Eigen::Index rows, const Eigen::VectorXd& factors,
+                      const Eigen::VectorXd& noise) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   Eigen::MatrixXd measured(rows, factors.size());
   for (Eigen::Index k = 0; k < factors.size(); ++k)
-    for (Eigen::Index row = 0; row < rows; ++row) measured(row, k) = factors[k] * Decays::value(kTruth, row) + noise[k] * normal(random);
+    for (Eigen::Index row = 0; row < rows; ++row)
+      measured(row, k) = factors[k] * Decays::value(kTruth, row) + noise[k] * normal(random);
   return measured;
 }
 
@@ -169,13 +176,15 @@ TEST(ResidualFit, WeightedRowsGiveTheCostAndItsSlope) {
     return weigh(residuals, &jacobian, spreads, loss);
   };
   const WeightedResiduals weighted = cost(x);
-  const Eigen::VectorXd gradient = 2.0 * weighted.jacobian.transpose() * weighted.residuals.reshaped();
+  const Eigen::VectorXd gradient =
+      2.0 * weighted.jacobian.transpose() * weighted.residuals.reshaped();
   for (Eigen::Index k = 0; k < 2; ++k) {
     const double h = 1e-6;
     Eigen::VectorXd above = x, below = x;
     above[k] += h;
     below[k] -= h;
-    EXPECT_NEAR(gradient[k], (cost(above).value - cost(below).value) / (2.0 * h), 1e-5 * std::abs(gradient[k]));
+    EXPECT_NEAR(gradient[k], (cost(above).value - cost(below).value) / (2.0 * h),
+                1e-5 * std::abs(gradient[k]));
   }
 }
 
@@ -185,7 +194,8 @@ class WithRounding final : public ResidualSource {
   explicit WithRounding(Decays decays) : decays_(std::move(decays)) {}
   const std::vector<std::string>& outputs() const override { return decays_.outputs(); }
   const SeriesLengths& lengths() const override { return decays_.lengths(); }
-  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override {
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                  Eigen::MatrixXd* jacobian) override {
     Eigen::MatrixXd of_two;
     Status status = decays_.evaluate(x.head(2), residuals, jacobian ? &of_two : nullptr);
     if (!jacobian) return status;
@@ -214,12 +224,14 @@ TEST(ResidualFit, AVariableOfRoundingStaysAtItsStart) {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-/// x1 sin(x0 t) - 2 sin(5 t): one valley of the frequency per oscillation, and only one of them is right.
+/// x1 sin(x0 t) - 2 sin(5 t): one valley of the frequency per oscillation, and only one of them is
+/// right.
 class Oscillation final : public ResidualSource {
  public:
   const std::vector<std::string>& outputs() const override { return outputs_; }
   const SeriesLengths& lengths() const override { return lengths_; }
-  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals, Eigen::MatrixXd* jacobian) override {
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                  Eigen::MatrixXd* jacobian) override {
     if (++evaluations > cancel_after) return {StatusCode::kCancelled, 0.0, "cancelled"};
     if (x[0] > fails_above) return {StatusCode::kInvalidDesign, 0.0, "too fast"};
     residuals->resize(lengths_[0], 1);
@@ -263,11 +275,13 @@ TEST(ManyStarts, FindTheBestOfSeveralValleys) {
   FitSearches none, searches;
   const ResidualFit stuck = fit_from_starts(oscillation_from(2.0), {}, &alone, {}, &none);
   ASSERT_TRUE(stuck.status.ok());
-  EXPECT_GT(mean_spread(stuck.residuals, {}), 0.5) << "one start ends in a valley beside the right one";
+  EXPECT_GT(mean_spread(stuck.residuals, {}), 0.5)
+      << "one start ends in a valley beside the right one";
   EXPECT_TRUE(none.starts.empty());
   int told = 0;
   const auto observer = [&told](const FitTrial& trial) { return trial.evaluation == ++told; };
-  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(6, 64), &together, observer, &searches);
+  const ResidualFit fit =
+      fit_from_starts(oscillation_from(2.0), starts(6, 64), &together, observer, &searches);
   ASSERT_TRUE(fit.status.ok()) << fit.status.cause << " evaluations are numbered through";
   EXPECT_NEAR(fit.x[0], 5.0, 1e-6);
   EXPECT_NEAR(fit.x[1], 2.0, 1e-6);
@@ -289,7 +303,8 @@ TEST(ManyStarts, PassOverPointsThatFail) {
   Oscillation source;
   source.fails_above = 6.0;
   FitSearches searches;
-  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(4, 32), &source, {}, &searches);
+  const ResidualFit fit =
+      fit_from_starts(oscillation_from(2.0), starts(4, 32), &source, {}, &searches);
   ASSERT_TRUE(fit.status.ok());
   EXPECT_NEAR(fit.x[0], 5.0, 1e-6);
   EXPECT_GT(searches.unusable, 4);
@@ -310,14 +325,16 @@ TEST(ManyStarts, KeepTheBestSoFarWhenCancelled) {
   EXPECT_LT(some.starts.size(), 4U);
   Oscillation early;
   early.cancel_after = 3;
-  EXPECT_EQ(fit_from_starts(oscillation_from(2.0), starts(4, 16), &early, {}, &some).status.code, StatusCode::kCancelled);
+  EXPECT_EQ(fit_from_starts(oscillation_from(2.0), starts(4, 16), &early, {}, &some).status.code,
+            StatusCode::kCancelled);
 }
 
 TEST(ManyStarts, WithoutAnyUsablePointTheStartIsTheCause) {
   Oscillation source;
   source.fails_above = 0.0;
   FitSearches searches;
-  const ResidualFit fit = fit_from_starts(oscillation_from(2.0), starts(2, 8), &source, {}, &searches);
+  const ResidualFit fit =
+      fit_from_starts(oscillation_from(2.0), starts(2, 8), &source, {}, &searches);
   EXPECT_EQ(fit.status.code, StatusCode::kInvalidDesign);
   EXPECT_EQ(fit.termination, "start_failed");
   EXPECT_EQ(fit.residuals.size(), 0);
@@ -338,9 +355,10 @@ TEST(ManyStarts, AreAskedForByTheStudy) {
     <joint name="travel" type="prismatic"><parent link="rail"/><child link="cart"/><axis xyz="1 0 0"/>
     <limit lower="-5" upper="5" effort="100" velocity="10"/><codesign:friction mu_static="0.1" codesign:mu_static="${mu}"
     mu_dynamic="0.1" codesign:mu_dynamic="${mu}" transition_velocity="0.05" joint_length="0.1" joint_width="0.1"/></joint></robot>)"};
-  const SourceText study{"study.yaml",
-                         "identify: {data: [{csv: data.csv}], filter: {cutoff: 20}}\nparameters: {mass: {}, mu: {}}\n"
-                         "multistart: {starts: 2, screen: 4}\noptimizer: {algorithm: levenberg_marquardt}\n"};
+  const SourceText study{
+      "study.yaml",
+      "identify: {data: [{csv: data.csv}], filter: {cutoff: 20}}\nparameters: {mass: {}, mu: {}}\n"
+      "multistart: {starts: 2, screen: 4}\noptimizer: {algorithm: levenberg_marquardt}\n"};
   const Problem problem = load_problem(model, {}, study);
   JointRecording recording;
   recording.file = "data.csv";
@@ -352,7 +370,8 @@ TEST(ManyStarts, AreAskedForByTheStudy) {
     recording.places.push_back(static_cast<std::size_t>(k) + 2);
     travel.position.push_back(std::sin(3.0 * t));
     travel.velocity.push_back(3.0 * std::cos(3.0 * t));
-    travel.effort.push_back(-2.0 * 9.0 * std::sin(3.0 * t) + 4.0 * std::tanh(60.0 * std::cos(3.0 * t)) + 0.01 * std::sin(70.0 * t));
+    travel.effort.push_back(-2.0 * 9.0 * std::sin(3.0 * t) +
+                            4.0 * std::tanh(60.0 * std::cos(3.0 * t)) + 0.01 * std::sin(70.0 * t));
   }
   recording.joints = {travel};
   StudyRecordings recordings;
@@ -363,7 +382,8 @@ TEST(ManyStarts, AreAskedForByTheStudy) {
   EXPECT_NEAR(result.numbers[0].value, 2.0, 0.1);
   const Json json = identification_json(problem, result);
   EXPECT_EQ(json["multistart"]["screened"], 4);
-  EXPECT_NEAR(json["multistart"]["optima"][0]["values"]["mass"].get<double>(), result.numbers[0].value, 1e-3);
+  EXPECT_NEAR(json["multistart"]["optima"][0]["values"]["mass"].get<double>(),
+              result.numbers[0].value, 1e-3);
   EXPECT_NE(identification_sentences(result).back().find("optimum 1"), std::string::npos);
 }
 

@@ -34,8 +34,10 @@ TEST(Loss, TheWeightIsHalfTheSlopeOverTheResidual) {
     for (const double u : {-5.0, -0.3, 0.7, 4.0}) {
       const LossOptions options{kind, 1.345};
       const double h = 1e-6;
-      const double slope = (loss_of(options, u + h).value - loss_of(options, u - h).value) / (2.0 * h);
-      EXPECT_NEAR(loss_of(options, u).weight, slope / (2.0 * u), 1e-8) << kLossNames[static_cast<std::size_t>(kind)] << " at " << u;
+      const double slope =
+          (loss_of(options, u + h).value - loss_of(options, u - h).value) / (2.0 * h);
+      EXPECT_NEAR(loss_of(options, u).weight, slope / (2.0 * u), 1e-8)
+          << kLossNames[static_cast<std::size_t>(kind)] << " at " << u;
     }
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 // Steps of one size at all designs, so that a run is a smooth function of its numbers.
 constexpr const char* kEqualSteps =
-    "solver: {method: rodas4, relative_tolerance: 0.99, absolute_tolerance: 0.99, initial_step: 0.0025, maximum_step: 0.0025}\n";
+    "solver: {method: rodas4, relative_tolerance: 0.99, absolute_tolerance: 0.99, initial_step: "
+    "0.0025, maximum_step: 0.0025}\n";
 
 JointRecording wavy(const std::string& joint, double effort) {
   JointRecording recording;
@@ -41,8 +42,11 @@ struct Prepared {
         outputs(motion_outputs(*problem.system(), joints, {recording})),
         of(make_segment_system(*problem.system(), variables, joints, {joint}, outputs, recording)) {
     Warnings warnings;
-    std::vector<Segment> segments = cut_into_segments(recording, of, variables, {joint}, *problem.study().identification, &warnings);
-    EXPECT_TRUE(set_branches(recording, of, *problem.system(), variables, variables.start(), {joint}, nullptr, &segments).ok());
+    std::vector<Segment> segments = cut_into_segments(recording, of, variables, {joint},
+                                                      *problem.study().identification, &warnings);
+    EXPECT_TRUE(set_branches(recording, of, *problem.system(), variables, variables.start(),
+                             {joint}, nullptr, &segments)
+                    .ok());
     segment = segments.at(1);
     at = of.parameters(variables, variables.start(), segment.start);
   }
@@ -76,31 +80,37 @@ void expect_exact_slopes(const Prepared& p) {
           return run.values()(row, output);
         };
         const double slope = slopes(output * rows + row, static_cast<Eigen::Index>(k));
-        const RiddersDerivative expected = ridders_derivative(value, p.at[index], 1e-3 * std::max(0.05, std::abs(p.at[index])));
-        EXPECT_NEAR(slope, expected.value, 5e-9 * (1.0 + std::abs(expected.value)) + 3.0 * expected.error)
-            << p.of.system->study().parameters[index].name << ", " << p.outputs[static_cast<std::size_t>(output)].name() << ", sample "
-            << row;
+        const RiddersDerivative expected =
+            ridders_derivative(value, p.at[index], 1e-3 * std::max(0.05, std::abs(p.at[index])));
+        EXPECT_NEAR(slope, expected.value,
+                    5e-9 * (1.0 + std::abs(expected.value)) + 3.0 * expected.error)
+            << p.of.system->study().parameters[index].name << ", "
+            << p.outputs[static_cast<std::size_t>(output)].name() << ", sample " << row;
         EXPECT_LT(expected.error, 1e-8 * (1.0 + std::abs(expected.value)));
       }
   }
-  EXPECT_GT(slopes.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-6) << "a number without effect tests nothing";
+  EXPECT_GT(slopes.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-6)
+      << "a number without effect tests nothing";
 }
 
 TEST(SegmentRun, DerivativesUnderARecordedEffortAreExact) {
-  const Problem problem = motion_problem(kEqualSteps,
-                                         "  segment: 0.4\n  joints: {hinge: {effort_scale: {initial: 2.0}, delay: {initial: 0.003}, "
-                                         "offset: {initial: 0.1}}}\n",
-                                         "inertia: {}, viscous: {}, dry: {}");
+  const Problem problem = motion_problem(
+      kEqualSteps,
+      "  segment: 0.4\n  joints: {hinge: {effort_scale: {initial: 2.0}, delay: {initial: 0.003}, "
+      "offset: {initial: 0.1}}}\n",
+      "inertia: {}, viscous: {}, dry: {}");
   Prepared p(problem, "hinge", 1.0);
   ASSERT_EQ(p.of.columns.size(), 6U);
   ASSERT_EQ(p.of.starts, 2);
   ASSERT_EQ(p.outputs.size(), 2U) << "position and velocity; the effort drives";
-  p.at[4] += 0.0007;  // no stage of a step stands at a sample then, where the second derivative of the effort jumps
+  p.at[4] += 0.0007;  // no stage of a step stands at a sample then, where the second derivative of
+                      // the effort jumps
   expect_exact_slopes(p);
 }
 
 TEST(SegmentRun, DerivativesWithAControllerInTheLoopAreExactIntegralIncluded) {
-  const Problem problem = motion_problem(kEqualSteps + motion_servo(), "  segment: 0.4\n", "inertia: {}, viscous: {}");
+  const Problem problem =
+      motion_problem(kEqualSteps + motion_servo(), "  segment: 0.4\n", "inertia: {}, viscous: {}");
   const Prepared p(problem, "hinge", 1.0);
   ASSERT_EQ(p.of.starts, 3);
   ASSERT_EQ(p.outputs.size(), 3U) << "position, velocity and the controller's effort";
@@ -110,13 +120,16 @@ TEST(SegmentRun, DerivativesWithAControllerInTheLoopAreExactIntegralIncluded) {
 TEST(SegmentRun, DerivativesOfALoopWithFrictionAreExact) {
   const Problem problem = load_problem(
       read_source(source_dir() + "/urdf/slider_crank.urdf"), {},
-      {"study.yaml", std::string(kEqualSteps) + "initial_state: {crank_joint: {position: 0.0}}\nidentify:\n  data: [{csv: data.csv}]\n"
-                                                "  residual: motion\n  segment: 0.4\nparameters: {crank_length: {}, rod_length: {}}\n"});
+      {"study.yaml",
+       std::string(kEqualSteps) +
+           "initial_state: {crank_joint: {position: 0.0}}\nidentify:\n  data: [{csv: data.csv}]\n"
+           "  residual: motion\n  segment: 0.4\nparameters: {crank_length: {}, rod_length: {}}\n"});
   expect_exact_slopes(Prepared(problem, "crank_joint", 0.02));
 }
 
 TEST(SegmentRun, NoBitDependsOnEarlierRuns) {
-  const Problem problem = motion_problem(motion_servo(), "  segment: 0.4\n", "inertia: {}, viscous: {}");
+  const Problem problem =
+      motion_problem(motion_servo(), "  segment: 0.4\n", "inertia: {}, viscous: {}");
   const Prepared p(problem, "hinge", 1.0);
   SegmentRun fresh(p.of, p.segment.begin), used(p.of, p.segment.begin);
   std::vector<double> other = p.at;
@@ -129,23 +142,29 @@ TEST(SegmentRun, NoBitDependsOnEarlierRuns) {
 }
 
 TEST(SegmentRun, NoBitDependsOnWhatARunCarries) {
-  // Nine parameters and three numbers of the start: two groups of lanes; the start needs one of them.
-  std::string robot = motion_pendulum(), sum = "viscous", declared, tuned = "inertia: {}, viscous: {}, dry: {}";
+  // Nine parameters and three numbers of the start: two groups of lanes; the start needs one of
+  // them.
+  std::string robot = motion_pendulum(), sum = "viscous", declared,
+              tuned = "inertia: {}, viscous: {}, dry: {}";
   for (const char* name : {"v1", "v2", "v3", "v4", "v5", "v6"}) {
     sum += std::string(" + ") + name;
-    declared += std::string("  <codesign:parameter name=\"") + name + "\" value=\"0\" lower=\"0\" upper=\"1\"/>\n";
+    declared += std::string("  <codesign:parameter name=\"") + name +
+                "\" value=\"0\" lower=\"0\" upper=\"1\"/>\n";
     tuned += std::string(", ") + name + ": {}";
   }
   robot.replace(robot.find("${viscous}"), 10, "${" + sum + "}");
   robot.insert(robot.find("  <codesign:parameter"), declared);
   const std::string study =
-      motion_servo() + "identify: {data: [{csv: data.csv}], residual: motion, segment: 0.4}\nparameters: {" + tuned + "}\n";
+      motion_servo() +
+      "identify: {data: [{csv: data.csv}], residual: motion, segment: 0.4}\nparameters: {" + tuned +
+      "}\n";
   const Problem problem = load_problem({"pendulum.urdf", robot}, {}, {"study.yaml", study});
   const Prepared p(problem, "hinge", 1.0);
   ASSERT_EQ(p.of.columns.size(), 9U);
   SegmentRun whole(p.of, p.segment.begin), part(p.of, p.segment.begin);
   ASSERT_TRUE(whole.run(p.at, p.segment.begin, p.segment.times).ok());
-  for (const SegmentLanes lanes : {SegmentLanes::kNone, SegmentLanes::kStart, SegmentLanes::kNone, SegmentLanes::kAll}) {
+  for (const SegmentLanes lanes :
+       {SegmentLanes::kNone, SegmentLanes::kStart, SegmentLanes::kNone, SegmentLanes::kAll}) {
     ASSERT_TRUE(part.run(p.at, p.segment.begin, p.segment.times, lanes).ok());
     EXPECT_EQ(part.values(), whole.values());
     if (lanes == SegmentLanes::kNone) continue;

@@ -18,31 +18,40 @@ JointRecording recorded(bool with_velocity, bool with_effort, double begin = 0.0
   return record_pendulum(rig);
 }
 
-std::vector<std::string> outputs_of(const Problem& problem, const std::vector<JointRecording>& recordings) {
+std::vector<std::string> outputs_of(const Problem& problem,
+                                    const std::vector<JointRecording>& recordings) {
   std::vector<std::string> names;
-  for (const MotionOutput& output : motion_outputs(*problem.system(), require_same_joints(recordings), recordings))
+  for (const MotionOutput& output :
+       motion_outputs(*problem.system(), require_same_joints(recordings), recordings))
     names.push_back(output.name());
   return names;
 }
 
 TEST(SegmentSystem, OutputsAreWhatAllRecordingsHave) {
   using Names = std::vector<std::string>;
-  const Problem left_alone = motion_problem("", "", "inertia: {}"), in_loop = motion_problem(motion_servo(), "", "inertia: {}");
-  EXPECT_EQ(outputs_of(left_alone, {recorded(true, true)}), (Names{"hinge/position", "hinge/velocity"}));
-  EXPECT_EQ(outputs_of(left_alone, {recorded(true, true), recorded(false, true)}), Names{"hinge/position"});
-  EXPECT_EQ(outputs_of(in_loop, {recorded(false, true)}), (Names{"hinge/position", "hinge/effort"}));
+  const Problem left_alone = motion_problem("", "", "inertia: {}"),
+                in_loop = motion_problem(motion_servo(), "", "inertia: {}");
+  EXPECT_EQ(outputs_of(left_alone, {recorded(true, true)}),
+            (Names{"hinge/position", "hinge/velocity"}));
+  EXPECT_EQ(outputs_of(left_alone, {recorded(true, true), recorded(false, true)}),
+            Names{"hinge/position"});
+  EXPECT_EQ(outputs_of(in_loop, {recorded(false, true)}),
+            (Names{"hinge/position", "hinge/effort"}));
   JointRecording still = recorded(true, true);
   for (double& velocity : still.joints[0].velocity) velocity = 0.0;
   EXPECT_EQ(outputs_of(left_alone, {still}), Names{"hinge/position"}) << "zeros were not measured";
 }
 
 TEST(SegmentSystem, SensorsOfInputsAndTheStartFollowTheParameters) {
-  const Problem problem = motion_problem("", "  joints: {hinge: {effort_scale: 3.0, delay: {initial: 0.01}, offset: {initial: 0.2}}}\n",
-                                         "viscous: {}, dry: {}");
+  const Problem problem = motion_problem(
+      "",
+      "  joints: {hinge: {effort_scale: 3.0, delay: {initial: 0.01}, offset: {initial: 0.2}}}\n",
+      "viscous: {}, dry: {}");
   const JointRecording recording = recorded(false, true, 40.0);
   const FitVariables variables(problem.study());
-  const SegmentSystem of = make_segment_system(*problem.system(), variables, require_same_joints({recording}), {"hinge"},
-                                               motion_outputs(*problem.system(), require_same_joints({recording}), {recording}), recording);
+  const SegmentSystem of = make_segment_system(
+      *problem.system(), variables, require_same_joints({recording}), {"hinge"},
+      motion_outputs(*problem.system(), require_same_joints({recording}), {recording}), recording);
   EXPECT_EQ(of.inputs, std::vector<std::string>{"hinge"});
   EXPECT_EQ(of.columns, (std::vector<int>{0, 1, 2, 3})) << "the known scale is not tuned";
   EXPECT_EQ(of.starts, 2);
@@ -60,8 +69,9 @@ TEST(SegmentSystem, AControllerKeepsItsClockAndItsIntegralIsFree) {
   const Problem problem = motion_problem(motion_servo(), "", "viscous: {}");
   const JointRecording recording = recorded(false, true, 40.0);
   const FitVariables variables(problem.study());
-  const SegmentSystem of = make_segment_system(*problem.system(), variables, require_same_joints({recording}), {"hinge"},
-                                               motion_outputs(*problem.system(), require_same_joints({recording}), {recording}), recording);
+  const SegmentSystem of = make_segment_system(
+      *problem.system(), variables, require_same_joints({recording}), {"hinge"},
+      motion_outputs(*problem.system(), require_same_joints({recording}), {recording}), recording);
   EXPECT_TRUE(of.inputs.empty()) << "the servo drives, and its effort is compared";
   EXPECT_EQ(of.epoch, 0.0);
   EXPECT_EQ(of.starts, 3);

@@ -13,25 +13,33 @@ namespace {
 /// The second segment of the pendulum's recording.
 struct FittedSegment {
   explicit FittedSegment(const MotionRig& rig, const std::string& more = "")
-      : problem(motion_problem(motion_servo() + "solver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n",
-                               "  segment: 1.0\n" + more, "inertia: {}, viscous: {}, dry: {}")),
+      : problem(motion_problem(
+            motion_servo() + "solver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n",
+            "  segment: 1.0\n" + more, "inertia: {}, viscous: {}, dry: {}")),
         recording(record_pendulum(rig)),
         variables(problem.study()),
         joints{{"hinge", true, 1.0, {}}},
-        of(make_segment_system(*problem.system(), variables, joints, {"hinge"}, motion_outputs(*problem.system(), joints, {recording}),
-                               recording)),
-        segments(cut_into_segments(recording, of, variables, {"hinge"}, *problem.study().identification, &warnings)) {
-    EXPECT_TRUE(set_branches(recording, of, *problem.system(), variables, truth, {"hinge"}, nullptr, &segments).ok());
+        of(make_segment_system(*problem.system(), variables, joints, {"hinge"},
+                               motion_outputs(*problem.system(), joints, {recording}), recording)),
+        segments(cut_into_segments(recording, of, variables, {"hinge"},
+                                   *problem.study().identification, &warnings)) {
+    EXPECT_TRUE(set_branches(recording, of, *problem.system(), variables, truth, {"hinge"}, nullptr,
+                             &segments)
+                    .ok());
     for (const MotionOutput& output : of.outputs) {
       efforts.emplace_back();
-      if (output.quantity == MeasuredQuantity::kEffort) efforts.back().emplace(recording.times, recording.joints.front().effort);
+      if (output.quantity == MeasuredQuantity::kEffort)
+        efforts.back().emplace(recording.times, recording.joints.front().effort);
     }
     spreads = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(of.outputs.size()), 0.01);
   }
 
-  SegmentSolution fit(const std::vector<Eigen::VectorXd>& guesses, SegmentWork work = SegmentWork::kBestStart) {
+  SegmentSolution fit(const std::vector<Eigen::VectorXd>& guesses,
+                      SegmentWork work = SegmentWork::kBestStart) {
     SegmentRun run(of, segments.front().begin);
-    return fit_segment({of, variables, efforts, segments.at(1), truth, spreads, problem.study().identification->loss}, guesses, work, &run);
+    return fit_segment({of, variables, efforts, segments.at(1), truth, spreads,
+                        problem.study().identification->loss},
+                       guesses, work, &run);
   }
 
   Problem problem;
@@ -74,15 +82,20 @@ TEST(SegmentFit, WhatAStartExplainsIsNotInTheJacobian) {
   EXPECT_EQ(solution.whole_runs, 1);
   SegmentRun run(segment.of, segment.segments.front().begin);
   const Segment& at = segment.segments.at(1);
-  ASSERT_TRUE(run.run(segment.of.parameters(segment.variables, segment.truth, solution.start), at.begin, at.times).ok());
-  // Residuals of efforts are computed minus recorded: their derivatives equal the derivatives of the run.
+  ASSERT_TRUE(run.run(segment.of.parameters(segment.variables, segment.truth, solution.start),
+                      at.begin, at.times)
+                  .ok());
+  // Residuals of efforts are computed minus recorded: their derivatives equal the derivatives of
+  // the run.
   const Eigen::MatrixXd by_start = run.slopes().rightCols(segment.of.starts);
   const Eigen::VectorXd weights = Eigen::VectorXd::Constant(by_start.rows(), 1.0 / 0.01);
   const Eigen::MatrixXd weighted = weights.asDiagonal() * by_start;
-  EXPECT_LT((weighted.transpose() * (weights.asDiagonal() * solution.jacobian)).cwiseAbs().maxCoeff(),
-            1e-8 * weighted.norm() * (weights.asDiagonal() * solution.jacobian).norm());
+  EXPECT_LT(
+      (weighted.transpose() * (weights.asDiagonal() * solution.jacobian)).cwiseAbs().maxCoeff(),
+      1e-8 * weighted.norm() * (weights.asDiagonal() * solution.jacobian).norm());
   // The start is the best one.
-  EXPECT_LT((weighted.transpose() * (solution.residuals.reshaped() / 0.01)).norm(), 1e-3 * weighted.norm() * std::sqrt(solution.value));
+  EXPECT_LT((weighted.transpose() * (solution.residuals.reshaped() / 0.01)).norm(),
+            1e-3 * weighted.norm() * std::sqrt(solution.value));
 }
 
 TEST(SegmentFit, AnEliminationTellsWhatTheBestStartWouldGain) {
@@ -97,7 +110,8 @@ TEST(SegmentFit, AnEliminationTellsWhatTheBestStartWouldGain) {
   ASSERT_TRUE(solution.status.ok());
   EXPECT_GT(solution.promise, 0.0);
   EXPECT_NEAR(solution.value - best.value, solution.promise, 0.02 * solution.promise);
-  EXPECT_LT((solution.start - solution.correction - best.start).norm(), 0.02 * solution.correction.norm());
+  EXPECT_LT((solution.start - solution.correction - best.start).norm(),
+            0.02 * solution.correction.norm());
 }
 
 TEST(SegmentFit, AGuessThatCannotBeSimulatedGivesWayToTheNext) {
@@ -110,18 +124,21 @@ TEST(SegmentFit, AGuessThatCannotBeSimulatedGivesWayToTheNext) {
 }
 
 TEST(Segments, EachSampleIsInOneOfThem) {
-  const Problem problem = motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0, decimate: 3}\n", "inertia: {}");
+  const Problem problem =
+      motion_problem("", "  segment: 1.0\n  filter: {cutoff: 20.0, decimate: 3}\n", "inertia: {}");
   MotionRig rig;
   rig.duration = 5.4;
   rig.begin = 100.0;
   const JointRecording recording = record_pendulum(rig);
   const FitVariables variables(problem.study());
   const std::vector<MeasuredJoint> joints{{"hinge", true, 1.0, {}}};
-  const SegmentSystem of = make_segment_system(*problem.system(), variables, joints, {"hinge"},
-                                               motion_outputs(*problem.system(), joints, {recording}), recording);
+  const SegmentSystem of =
+      make_segment_system(*problem.system(), variables, joints, {"hinge"},
+                          motion_outputs(*problem.system(), joints, {recording}), recording);
   EXPECT_EQ(of.epoch, 100.0);
   Warnings warnings;
-  const std::vector<Segment> segments = cut_into_segments(recording, of, variables, {"hinge"}, *problem.study().identification, &warnings);
+  const std::vector<Segment> segments = cut_into_segments(
+      recording, of, variables, {"hinge"}, *problem.study().identification, &warnings);
   ASSERT_EQ(segments.size(), 5U) << "the last one is longer";
   std::size_t sample = 0;
   for (const Segment& segment : segments) {
@@ -129,7 +146,8 @@ TEST(Segments, EachSampleIsInOneOfThem) {
     EXPECT_NEAR(segment.start[0], recording.joints[0].position[sample], 2e-3);
     for (std::size_t k = 0; k < segment.times.size(); ++k, sample += 3) {
       EXPECT_EQ(segment.times[k], recording.times[sample] - 100.0);
-      EXPECT_EQ(segment.recorded(static_cast<Eigen::Index>(k), 0), recording.joints[0].position[sample]);
+      EXPECT_EQ(segment.recorded(static_cast<Eigen::Index>(k), 0),
+                recording.joints[0].position[sample]);
     }
   }
   EXPECT_GE(sample, recording.times.size());
@@ -141,26 +159,30 @@ TEST(Segments, ShorterThanTheStepsOfTheRecordingTheyAreRefused) {
   const JointRecording recording = record_pendulum({});
   const FitVariables variables(problem.study());
   const std::vector<MeasuredJoint> joints{{"hinge", true, 1.0, {}}};
-  const SegmentSystem of = make_segment_system(*problem.system(), variables, joints, {"hinge"},
-                                               motion_outputs(*problem.system(), joints, {recording}), recording);
+  const SegmentSystem of =
+      make_segment_system(*problem.system(), variables, joints, {"hinge"},
+                          motion_outputs(*problem.system(), joints, {recording}), recording);
   Warnings warnings;
   try {
-    cut_into_segments(recording, of, variables, {"hinge"}, *problem.study().identification, &warnings);
+    cut_into_segments(recording, of, variables, {"hinge"}, *problem.study().identification,
+                      &warnings);
     ADD_FAILURE();
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().element, "identify.segment");
     EXPECT_GT(error.fault().where.line, 0);
     EXPECT_EQ(error.fault().value, "1e-09");
-    EXPECT_NE(error.fault().message.find("1 samples that count, too few"), std::string::npos) << error.what();
+    EXPECT_NE(error.fault().message.find("1 samples that count, too few"), std::string::npos)
+        << error.what();
   }
 }
 
 TEST(Segments, ALoopStaysOnItsBranchThroughWholeTurns) {
-  const Problem problem = load_problem(
-      read_source(source_dir() + "/urdf/slider_crank.urdf"), {},
-      {"study.yaml",
-       "initial_state: {crank_joint: {position: 0.0}}\nidentify:\n  data: [{csv: data.csv}]\n  residual: motion\n  segment: 0.5\n"
-       "parameters: {crank_length: {}}\n"});
+  const Problem problem =
+      load_problem(read_source(source_dir() + "/urdf/slider_crank.urdf"), {},
+                   {"study.yaml",
+                    "initial_state: {crank_joint: {position: 0.0}}\nidentify:\n  data: [{csv: "
+                    "data.csv}]\n  residual: motion\n  segment: 0.5\n"
+                    "parameters: {crank_length: {}}\n"});
   JointRecording recording;
   JointSamples crank{"crank_joint", {}, {}, {}};
   for (int k = 0; k <= 200; ++k) {
@@ -170,11 +192,14 @@ TEST(Segments, ALoopStaysOnItsBranchThroughWholeTurns) {
   recording.joints = {crank};
   const FitVariables variables(problem.study());
   const std::vector<MeasuredJoint> joints{{"crank_joint", false, 1.0, {}}};
-  const SegmentSystem of = make_segment_system(*problem.system(), variables, joints, {"crank_joint"},
-                                               motion_outputs(*problem.system(), joints, {recording}), recording);
+  const SegmentSystem of =
+      make_segment_system(*problem.system(), variables, joints, {"crank_joint"},
+                          motion_outputs(*problem.system(), joints, {recording}), recording);
   Warnings warnings;
-  std::vector<Segment> segments = cut_into_segments(recording, of, variables, {"crank_joint"}, *problem.study().identification, &warnings);
-  const Status status = set_branches(recording, of, *problem.system(), variables, variables.start(), {"crank_joint"}, nullptr, &segments);
+  std::vector<Segment> segments = cut_into_segments(recording, of, variables, {"crank_joint"},
+                                                    *problem.study().identification, &warnings);
+  const Status status = set_branches(recording, of, *problem.system(), variables, variables.start(),
+                                     {"crank_joint"}, nullptr, &segments);
   ASSERT_TRUE(status.ok()) << status.cause;
   // All segments have the slider on the side where it is at the start of the study.
   const RobotDescription& robot = problem.system()->robot();
@@ -184,7 +209,8 @@ TEST(Segments, ALoopStaysOnItsBranchThroughWholeTurns) {
     if (robot.joints[joint].name != "slider_joint") continue;
     const int at = usual.assembly.tree().offset[joint];
     for (const Segment& segment : segments)
-      EXPECT_GT(segment.begin.theta[at] * usual.assembly.theta()[at], 0.0) << "at " << segment.begin.time;
+      EXPECT_GT(segment.begin.theta[at] * usual.assembly.theta()[at], 0.0)
+          << "at " << segment.begin.time;
   }
 }
 

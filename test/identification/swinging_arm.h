@@ -9,8 +9,10 @@
 
 namespace codesign {
 
-/// An arm on a vertical axis, which gravity does not move; its moment of inertia about the axis is inertia + 0.5 kg m^2.
-inline const std::string kSwingingArm = R"(<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
+/// An arm on a vertical axis, which gravity does not move; its moment of inertia about the axis is
+/// inertia + 0.5 kg m^2.
+inline const std::string kSwingingArm =
+    R"(<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
   <codesign:parameter name="inertia" value="0.1" lower="0.001" upper="5"/>
   <codesign:parameter name="viscous" value="0.1" lower="0" upper="10"/>
   <link name="base"/>
@@ -23,16 +25,20 @@ inline const std::string kSwingingArm = R"(<robot name="arm" xmlns:codesign="htt
 )";
 
 /// @param more lines of the block `identify`, each indented by two and ended.
-inline std::string swinging_study(const std::string& data = "{csv: data.csv}", const std::string& more = "") {
+inline std::string swinging_study(const std::string& data = "{csv: data.csv}",
+                                  const std::string& more = "") {
   return "identify:\n  data: [" + data + "]\n" + more +
-         "parameters: {inertia: {}, viscous: {}}\noptimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n";
+         "parameters: {inertia: {}, viscous: {}}\noptimizer: {algorithm: levenberg_marquardt, "
+         "relative_tolerance: 1.0e-10}\n";
 }
 
-inline Problem swinging_problem(const std::string& data = "{csv: data.csv}", const std::string& more = "") {
+inline Problem swinging_problem(const std::string& data = "{csv: data.csv}",
+                                const std::string& more = "") {
   return load_problem({"arm.urdf", kSwingingArm}, {}, {"study.yaml", swinging_study(data, more)});
 }
 
-/// The recording of an arm with inertia 0.3 and viscous 0.4 on a rig: for 5 s at 200 Hz; efforts as (tau + offset) / scale.
+/// The recording of an arm with inertia 0.3 and viscous 0.4 on a rig: for 5 s at 200 Hz; efforts as
+/// (tau + offset) / scale.
 struct SwingingRig {
   double scale = 1.0, offset = 0.0, start = 0.0;
 
@@ -67,7 +73,8 @@ struct SwingingRig {
     const JointSamples& hinge = recording.joints[0];
     std::string text = "time,hinge/position,hinge/velocity,hinge/effort\n";
     for (std::size_t k = 0; k < recording.times.size(); ++k) {
-      for (const double number : {recording.times[k], hinge.position[k], hinge.velocity[k]}) text += std::to_string(number) + ",";
+      for (const double number : {recording.times[k], hinge.position[k], hinge.velocity[k]})
+        text += std::to_string(number) + ",";
       text += std::to_string(hinge.effort[k]) + "\n";
     }
     return text;

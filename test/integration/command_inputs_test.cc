@@ -23,7 +23,8 @@ std::shared_ptr<const CompiledSystem> arm_with(const std::string& controllers) {
 
 const char* const kCascade =
     "  outer: {type: pid, input: shoulder/position, setpoint: 0.5, gains: {p: 3.0}}\n"
-    "  inner: {type: pid, input: shoulder/velocity - outer/output, setpoint: 0.0, output: shoulder, gains: {p: 2.0}}\n"
+    "  inner: {type: pid, input: shoulder/velocity - outer/output, setpoint: 0.0, output: "
+    "shoulder, gains: {p: 2.0}}\n"
     "  speed: {type: pid, input: elbow/velocity, setpoint: 1.0, output: elbow, gains: {p: 2.0}}\n";
 
 template <class Make>
@@ -49,11 +50,13 @@ TEST(CommandInputs, EveryDrivableJointTakesEffortsAheadOfTheStudysControllers) {
 }
 
 TEST(CommandInputs, AJointThatMovesNoMassOrFollowsAnotherIsNotDriven) {
-  const auto system = compile(robot(bar("a") + bar("b") + "<link name='tip'/>" + hinge("first", "ground", "a", "0 0 0") +
-                                    "<joint name='second' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 1 0'/>"
-                                    "<mimic joint='first' multiplier='2'/></joint>" +
-                                    hinge("last", "b", "tip", "0 0 -1")),
-                              motion_study(1.0, "{first: {position: 0.1}}", "first/position", "{}"));
+  const auto system = compile(
+      robot(bar("a") + bar("b") + "<link name='tip'/>" + hinge("first", "ground", "a", "0 0 0") +
+            "<joint name='second' type='continuous'><parent link='a'/><child link='b'/><axis "
+            "xyz='0 1 0'/>"
+            "<mimic joint='first' multiplier='2'/></joint>" +
+            hinge("last", "b", "tip", "0 0 -1")),
+      motion_study(1.0, "{first: {position: 0.1}}", "first/position", "{}"));
   EXPECT_EQ(drivable_joints(*system), Names{"first"});
 }
 
@@ -65,7 +68,8 @@ TEST(CommandInputs, ChosenJointsKeepTheirOrderAndWrongOnesAreRefused) {
   options.joints = Names{};
   EXPECT_TRUE(CommandInputs(*system, options).efforts.empty());
   options.joints = Names{"elbo"};
-  EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("did you mean \"elbow\""), std::string::npos);
+  EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("did you mean \"elbow\""),
+            std::string::npos);
   options.joints = Names{"elbow", "elbow"};
   EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("twice"), std::string::npos);
 }
@@ -78,8 +82,10 @@ TEST(CommandInputs, ADisconnectedControllerDrivesNothingAndTakesNoSetPoint) {
   EXPECT_EQ(inputs.controllers, (Names{"outer", "inner"}));
   EXPECT_EQ(inputs.study.controllers.back().output, "");
   options.disconnected = {"sped"};
-  EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("unknown controller"), std::string::npos);
-  const auto heavy = arm_with("  hold: {type: pd_gravity, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
+  EXPECT_NE(message_of([&] { CommandInputs(*system, options); }).find("unknown controller"),
+            std::string::npos);
+  const auto heavy = arm_with(
+      "  hold: {type: pd_gravity, setpoint: 0.0, output: shoulder, gains: {p: 2.0, d: 1.0}}\n");
   options.disconnected = {"hold"};
   EXPECT_NO_THROW(CompiledSystem(heavy->robot(), CommandInputs(*heavy, options).study));
 }
@@ -92,7 +98,8 @@ TEST(CommandInputs, ALongerRunMayTakeAsManyStepsPerSecond) {
   EXPECT_EQ(inputs.study.duration, 20.0);
   EXPECT_EQ(inputs.study.solver.maximum_steps, 10 * system->study().solver.maximum_steps);
   options.rate = 100.0;
-  EXPECT_EQ(CommandInputs(*system, options).study.solver.maximum_steps, 10 * system->study().solver.maximum_steps + 4000)
+  EXPECT_EQ(CommandInputs(*system, options).study.solver.maximum_steps,
+            10 * system->study().solver.maximum_steps + 4000)
       << "two more for each command";
   options.duration = 1e9;
   EXPECT_GT(CommandInputs(*system, options).study.solver.maximum_steps, 1000000000);
@@ -102,7 +109,8 @@ TEST(CommandInputs, WithoutAControllerThatIsAppliedNoSpeedIsTooHigh) {
   const auto system = arm_with(kCascade);
   CommandOptions options;
   EXPECT_EQ(CommandInputs(*system, options).study.solver.maximum_speed, 0.0);
-  for (const ControllerDescription& controller : system->study().controllers) options.disconnected.push_back(controller.name);
+  for (const ControllerDescription& controller : system->study().controllers)
+    options.disconnected.push_back(controller.name);
   EXPECT_GT(CommandInputs(*system, options).study.solver.maximum_speed, 1e6);
 }
 
@@ -113,8 +121,11 @@ TEST(CommandInputs, ATrajectoryIsFollowedByPositionBeforeVelocity) {
   EXPECT_FALSE(follower_of(inputs, "shoulder")->by_rate);
   ASSERT_TRUE(follower_of(inputs, "elbow"));
   EXPECT_TRUE(follower_of(inputs, "elbow")->by_rate);
-  // A controller that reads the elbow but drives the shoulder balances; it follows no trajectory of the elbow.
-  const auto balance = arm_with("  balance: {type: pid, input: elbow/position, setpoint: 0.0, output: shoulder, gains: {p: 2.0}}\n");
+  // A controller that reads the elbow but drives the shoulder balances; it follows no trajectory of
+  // the elbow.
+  const auto balance = arm_with(
+      "  balance: {type: pid, input: elbow/position, setpoint: 0.0, output: shoulder, gains: {p: "
+      "2.0}}\n");
   EXPECT_FALSE(follower_of(CommandInputs(*balance, {}), "elbow"));
 }
 

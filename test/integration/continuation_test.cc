@@ -12,39 +12,49 @@
 namespace codesign {
 namespace {
 
-/// Two links, hinged on the ground 1.2 apart; the right one can become longer; a loop joins their tips. Each parameter is heard of once.
+/// Two links, hinged on the ground 1.2 apart; the right one can become longer; a loop joins their
+/// tips. Each parameter is heard of once.
 std::shared_ptr<const CompiledSystem> growing_triangle(const std::string& solver) {
   const std::string urdf =
-      "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' lower='0.1' upper='9'/>"
+      "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' "
+      "lower='0.1' upper='9'/>"
       "<codesign:parameter name='mass' value='1' lower='-1' upper='9'/><link name='ground'/>" +
       bar("left") +
-      "<link name='right'><inertial><origin xyz='0 0 -0.5' codesign:xyz='0 0 ${-length/2}'/><mass value='1' codesign:value='${mass}'/>"
+      "<link name='right'><inertial><origin xyz='0 0 -0.5' codesign:xyz='0 0 ${-length/2}'/><mass "
+      "value='1' codesign:value='${mass}'/>"
       "<inertia ixx='0.0834' ixy='0' ixz='0' iyy='0.0834' iyz='0' izz='0.001'/></inertial></link>" +
-      bar("coupler") + hinge("left_hinge", "ground", "left", "0 0 0") + hinge("right_hinge", "ground", "right", "1.2 0 0") +
+      bar("coupler") + hinge("left_hinge", "ground", "left", "0 0 0") +
+      hinge("right_hinge", "ground", "right", "1.2 0 0") +
       hinge("elbow", "left", "coupler", "0 0 -1") +
-      "<loop name='tip' type='continuous'><predecessor link='coupler'><origin xyz='0 0 -1'/></predecessor>"
-      "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 ${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
+      "<loop name='tip' type='continuous'><predecessor link='coupler'><origin xyz='0 0 "
+      "-1'/></predecessor>"
+      "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 "
+      "${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
-  return make_system(robot, read_study({"test.yaml",
-                                        "duration: 1.0\ninitial_state: {left_hinge: {position: 0.3, velocity: 2.0}, "
-                                        "elbow: {guess: -1.5}, right_hinge: {guess: 0.1}}\nparameters: {length: {tune: true}, "
-                                        "mass: {tune: false}}\nobjective: {integral: [{signal: elbow/position}]}\nsolver: " +
-                                            solver + "\n"},
-                                       robot));
+  return make_system(
+      robot,
+      read_study(
+          {"test.yaml",
+           "duration: 1.0\ninitial_state: {left_hinge: {position: 0.3, velocity: 2.0}, "
+           "elbow: {guess: -1.5}, right_hinge: {guess: 0.1}}\nparameters: {length: {tune: true}, "
+           "mass: {tune: false}}\nobjective: {integral: [{signal: elbow/position}]}\nsolver: " +
+               solver + "\n"},
+          robot));
 }
 
 class Continued : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    system_ = growing_triangle(std::string("{integrator: ") + GetParam() + ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
+    system_ = growing_triangle(std::string("{integrator: ") + GetParam() +
+                               ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
     integrator_ = make_integrator(*system_);
     ASSERT_TRUE(integrator_->start({1.0, 1.0}).ok());
     while (integrator_->state().t < 0.2) ASSERT_TRUE(integrator_->advance(0.2).ok());
   }
   TreeCoordinates coordinates(const State<double>& state) {
     TreeCoordinates found;
-    EXPECT_EQ(tree_coordinates(*system_, integrator_->assembly().tree(), state, integrator_->assembly().theta(), &integrator_->equations(),
-                               &found),
+    EXPECT_EQ(tree_coordinates(*system_, integrator_->assembly().tree(), state,
+                               integrator_->assembly().theta(), &integrator_->equations(), &found),
               "");
     return found;
   }

@@ -54,7 +54,11 @@ inline Balance balance(const std::string& urdf, const std::string& study_text) {
 }
 
 /// Tolerances for motions without friction, and with it.
-inline const char* const kTight = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-11, absolute_tolerance: 1.0e-12}";
-inline const char* const kFriction = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
+inline const char* const kTight =
+    "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-11, absolute_tolerance: "
+    "1.0e-12}";
+inline const char* const kFriction =
+    "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: "
+    "1.0e-10}";
 
 }  // namespace codesign

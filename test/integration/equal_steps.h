@@ -10,7 +10,8 @@
 namespace codesign {
 
 /// Assembles a system and takes a span in `count` equal steps.
-inline void take_equal_steps(const CompiledSystem& system, double span, int count, RosenbrockStep<double>* step) {
+inline void take_equal_steps(const CompiledSystem& system, double span, int count,
+                             RosenbrockStep<double>* step) {
   Assembly assembly(system);
   State<double> initial;
   step->equations().set_design(system.parameters());

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// All joint types with friction from their reaction, in the tree and as a loop, with preload: the energy balance holds with the work of
-// friction.
+// All joint types with friction from their reaction, in the tree and as a loop, with preload: the
+// energy balance holds with the work of friction.
 #include <gtest/gtest.h>
 
 #include "equations/compiled.h"
@@ -21,21 +21,29 @@ struct FrictionCase {
 
 void PrintTo(const FrictionCase& c, std::ostream* out) { *out << c.name; }
 
-const char* const kOnGround = "<link name='base'/><joint name='weld' type='fixed'><parent link='ground'/><child link='base'/></joint>";
+const char* const kOnGround =
+    "<link name='base'/><joint name='weld' type='fixed'><parent link='ground'/><child "
+    "link='base'/></joint>";
 
 std::string friction(const std::string& geometry, const std::string& preload = "2") {
-  return "<codesign:friction mu_static='0.12' mu_dynamic='0.1' transition_velocity='0.05' viscous='0.01' preload='" + preload + "' " +
-         geometry + "/>";
+  return "<codesign:friction mu_static='0.12' mu_dynamic='0.1' transition_velocity='0.05' "
+         "viscous='0.01' preload='" +
+         preload + "' " + geometry + "/>";
 }
 
 /// In a chain the first joint has the friction annotation.
-std::string annotated(std::string content, const std::string& annotation) { return content.insert(content.find("</joint>"), annotation); }
+std::string annotated(std::string content, const std::string& annotation) {
+  return content.insert(content.find("</joint>"), annotation);
+}
 
 std::vector<FrictionCase> cases() {
-  const std::string pin = friction("joint_length='0.1' pin_radius='0.03'"), slide = friction("joint_length='0.1' joint_width='0.06'"),
-                    ball = friction("pin_radius='0.04'"), ring = friction("pin_radius='0.05'"), flat = friction("");
-  const std::string by_direction =
-      friction("joint_length='0.1' pin_radius='0.03' mu_static_backward='0.06' mu_dynamic_backward='0.05' viscous_backward='0.03'");
+  const std::string pin = friction("joint_length='0.1' pin_radius='0.03'"),
+                    slide = friction("joint_length='0.1' joint_width='0.06'"),
+                    ball = friction("pin_radius='0.04'"), ring = friction("pin_radius='0.05'"),
+                    flat = friction("");
+  const std::string by_direction = friction(
+      "joint_length='0.1' pin_radius='0.03' mu_static_backward='0.06' mu_dynamic_backward='0.05' "
+      "viscous_backward='0.03'");
   const auto in_tree = [](const std::string& type, const std::string& annotation) {
     return tree("joint", type, "base", "tip", "1 0 0.5", joint_cases::kOrigin + annotation);
   };
@@ -59,14 +67,16 @@ std::vector<FrictionCase> cases() {
 }
 
 std::string model(const std::string& content) {
-  return robot("<codesign:parameter name='size' value='0.1'/><codesign:parameter name='mass' value='0.8'/>" + std::string(kOnGround) +
-               joint_cases::body("tip") + content);
+  return robot(
+      "<codesign:parameter name='size' value='0.1'/><codesign:parameter name='mass' value='0.8'/>" +
+      std::string(kOnGround) + joint_cases::body("tip") + content);
 }
 
 class FrictionConformance : public ::testing::TestWithParam<FrictionCase> {};
 
 TEST_P(FrictionConformance, FrictionTakesExactlyItsWork) {
-  const Balance b = balance(model(GetParam().content), motion_study(0.4, "{}", "tip/velocity/x", kFriction));
+  const Balance b =
+      balance(model(GetParam().content), motion_study(0.4, "{}", "tip/velocity/x", kFriction));
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_GT(b.friction_work, 1e-3);
   EXPECT_NEAR(b.start - b.end, b.friction_work, 2e-6 * b.friction_work);
@@ -79,7 +89,8 @@ double normal_force_at_rest(const std::string& content) {
   c.equations.formulas().load(c.state);
   for (int pair : c.system.contacts()) return c.equations.formulas().contact(pair).normal;
   for (const JointLoad& load : c.system.loads())
-    if (load.reaction_friction) return c.equations.formulas().friction(load.pair, load.element).normal;
+    if (load.reaction_friction)
+      return c.equations.formulas().friction(load.pair, load.element).normal;
   ADD_FAILURE() << "no friction";
   return 0.0;
 }

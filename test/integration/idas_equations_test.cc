@@ -14,16 +14,20 @@ namespace {
 /// Sensitivities that throw, to test the handling of exceptions in callbacks.
 struct Faulty : IdasSensitivities {
   int count() const override { return 1; }
-  void start(const std::vector<double>&, const State<double>&, Integrator*, std::vector<State<double>>*, std::vector<double>*) override {}
-  const Linearization<double>& linearize(const State<double>&, double, Equations<double>*) override {
+  void start(const std::vector<double>&, const State<double>&, Integrator*,
+             std::vector<State<double>>*, std::vector<double>*) override {}
+  const Linearization<double>& linearize(const State<double>&, double,
+                                         Equations<double>*) override {
     throw std::runtime_error("no derivatives today");
   }
   void derivative(int, const State<double>&, VectorX<double>*) override {}
-  bool jump(const std::vector<ControlEvent>&, const State<double>&, const State<double>&, Equations<double>*,
-            std::vector<State<double>>*) override {
+  bool jump(const std::vector<ControlEvent>&, const State<double>&, const State<double>&,
+            Equations<double>*, std::vector<State<double>>*) override {
     return false;
   }
-  bool project(const State<double>&, Equations<double>*, std::vector<State<double>>*) override { return false; }
+  bool project(const State<double>&, Equations<double>*, std::vector<State<double>>*) override {
+    return false;
+  }
 };
 
 struct IdasEquationsTest : ::testing::Test {
@@ -35,8 +39,10 @@ struct IdasEquationsTest : ::testing::Test {
         equations(*system, &newton) {
     Assembly assembly(*system);
     equations.equations().set_design(system->parameters());
-    if (!assembly.solve(system->parameters(), &equations.equations(), &state).ok()) throw std::logic_error("the start cannot be assembled");
-    for (VectorHandle* vector : {&y, &y_dot, &F}) *vector = make_vector(equations.size(), context.get());
+    if (!assembly.solve(system->parameters(), &equations.equations(), &state).ok())
+      throw std::logic_error("the start cannot be assembled");
+    for (VectorHandle* vector : {&y, &y_dot, &F})
+      *vector = make_vector(equations.size(), context.get());
     equations.pack(state, data(y), data(y_dot));
   }
   static Span<double> data(const VectorHandle& vector) { return span_of(vector.get()); }
@@ -65,7 +71,9 @@ TEST_F(IdasEquationsTest, AStateSurvivesPacking) {
   EXPECT_EQ(back.z, state.z);
 }
 
-TEST_F(IdasEquationsTest, AnAssembledStartSolvesThem) { EXPECT_LT(residual().cwiseAbs().maxCoeff(), 1e-9); }
+TEST_F(IdasEquationsTest, AnAssembledStartSolvesThem) {
+  EXPECT_LT(residual().cwiseAbs().maxCoeff(), 1e-9);
+}
 
 TEST_F(IdasEquationsTest, EveryRowIsWhereItShouldBe) {
   data(y_dot)[1] += 0.5;                         // q'
@@ -78,7 +86,8 @@ TEST_F(IdasEquationsTest, EveryRowIsWhereItShouldBe) {
   EXPECT_LT(r.segment(2 * layout.n, layout.m).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-// With kappa = 20 / 0.6 s, a body 1 mm off its joint and at rest relative to it is drawn back with kappa^2 1 mm.
+// With kappa = 20 / 0.6 s, a body 1 mm off its joint and at rest relative to it is drawn back with
+// kappa^2 1 mm.
 TEST_F(IdasEquationsTest, DriftIsDrawnBack) {
   data(y)[0] += 1e-3;
   const VectorX<double> r = residual();
@@ -95,9 +104,9 @@ TEST_F(IdasEquationsTest, ExceptionsStayOnThisSide) {
   Faulty faulty;
   equations.set_sensitivities(&faulty);
   N_Vector one[] = {y.get()}, two[] = {y_dot.get()}, three[] = {F.get()};
-  EXPECT_LT(
-      IdasEquations::sensitivity_residual(1, 0.0, y.get(), y_dot.get(), F.get(), one, two, three, &equations, nullptr, nullptr, nullptr),
-      0);
+  EXPECT_LT(IdasEquations::sensitivity_residual(1, 0.0, y.get(), y_dot.get(), F.get(), one, two,
+                                                three, &equations, nullptr, nullptr, nullptr),
+            0);
   EXPECT_EQ(equations.failure(), "no derivatives today");
 }
 

@@ -25,7 +25,8 @@ TEST(SundialsCompatibility, KeepsTheLatestMessageAndWritesNothingToStderr) {
 }
 
 TEST(IdasCounts, StepsAddUpOverRestarts) {
-  const auto system = servo("{integrator: idas, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}");
+  const auto system =
+      servo("{integrator: idas, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}");
   IdasIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start(system->parameters()).ok());
   int steps = 0;
@@ -36,7 +37,9 @@ TEST(IdasCounts, StepsAddUpOverRestarts) {
   EXPECT_EQ(integrator.statistics().steps, 9);
 }
 
-StatusCode code_of(int flag, bool singular = false) { return idas_status(flag, 0.5, singular, "").code; }
+StatusCode code_of(int flag, bool singular = false) {
+  return idas_status(flag, 0.5, singular, "").code;
+}
 
 TEST(IdasStatus, SuccessInEveryForm) {
   EXPECT_TRUE(idas_status(IDA_SUCCESS, 0.5, false, "").ok());

@@ -10,12 +10,16 @@
 namespace codesign {
 namespace {
 
-const char* const kTightIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
-const char* const kTightRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
+const char* const kTightIdas =
+    "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
+const char* const kTightRosenbrock =
+    "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: "
+    "1.0e-11}";
 
 /// Integrates to the end, taking dense output at each of `times` on the way.
-Status run(Integrator* integrator, const CompiledSystem& system, const std::vector<double>& times = {},
-           std::vector<State<double>>* samples = nullptr, std::vector<double>* psi = nullptr) {
+Status run(Integrator* integrator, const CompiledSystem& system,
+           const std::vector<double>& times = {}, std::vector<State<double>>* samples = nullptr,
+           std::vector<double>* psi = nullptr) {
   Status status = integrator->start(system.parameters());
   for (std::size_t next = 0; status.ok() && integrator->state().t < system.study().duration;) {
     status = integrator->advance(system.study().duration);
@@ -37,7 +41,8 @@ void expect_agreement(const std::string& urdf, const std::string& study_with_sol
   std::vector<double> psi[2];
   State<double> end[2];
   for (int k = 0; k < 2; ++k) {
-    const auto system = compile(urdf, study_with_solver_left_out + "solver: " + (k ? kTightIdas : kTightRosenbrock) + "\n");
+    const auto system = compile(
+        urdf, study_with_solver_left_out + "solver: " + (k ? kTightIdas : kTightRosenbrock) + "\n");
     const auto integrator = make_integrator(*system);
     const Status status = run(integrator.get(), *system, times, &samples[k], &psi[k]);
     ASSERT_TRUE(status.ok()) << status.cause;
@@ -53,11 +58,13 @@ void expect_agreement(const std::string& urdf, const std::string& study_with_sol
     EXPECT_LT((samples[0][k].q - samples[1][k].q).cwiseAbs().maxCoeff(), 1e-6) << times[k];
     EXPECT_LT((samples[0][k].v - samples[1][k].v).cwiseAbs().maxCoeff(), 1e-5) << times[k];
   }
-  for (std::size_t k = 0; k < psi[0].size(); ++k) EXPECT_NEAR(psi[0][k], psi[1][k], 1e-6 * (1.0 + std::abs(psi[0][k]))) << k;
+  for (std::size_t k = 0; k < psi[0].size(); ++k)
+    EXPECT_NEAR(psi[0][k], psi[1][k], 1e-6 * (1.0 + std::abs(psi[0][k]))) << k;
 }
 
 std::string swing(const std::string& initial, const std::string& signal) {
-  return "duration: 0.5\ninitial_state: " + initial + "\nobjective: {integral: [{signal: " + signal + "}]}\n";
+  return "duration: 0.5\ninitial_state: " + initial +
+         "\nobjective: {integral: [{signal: " + signal + "}]}\n";
 }
 
 TEST(IdasIntegrator, AgreesWithRosenbrockOnAPendulum) {
@@ -65,7 +72,8 @@ TEST(IdasIntegrator, AgreesWithRosenbrockOnAPendulum) {
 }
 
 TEST(IdasIntegrator, AgreesWithRosenbrockOnRedundantConstraints) {
-  expect_agreement(four_bar(pin_friction()), swing("{left_hinge: {position: 0.6, velocity: 1.0}}", "left_hinge/velocity"));
+  expect_agreement(four_bar(pin_friction()),
+                   swing("{left_hinge: {position: 0.6, velocity: 1.0}}", "left_hinge/velocity"));
 }
 
 TEST(IdasIntegrator, AgreesWithRosenbrockWithAnExtraState) {
@@ -75,12 +83,13 @@ TEST(IdasIntegrator, AgreesWithRosenbrockWithAnExtraState) {
 
 TEST(IdasIntegrator, DriftStaysOfTheOrderOfTheTolerance) {
   for (const auto& [tolerance, bound] : {std::pair{"1.0e-5", 1e-3}, std::pair{"1.0e-8", 1e-6}}) {
-    const std::string solver =
-        std::string("{integrator: idas, relative_tolerance: ") + tolerance + ", absolute_tolerance: " + tolerance + "}";
-    const auto system = compile(
-        double_pendulum(),
-        "duration: 20.0\ninitial_state: {shoulder: {position: 2.0}}\nobjective: {integral: [{signal: elbow/velocity}]}\nsolver: " + solver +
-            "\n");
+    const std::string solver = std::string("{integrator: idas, relative_tolerance: ") + tolerance +
+                               ", absolute_tolerance: " + tolerance + "}";
+    const auto system =
+        compile(double_pendulum(),
+                "duration: 20.0\ninitial_state: {shoulder: {position: 2.0}}\nobjective: {integral: "
+                "[{signal: elbow/velocity}]}\nsolver: " +
+                    solver + "\n");
     IdasIntegrator integrator(*system);
     const Status status = run(&integrator, *system);
     ASSERT_TRUE(status.ok()) << status.cause;
@@ -140,12 +149,13 @@ TEST(IdasIntegrator, ObeysItsOptions) {
 
 // A controller with the wrong sign makes the speed grow by e every 30 microseconds.
 TEST(IdasIntegrator, WhatRunsAwayEndsWithAStatus) {
-  const auto system =
-      compile(pendulum(),
-              "duration: 0.5\ninitial_state: {hinge: {velocity: 1.0}}\n"
-              "controllers: {c: {type: pid, input: hinge/velocity, setpoint: 0.0, output: hinge, gains: {p: \"${gain}\"}}}\n"
-              "parameters: {gain: {initial: 1.0}}\nobjective: {terminal: [{signal: hinge/velocity}]}\n"
-              "solver: {integrator: idas, maximum_steps: 20000}\n");
+  const auto system = compile(
+      pendulum(),
+      "duration: 0.5\ninitial_state: {hinge: {velocity: 1.0}}\n"
+      "controllers: {c: {type: pid, input: hinge/velocity, setpoint: 0.0, output: hinge, gains: "
+      "{p: \"${gain}\"}}}\n"
+      "parameters: {gain: {initial: 1.0}}\nobjective: {terminal: [{signal: hinge/velocity}]}\n"
+      "solver: {integrator: idas, maximum_steps: 20000}\n");
   IdasIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({-1e4}).ok());
   Status status;

@@ -11,12 +11,17 @@ namespace codesign {
 namespace {
 
 struct IdasNewtonTest : ::testing::Test {
-  IdasNewtonTest() : system(servo("{}")), layout(system->layout()), context(make_context()), newton(*system, context.get()) {
+  IdasNewtonTest()
+      : system(servo("{}")),
+        layout(system->layout()),
+        context(make_context()),
+        newton(*system, context.get()) {
     Equations<double> equations(*system);
     Assembly assembly(*system);
     equations.set_design(system->parameters());
     State<double> state;
-    if (!assembly.solve(system->parameters(), &equations, &state).ok()) throw std::logic_error("the start cannot be assembled");
+    if (!assembly.solve(system->parameters(), &equations, &state).ok())
+      throw std::logic_error("the start cannot be assembled");
     equations.linearize(state, newton.derivatives());
     size = 2 * layout.n + layout.states + layout.m;
     x = make_vector(size, context.get());
@@ -26,7 +31,8 @@ struct IdasNewtonTest : ::testing::Test {
 
   static double* data(const VectorHandle& vector) { return N_VGetArrayPointer(vector.get()); }
 
-  /// J x for the unknowns (q, v, s, lambda) whose derivatives are c_j times themselves; constraint rows stabilized, theory (27).
+  /// J x for the unknowns (q, v, s, lambda) whose derivatives are c_j times themselves; constraint
+  /// rows stabilized, theory (27).
   VectorX<double> product(double c_j, double kappa) {
     State<double> direction;
     direction.resize(layout);
@@ -57,8 +63,13 @@ TEST_F(IdasNewtonTest, SolvesTheWholeSystem) {
   for (double c_j : {10.0, 1e3, 1e6}) {
     newton.set_rates(c_j, 0.0);
     ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), kSundialsSuccess);
-    ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), kSundialsSuccess);
-    EXPECT_LT((product(c_j, 0.0) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(), 1e-9) << c_j;
+    ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0),
+              kSundialsSuccess);
+    EXPECT_LT((product(c_j, 0.0) - Eigen::Map<const VectorX<double>>(data(b), size))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-9)
+        << c_j;
   }
 }
 
@@ -67,11 +78,17 @@ TEST_F(IdasNewtonTest, SolvesTheStabilizedSystem) {
   const Linearization<double> derivatives = *newton.derivatives();
   newton.set_rates(c_j, kappa);
   ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), kSundialsSuccess);
-  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), kSundialsSuccess);
+  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0),
+            kSundialsSuccess);
   *newton.derivatives() = derivatives;
-  EXPECT_LT((product(c_j, kappa) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((product(c_j, kappa) - Eigen::Map<const VectorX<double>>(data(b), size))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
   // The terms matter.
-  EXPECT_GT((product(c_j, 0.0) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_GT(
+      (product(c_j, 0.0) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(),
+      1e-3);
 }
 
 TEST_F(IdasNewtonTest, RefactorsAtOtherDerivatives) {
@@ -80,14 +97,18 @@ TEST_F(IdasNewtonTest, RefactorsAtOtherDerivatives) {
   newton.set_rates(1e3, 50.0);
   ASSERT_EQ(SUNLinSolSetup(newton.solver(), newton.matrix()), kSundialsSuccess);
   ASSERT_TRUE(newton.refactor(derivatives));
-  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0), kSundialsSuccess);
+  ASSERT_EQ(SUNLinSolSolve(newton.solver(), newton.matrix(), x.get(), b.get(), 0.0),
+            kSundialsSuccess);
   *newton.derivatives() = derivatives;
-  EXPECT_LT((product(1e3, 50.0) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(
+      (product(1e3, 50.0) - Eigen::Map<const VectorX<double>>(data(b), size)).cwiseAbs().maxCoeff(),
+      1e-9);
 }
 
 TEST_F(IdasNewtonTest, ASingularMatrixIsARecoverableFailure) {
   newton.derivatives()->resize(system->patterns());
-  for (std::vector<double>* values : {&newton.derivatives()->position, &newton.derivatives()->velocity, &newton.derivatives()->rate})
+  for (std::vector<double>* values : {&newton.derivatives()->position,
+                                      &newton.derivatives()->velocity, &newton.derivatives()->rate})
     std::fill(values->begin(), values->end(), 0.0);
   EXPECT_GT(SUNLinSolSetup(newton.solver(), newton.matrix()), 0);
   EXPECT_TRUE(newton.singular());

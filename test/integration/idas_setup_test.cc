@@ -10,8 +10,9 @@ namespace codesign {
 namespace {
 
 TEST(IdasSetup, TheStudysStepsAreThoseOfIdas) {
-  const auto system =
-      servo("{integrator: idas, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7, initial_step: 1.0e-5, maximum_step: 1.0e-4}");
+  const auto system = servo(
+      "{integrator: idas, relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7, initial_step: "
+      "1.0e-5, maximum_step: 1.0e-4}");
   IdasIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start(system->parameters()).ok());
   double previous = 0.0;

@@ -41,7 +41,8 @@ TEST(Integrator, BothBeginAtTheAssembledStart) {
 struct Calls {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
   SettledStart start;
-  std::string seen;  ///< how much the first parameter of each begin exceeds the study's, and "s" for each settle
+  std::string seen;  ///< how much the first parameter of each begin exceeds the study's, and "s"
+                     ///< for each settle
   bool fails = false;
 
   Status run(double excess) {

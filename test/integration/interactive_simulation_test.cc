@@ -10,17 +10,23 @@
 namespace codesign {
 namespace {
 
-const char* const kByRosenbrock = "{method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
-const char* const kByIdas = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}";
+const char* const kByRosenbrock =
+    "{method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}";
+const char* const kByIdas =
+    "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}";
 constexpr double kInertia = 0.0834 + 0.25;  // of the bar about its hinge [kg m^2]
 
-std::shared_ptr<const CompiledSystem> bar_at(const std::string& start, const std::string& solver, const std::string& more = "") {
-  return compile(pendulum(), "duration: 1.0\ninitial_state: {hinge: " + start + "}\nparameters: {Kp: {initial: 20.0}}\n" + more +
-                                 "objective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n");
+std::shared_ptr<const CompiledSystem> bar_at(const std::string& start, const std::string& solver,
+                                             const std::string& more = "") {
+  return compile(pendulum(),
+                 "duration: 1.0\ninitial_state: {hinge: " + start +
+                     "}\nparameters: {Kp: {initial: 20.0}}\n" + more +
+                     "objective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n");
 }
 
 const char* const kHeldServo =
-    "controllers: {servo: {type: pid, input: hinge/position, setpoint: 0.2, output: hinge, gains: {p: \"${Kp}\", i: 5.0, d: 2.0}}}\n";
+    "controllers: {servo: {type: pid, input: hinge/position, setpoint: 0.2, output: hinge, gains: "
+    "{p: \"${Kp}\", i: 5.0, d: 2.0}}}\n";
 
 JointSample hinge_at(InteractiveSimulation* run, double time) {
   Frame frame;
@@ -35,19 +41,23 @@ TEST_P(Commanded, AHeldEffortSwingsASmallPendulumAsTheFormulaSays) {
   const auto system = bar_at("{position: 0.0}", GetParam());
   InteractiveSimulation run(*system, {}, {});
   ASSERT_TRUE(run.start(system->parameters()).ok());
-  const double begin = 0.137, torque = 1e-4, stiffness = 9.81 * 0.5, omega = std::sqrt(stiffness / kInertia);
+  const double begin = 0.137, torque = 1e-4, stiffness = 9.81 * 0.5,
+               omega = std::sqrt(stiffness / kInertia);
   ASSERT_TRUE(run.advance(begin).ok());
   run.set_effort(0, torque);
   ASSERT_TRUE(run.apply(begin).ok());
   for (double time : {0.2, 0.45, 0.7, 1.0}) {
     const JointSample hinge = hinge_at(&run, time);
-    EXPECT_NEAR(hinge.position, torque / stiffness * (1.0 - std::cos(omega * (time - begin))), 1e-10);
-    EXPECT_NEAR(hinge.velocity, torque / stiffness * omega * std::sin(omega * (time - begin)), 1e-9);
+    EXPECT_NEAR(hinge.position, torque / stiffness * (1.0 - std::cos(omega * (time - begin))),
+                1e-10);
+    EXPECT_NEAR(hinge.velocity, torque / stiffness * omega * std::sin(omega * (time - begin)),
+                1e-9);
     EXPECT_EQ(hinge.effort, torque);
   }
 }
 
-// The same motion as two studies one after the other: the second begins with the last state of the first and has the effort as a load.
+// The same motion as two studies one after the other: the second begins with the last state of the
+// first and has the effort as a load.
 TEST_P(Commanded, AStepInEffortIsTheRunOfTwoStudies) {
   const auto first = bar_at("{position: 1.2}", GetParam());
   InteractiveSimulation run(*first, {}, {});
@@ -60,7 +70,8 @@ TEST_P(Commanded, AStepInEffortIsTheRunOfTwoStudies) {
   EXPECT_NEAR(behind.velocity, middle.velocity, 1e-7);
   EXPECT_NEAR(behind.acceleration, middle.acceleration - 3.0 / kInertia, 1e-7);
   char start[99];
-  std::snprintf(start, sizeof start, "{position: %.17g, velocity: %.17g}", middle.position, middle.velocity);
+  std::snprintf(start, sizeof start, "{position: %.17g, velocity: %.17g}", middle.position,
+                middle.velocity);
   const auto second = bar_at(start, GetParam(), "loads: [{joint: hinge, effort: -3.0}]\n");
   Simulation other(second, second->parameters());
   Frame frame;
@@ -77,14 +88,16 @@ TEST_P(Commanded, ASetPointFromTheStartIsThatOfAStudy) {
   const auto system = bar_at("{position: 0.5}", GetParam(), kHeldServo);
   std::string other = kHeldServo;
   other.replace(other.find("0.2"), 3, "0.7");
-  InteractiveSimulation run(*system, {}, {}), study(*bar_at("{position: 0.5}", GetParam(), other), {}, {});
+  InteractiveSimulation run(*system, {}, {}),
+      study(*bar_at("{position: 0.5}", GetParam(), other), {}, {});
   ASSERT_TRUE(run.start({20.0}).ok());
   ASSERT_TRUE(study.start({20.0}).ok());
   run.set_course(0, held(0.7, 0.0));
   ASSERT_TRUE(run.apply(0.0).ok());
   EXPECT_TRUE(run.is_commanded(0));
   EXPECT_EQ(run.setpoint(0, 0.3).value, 0.7);
-  for (double time : {0.3, 0.8}) EXPECT_NEAR(hinge_at(&run, time).position, hinge_at(&study, time).position, 1e-7);
+  for (double time : {0.3, 0.8})
+    EXPECT_NEAR(hinge_at(&run, time).position, hinge_at(&study, time).position, 1e-7);
 }
 
 TEST_P(Commanded, AGainChangesTheMotionFromThenOn) {
@@ -97,7 +110,8 @@ TEST_P(Commanded, AGainChangesTheMotionFromThenOn) {
   ASSERT_TRUE(run.change(0.25, {50.0}).ok());
   const JointSample behind = hinge_at(&run, 0.25);
   EXPECT_NEAR(behind.position, before.position, 1e-9);
-  EXPECT_NEAR(behind.acceleration, before.acceleration + 30.0 * frame.controllers[0].error / kInertia, 1e-6);
+  EXPECT_NEAR(behind.acceleration,
+              before.acceleration + 30.0 * frame.controllers[0].error / kInertia, 1e-6);
   ASSERT_TRUE(run.start(run.parameters()).ok());
   EXPECT_EQ(run.parameters()[0], 50.0) << "the next run begins with the new value";
 }
@@ -138,7 +152,8 @@ TEST(InteractiveSimulation, TheWorkOfHeldEffortsIsTheEnergyThatTheMechanismGains
     const double time = 0.01 * k;
     ASSERT_TRUE(run.advance(time).ok());
     run.sample(time, &frame);
-    EXPECT_NEAR(frame.signals[0] - energy, effort * (frame.joints[0].position - angle), 1e-8) << time;
+    EXPECT_NEAR(frame.signals[0] - energy, effort * (frame.joints[0].position - angle), 1e-8)
+        << time;
     energy = frame.signals[0];
     angle = frame.joints[0].position;
     effort = 4.0 * std::sin(0.3 * k);
@@ -152,13 +167,16 @@ TEST(InteractiveSimulation, ACourseBeginsItsPiecesOnTime) {
   InteractiveSimulation run(*system, {}, {});
   ASSERT_TRUE(run.start({20.0}).ok());
   ASSERT_TRUE(run.advance(0.1).ok());
-  run.set_course(0, trajectory_course({{0.333, 0.4, {}, {}}, {0.777, 0.0, {}, {}}}, 0.1, {0.2, 0.0, 0.0}));
+  run.set_course(
+      0, trajectory_course({{0.333, 0.4, {}, {}}, {0.777, 0.0, {}, {}}}, 0.1, {0.2, 0.0, 0.0}));
   ASSERT_TRUE(run.apply(0.1).ok());
   Frame frame;
   for (double time : {0.2, 0.5, 0.9}) {
     ASSERT_TRUE(run.advance(time).ok());
     run.sample(time, &frame);
-    const double expected = time < 0.333 ? 0.2 + 0.2 * (time - 0.1) / 0.233 : time < 0.777 ? 0.4 - 0.4 * (time - 0.333) / 0.444 : 0.0;
+    const double expected = time < 0.333   ? 0.2 + 0.2 * (time - 0.1) / 0.233
+                            : time < 0.777 ? 0.4 - 0.4 * (time - 0.333) / 0.444
+                                           : 0.0;
     EXPECT_NEAR(frame.controllers[0].setpoint, expected, 1e-12) << time;
     ASSERT_TRUE(run.apply(time).ok());
   }
@@ -169,7 +187,8 @@ TEST(InteractiveSimulation, ACourseBeginsItsPiecesOnTime) {
 
 TEST(InteractiveSimulation, ASampledControllerSeesANewSetPointAtItsNextSample) {
   const auto system = bar_at("{position: 0.0}", kByRosenbrock,
-                             "controllers: {servo: {type: pid, input: hinge/position, setpoint: 0.0, output: hinge, gains: {p: 2.0}, "
+                             "controllers: {servo: {type: pid, input: hinge/position, setpoint: "
+                             "0.0, output: hinge, gains: {p: 2.0}, "
                              "sample_time: 0.1}}\n");
   InteractiveSimulation run(*system, {}, {});
   ASSERT_TRUE(run.start({20.0}).ok());
@@ -180,14 +199,18 @@ TEST(InteractiveSimulation, ASampledControllerSeesANewSetPointAtItsNextSample) {
   EXPECT_NEAR(hinge_at(&run, 0.21).effort, 2.0, 1e-12);
 }
 
-// The effort of a command is an actuator's: limits bound its sum with the effort of the controllers.
+// The effort of a command is an actuator's: limits bound its sum with the effort of the
+// controllers.
 TEST(InteractiveSimulation, TheLimitOfAnActuatorBoundsTheSum) {
   const std::string urdf = robot(bar("bar") +
-                                 "<joint name='hinge' type='revolute'><parent link='ground'/><child link='bar'/><axis xyz='0 1 0'/>"
+                                 "<joint name='hinge' type='revolute'><parent "
+                                 "link='ground'/><child link='bar'/><axis xyz='0 1 0'/>"
                                  "<limit lower='-3' upper='3' effort='2' velocity='9'/></joint>");
   const auto system = compile(urdf,
-                              "duration: 1.0\ninitial_state: {hinge: {position: 0.0}}\nlimits: {effort: true}\ncontrollers: {push: {type: "
-                              "pid, input: hinge/position, setpoint: 1.0, output: hinge, gains: {p: 1.5}}}\nparameters: {}\n"
+                              "duration: 1.0\ninitial_state: {hinge: {position: 0.0}}\nlimits: "
+                              "{effort: true}\ncontrollers: {push: {type: "
+                              "pid, input: hinge/position, setpoint: 1.0, output: hinge, gains: "
+                              "{p: 1.5}}}\nparameters: {}\n"
                               "objective: {integral: [{signal: hinge/position}]}\n");
   InteractiveSimulation run(*system, {}, {});
   ASSERT_TRUE(run.start({}).ok());

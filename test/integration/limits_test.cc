@@ -10,13 +10,18 @@ namespace codesign {
 namespace {
 
 /// A bar on a hinge that may turn between -0.6 and 0.3 only.
-std::string bounded_pendulum(const std::string& type = "revolute", const std::string& limit = "lower='-0.6' upper='0.3'") {
+std::string bounded_pendulum(const std::string& type = "revolute",
+                             const std::string& limit = "lower='-0.6' upper='0.3'") {
   return robot(bar("bar") + "<joint name='hinge' type='" + type +
-               "'><parent link='ground'/><child link='bar'/><axis xyz='0 1 0'/><limit effort='2' velocity='5' " + limit + "/></joint>");
+               "'><parent link='ground'/><child link='bar'/><axis xyz='0 1 0'/><limit effort='2' "
+               "velocity='5' " +
+               limit + "/></joint>");
 }
 
 std::string study(const std::string& limits, double duration = 2.0) {
-  return motion_study(duration, "{hinge: {position: -0.5, velocity: 1.0}}", "hinge/velocity", kFriction) + "limits: " + limits + "\n";
+  return motion_study(duration, "{hinge: {position: -0.5, velocity: 1.0}}", "hinge/velocity",
+                      kFriction) +
+         "limits: " + limits + "\n";
 }
 
 struct Range {
@@ -25,7 +30,8 @@ struct Range {
 
 Range positions(const std::string& urdf, const std::string& study_text, double duration = 2.0) {
   Range range;
-  Simulation simulation(compile(urdf, study_text), {}, {parse_signal("hinge/position", {"test", 0}, "signal")});
+  Simulation simulation(compile(urdf, study_text), {},
+                        {parse_signal("hinge/position", {"test", 0}, "signal")});
   const Status status = simulate(&simulation, duration, 401, [&range](const Frame& frame) {
     range.last = frame.signals[0];
     range.least = std::min(range.least, range.last);
@@ -42,7 +48,8 @@ TEST(Limits, StopsHoldAJointWithinAndAreOffByDefault) {
   EXPECT_LT(bounded.most, 0.3 + 0.03);
   EXPECT_GT(bounded.least, -0.6 - 0.03);
   EXPECT_GT(positions(bounded_pendulum(), study("{position: false}")).most, 0.55);
-  EXPECT_EQ(positions(bounded_pendulum(), study("{}")).most, positions(bounded_pendulum(), study("{effort: true}")).most);
+  EXPECT_EQ(positions(bounded_pendulum(), study("{}")).most,
+            positions(bounded_pendulum(), study("{effort: true}")).most);
 }
 
 TEST(Limits, ContinuousJointsAndEqualLimitsHaveNoStops) {
@@ -57,21 +64,25 @@ TEST(Limits, AStopWithoutDissipationGivesBackAllOfIt) {
 }
 
 TEST(Limits, AStopWithDissipationOnlyTakes) {
-  const Balance b = balance(bounded_pendulum(), study("{position: true, dissipation: 0.5, stiffness: 2e3, width: 2e-3}"));
+  const Balance b = balance(
+      bounded_pendulum(), study("{position: true, dissipation: 0.5, stiffness: 2e3, width: 2e-3}"));
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_LT(b.end, b.start - 0.3);
 }
 
 TEST(Limits, AJointRestsOnItsStopAsDeepAsItsWeightPresses) {
   // Gravity along x turns the bar onto the upper stop with about 1 kg g/2 cos 0.3.
-  std::string resting = study("{position: true, dissipation: 5.0, stiffness: 1e3, width: 1e-3}", 8.0) + "gravity: [-9.81, 0.0, 0.0]\n";
+  std::string resting =
+      study("{position: true, dissipation: 5.0, stiffness: 1e3, width: 1e-3}", 8.0) +
+      "gravity: [-9.81, 0.0, 0.0]\n";
   const Range range = positions(bounded_pendulum(), resting, 8.0);
   const double depth = 0.5 * 9.81 * std::cos(range.last) / 1e3;
   EXPECT_NEAR(range.last, 0.3 + depth + 0.5e-3, 1e-6);
 }
 
 const char* const kServo =
-    "controllers: {servo: {type: pid, input: hinge/position, setpoint: 2.0, output: hinge, gains: {p: 1000.0, d: 5.0}}}\n";
+    "controllers: {servo: {type: pid, input: hinge/position, setpoint: 2.0, output: hinge, gains: "
+    "{p: 1000.0, d: 5.0}}}\n";
 
 std::string servo_limits(const std::string& limits) {
   return "duration: 0.1\ngravity: [0.0, 0.0, 0.0]\n" + std::string(kServo) +
@@ -80,7 +91,8 @@ std::string servo_limits(const std::string& limits) {
 
 Frame at_end(const std::string& urdf, const std::string& limits) {
   Simulation simulation(compile(urdf, servo_limits(limits)), {},
-                        {parse_signal("hinge/effort", {"test", 0}, "signal"), parse_signal("servo/output", {"test", 0}, "signal")});
+                        {parse_signal("hinge/effort", {"test", 0}, "signal"),
+                         parse_signal("servo/output", {"test", 0}, "signal")});
   Frame last;
   EXPECT_TRUE(simulate(&simulation, 0.1, 2, [&last](const Frame& frame) {
                 last = frame;

@@ -20,8 +20,9 @@ std::vector<SignalDescription> signals(const std::vector<std::string>& texts) {
 
 TEST(Linkages, RowsOfFourBarsSwingAsTheirPlanarEquationSays) {
   for (int count : {1, 4}) {
-    const auto system =
-        compile(four_bar_row(count), motion_study(1.5, "{bar0_hinge: {position: 0.6, velocity: 1.0}}", "bar0_hinge/velocity", kTight));
+    const auto system = compile(four_bar_row(count),
+                                motion_study(1.5, "{bar0_hinge: {position: 0.6, velocity: 1.0}}",
+                                             "bar0_hinge/velocity", kTight));
     Status status;
     const Counts counts = count_equations(*system, {}, &status);
     ASSERT_TRUE(status.ok()) << status.cause;
@@ -41,14 +42,17 @@ TEST(Linkages, RowsOfFourBarsSwingAsTheirPlanarEquationSays) {
 }
 
 TEST(Linkages, ABricardRingKeepsToItsClosedForm) {
-  const auto system = compile(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", kTight));
+  const auto system =
+      compile(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", kTight));
   Status status;
   const Counts counts = count_equations(*system, {}, &status);
   ASSERT_TRUE(status.ok()) << status.cause;
   EXPECT_EQ(counts.degrees_of_freedom, 1);
   EXPECT_EQ(counts.redundant_constraints, 1);
   double least = 10.0, most = -10.0;
-  Simulation simulation(system, {}, signals({"turn1/position", "turn2/position", "turn3/position", "turn4/position", "turn5/position"}));
+  Simulation simulation(system, {},
+                        signals({"turn1/position", "turn2/position", "turn3/position",
+                                 "turn4/position", "turn5/position"}));
   status = simulate(&simulation, 2.0, 41, [&](const Frame& frame) {
     const std::vector<double>& theta = frame.signals;
     least = std::min(least, theta[0]);
@@ -56,7 +60,9 @@ TEST(Linkages, ABricardRingKeepsToItsClosedForm) {
     EXPECT_NEAR(theta[2], theta[0], 1e-7);
     EXPECT_NEAR(theta[4], theta[0], 1e-7);
     EXPECT_NEAR(theta[3], theta[1], 1e-7);
-    EXPECT_NEAR(std::cos(theta[0]) + std::cos(theta[1]) + std::cos(theta[0]) * std::cos(theta[1]), 0.0, 1e-7) << frame.time;
+    EXPECT_NEAR(std::cos(theta[0]) + std::cos(theta[1]) + std::cos(theta[0]) * std::cos(theta[1]),
+                0.0, 1e-7)
+        << frame.time;
     return true;
   });
   EXPECT_TRUE(status.ok()) << status.cause;
@@ -64,7 +70,8 @@ TEST(Linkages, ABricardRingKeepsToItsClosedForm) {
 }
 
 TEST(Linkages, ABricardRingConservesEnergy) {
-  const Balance b = balance(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", kTight));
+  const Balance b =
+      balance(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", kTight));
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_LT(b.largest_drift, 1e-7);
 }

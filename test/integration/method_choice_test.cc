@@ -10,21 +10,29 @@
 namespace codesign {
 namespace {
 
-/// An arm on a vertical pin with dry friction, pulled to and fro by a spring whose other end moves: it sticks, slips, and sticks again.
+/// An arm on a vertical pin with dry friction, pulled to and fro by a spring whose other end moves:
+/// it sticks, slips, and sticks again.
 GradientCase stick_slip(const std::string& coordinates) {
   GradientCase test = from_texts(
       "stick_slip",
-      "<robot name='arm' xmlns:codesign='https://mechanism-codesign.org/urdf'><link name='base'/><link name='arm'><inertial>"
-      "<origin xyz='0.3 0 0'/><mass value='2'/><inertia ixx='0.01' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
-      "<joint name='hinge' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>"
-      "<codesign:friction mu_static='0.3' mu_dynamic='0.2' transition_velocity='1e-5' pin_radius='0.02' "
+      "<robot name='arm' xmlns:codesign='https://mechanism-codesign.org/urdf'><link "
+      "name='base'/><link name='arm'><inertial>"
+      "<origin xyz='0.3 0 0'/><mass value='2'/><inertia ixx='0.01' iyy='0.1' izz='0.1' ixy='0' "
+      "ixz='0' iyz='0'/></inertial></link>"
+      "<joint name='hinge' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 "
+      "0 1'/>"
+      "<codesign:friction mu_static='0.3' mu_dynamic='0.2' transition_velocity='1e-5' "
+      "pin_radius='0.02' "
       "joint_length='0.1'/></joint></robot>",
-      "duration: 6.0\ninitial_state: {hinge: {velocity: 2.0}}\nparameters: {stiffness: {initial: 3.0, lower: 1.0, upper: 5.0, tune: "
+      "duration: 6.0\ninitial_state: {hinge: {velocity: 2.0}}\nparameters: {stiffness: {initial: "
+      "3.0, lower: 1.0, upper: 5.0, tune: "
       "true}}\n"
-      "controllers: {spring: {type: pid, input: hinge/position, setpoint: {type: sine, amplitude: 0.4, period: 3.0}, output: hinge,\n"
+      "controllers: {spring: {type: pid, input: hinge/position, setpoint: {type: sine, amplitude: "
+      "0.4, period: 3.0}, output: hinge,\n"
       "  gains: {p: \"${stiffness}\", d: 0.3}}}\n"
       "objective: {integral: [{signal: hinge/position}], terminal: [{signal: hinge/velocity}]}\n");
-  test.study.solver.coordinates = coordinates == "joint" ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
+  test.study.solver.coordinates =
+      coordinates == "joint" ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
   test.study.solver.relative_tolerance = test.study.solver.absolute_tolerance = 1e-8;
   return test;
 }
@@ -39,7 +47,8 @@ std::vector<int> changes(const CompiledSystem& system) {
     const Status status = integrator.advance(system.study().duration);
     EXPECT_TRUE(status.ok()) << status.cause;
     if (!status.ok()) break;
-    if (integrator.step().tableau().is_explicit() != was_explicit) changes.push_back(static_cast<int>(integrator.statistics().steps));
+    if (integrator.step().tableau().is_explicit() != was_explicit)
+      changes.push_back(static_cast<int>(integrator.statistics().steps));
     was_explicit = integrator.step().tableau().is_explicit();
   }
   return changes;
@@ -69,7 +78,8 @@ TEST_P(MethodChoiceTest, TheRunKnowsWhichMethodTookWhichSteps) {
 
 TEST_P(MethodChoiceTest, FindsWhatTheImplicitMethodFinds) {
   const GradientCase test = stick_slip(GetParam());
-  const auto automatic = test.compile("auto", "direct"), implicit = test.compile("rodas5p", "direct");
+  const auto automatic = test.compile("auto", "direct"),
+             implicit = test.compile("rodas5p", "direct");
   RosenbrockGradient a(*automatic), b(*implicit);
   const GradientRun changing = run_gradient(&a, *automatic, automatic->parameters()),
                     fixed = run_gradient(&b, *implicit, implicit->parameters());
@@ -108,7 +118,8 @@ TEST(MethodChoice, BeginsImplicitlyWithDryFrictionAndReturnsWhereItIsNotStiff) {
 }
 
 TEST(MethodChoice, LoopsThatShareReactionsStayImplicit) {
-  const auto system = compile(four_bar(), motion_study(0.5, "{left_hinge: {position: 0.4}}", "left_hinge/velocity", "{}"));
+  const auto system = compile(
+      four_bar(), motion_study(0.5, "{left_hinge: {position: 0.4}}", "left_hinge/velocity", "{}"));
   EXPECT_EQ(changes(*system), std::vector<int>{1});
 }
 

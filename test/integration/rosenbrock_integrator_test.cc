@@ -13,8 +13,10 @@ namespace {
 
 CompiledSystem swinging(const std::string& solver, const std::string& urdf = pendulum()) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
-  return CompiledSystem(robot,
-                        read_study({"test.yaml", let_go("{hinge: {position: 1.0}}", "hinge/velocity", "solver: " + solver + "\n")}, robot));
+  return CompiledSystem(
+      robot, read_study({"test.yaml", let_go("{hinge: {position: 1.0}}", "hinge/velocity",
+                                             "solver: " + solver + "\n")},
+                        robot));
 }
 
 /// Integrates to `time` and returns the largest step size [s].
@@ -40,14 +42,17 @@ TEST(RosenbrockIntegrator, EndsOnItsLimitToTheLastDigit) {
 TEST(RosenbrockIntegrator, TighterTolerancesTakeMoreStepsToABetterEnd) {
   const CompiledSystem loose = swinging("{relative_tolerance: 1.0e-4, absolute_tolerance: 1.0e-5}"),
                        tight = swinging("{relative_tolerance: 1.0e-7, absolute_tolerance: 1.0e-8}"),
-                       exact = swinging("{relative_tolerance: 1.0e-11, absolute_tolerance: 1.0e-12}");
+                       exact =
+                           swinging("{relative_tolerance: 1.0e-11, absolute_tolerance: 1.0e-12}");
   RosenbrockIntegrator a(loose), b(tight), c(exact);
   for (RosenbrockIntegrator* integrator : {&a, &b, &c}) {
     ASSERT_TRUE(integrator->start({}).ok());
     run(integrator, 1.0);
   }
   EXPECT_LT(a.statistics().steps, b.statistics().steps);
-  const auto error = [&c](const RosenbrockIntegrator& x) { return (x.step().state().q - c.step().state().q).norm(); };
+  const auto error = [&c](const RosenbrockIntegrator& x) {
+    return (x.step().state().q - c.step().state().q).norm();
+  };
   EXPECT_LT(error(a), 1e-3);
   EXPECT_LT(error(b), 1e-6);
   EXPECT_LT(error(b), 0.1 * error(a));
@@ -124,8 +129,10 @@ TEST(RosenbrockIntegrator, TooManyStepsAndAnImpossibleDesignAreStatuses) {
   EXPECT_GT(status.time, 0.0);
 
   const std::string urdf =
-      "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='m' value='1' lower='-1' upper='2'/><link name='ground'/>"
-      "<link name='bar'><inertial><mass value='1' codesign:value='${m}'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+      "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='m' value='1' lower='-1' "
+      "upper='2'/><link name='ground'/>"
+      "<link name='bar'><inertial><mass value='1' codesign:value='${m}'/><inertia ixx='1' ixy='0' "
+      "ixz='0' iyy='1' iyz='0' "
       "izz='1'/></inertial></link>" +
       hinge("hinge", "ground", "bar", "0 0 0") + "</robot>";
   const CompiledSystem system = swinging("{}", urdf);

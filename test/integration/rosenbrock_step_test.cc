@@ -23,7 +23,9 @@ class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(RosenbrockStepTest, ConvergesWithItsOrder) {
-  const auto distance = [](const State<double>& x, const State<double>& y) { return (x.q - y.q).norm() + (x.v - y.v).norm(); };
+  const auto distance = [](const State<double>& x, const State<double>& y) {
+    return (x.q - y.q).norm() + (x.v - y.v).norm();
+  };
   const State<double> exact = run(0.02, 400);
   const double ratio = distance(run(0.02, 20), exact) / distance(run(0.02, 40), exact);
   // Halving the step gains 2^order; projection and the first steps blur it a little.
@@ -58,7 +60,8 @@ TEST_P(RosenbrockStepTest, ErrorIsThatOfTheEmbeddedSolution) {
   EXPECT_LT(step.error(1e-6, 1e-6), 0.2 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, RosenbrockStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
+INSTANTIATE_TEST_SUITE_P(Methods, RosenbrockStepTest,
+                         ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
 
 }  // namespace
 }  // namespace codesign

@@ -14,13 +14,17 @@
 namespace codesign {
 namespace {
 
-const char* const kHold = "{hold: {type: pid, input: hinge/position, setpoint: 0, output: hinge, gains: {p: 1}}}";
+const char* const kHold =
+    "{hold: {type: pid, input: hinge/position, setpoint: 0, output: hinge, gains: {p: 1}}}";
 
 /// A pendulum of one second, turning at `rate` [rad/s] at some time.
 struct Watched {
   explicit Watched(const std::string& solver, const std::string& controllers = kHold)
-      : system(compile(pendulum(), "duration: 1\ncontrollers: " + controllers +
-                                       "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " + solver + "\n")),
+      : system(compile(
+            pendulum(),
+            "duration: 1\ncontrollers: " + controllers +
+                "\nparameters: {}\nobjective: {integral: [{signal: hinge/position}]}\nsolver: " +
+                solver + "\n")),
         equations(*system),
         watch(*system) {
     equations.set_design({});
@@ -43,7 +47,8 @@ struct Watched {
   State<double> start;
 };
 
-// A fall through 0.5 m is sqrt(2 g / 0.5 m) = 6.3 rad/s: 63 rad/s are beyond reason, and so is a pace of 1e6 steps per second.
+// A fall through 0.5 m is sqrt(2 g / 0.5 m) = 6.3 rad/s: 63 rad/s are beyond reason, and so is a
+// pace of 1e6 steps per second.
 TEST(MotionWatch, EndsWhatIsBothTooFastAndTooMuchWork) {
   Watched slow("{}"), quick("{}"), neither("{}");
   EXPECT_TRUE(slow.check(5e-4, 60.0, 600).ok());
@@ -59,19 +64,22 @@ TEST(MotionWatch, JudgesThePaceOfTheLastStepsAlone) {
   Watched watched("{}");
   EXPECT_TRUE(watched.check(1e-5, 0.0, 600).ok());
   EXPECT_TRUE(watched.check(0.5, 70.0, 1200).ok());
-  EXPECT_TRUE(watched.check(0.5001, 70.0, 1600).ok()) << "a window of 400 steps is too short to tell";
+  EXPECT_TRUE(watched.check(0.5001, 70.0, 1600).ok())
+      << "a window of 400 steps is too short to tell";
   EXPECT_EQ(watched.check(0.5001, 70.0, 1800).code, StatusCode::kUnstableMotion);
 }
 
 TEST(MotionWatch, SpeedsAskedForAreWithinReason) {
-  const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 50, output: hinge, gains: {p: 1}}}";
+  const char* const spindle =
+      "{motor: {type: pid, input: hinge/velocity, setpoint: 50, output: hinge, gains: {p: 1}}}";
   EXPECT_TRUE(Watched("{}", spindle).check(5e-4, 490.0, 600).ok());
   EXPECT_FALSE(Watched("{}", spindle).check(5e-4, 510.0, 600).ok());
 }
 
 /// Watched, with a set-point of 5 rad/s that can be commanded.
 Status check_commanded(const LiveFunction& setpoint, const LiveFunction& effort, double rate) {
-  const char* const spindle = "{motor: {type: pid, input: hinge/velocity, setpoint: 5, output: hinge, gains: {p: 1}}}";
+  const char* const spindle =
+      "{motor: {type: pid, input: hinge/velocity, setpoint: 5, output: hinge, gains: {p: 1}}}";
   const Watched planned("{}", spindle);
   Study study = planned.system->study();
   *make_live(&study.controllers[0].setpoint) = setpoint;
@@ -99,7 +107,9 @@ TEST(MotionWatch, WhatNothingDrivesCannotRunAway) {
   EXPECT_FALSE(Watched("{maximum_speed: 20}", "{}").check(5e-4, 1e5, 600).ok());
 }
 
-TEST(MotionWatch, MoreStepsMayBeAllowed) { EXPECT_TRUE(Watched("{maximum_steps: 100000000}").check(5e-4, 70.0, 600).ok()); }
+TEST(MotionWatch, MoreStepsMayBeAllowed) {
+  EXPECT_TRUE(Watched("{maximum_steps: 100000000}").check(5e-4, 70.0, 600).ok());
+}
 
 TEST(MotionWatch, ASpeedGivenIsTheBoundAtOnce) {
   Watched watched("{maximum_speed: 20}");
@@ -119,13 +129,15 @@ End run(const std::string& urdf, const std::string& study) {
   const Problem problem = load_problem({"rounded.urdf", urdf}, {}, {"rounded.yaml", study});
   const auto integrator = make_integrator(*problem.system());
   Status status = integrator->start(problem.parameters());
-  while (status.ok() && integrator->state().t < problem.study().duration) status = integrator->advance(problem.study().duration);
+  while (status.ok() && integrator->state().t < problem.study().duration)
+    status = integrator->advance(problem.study().duration);
   return {status, integrator->statistics()};
 }
 
 TEST(Standstill, FrictionBeforeASingularPositionEndsTheRunWithItsTimeRankAndJoints) {
   for (double tolerance : {1e-6, 1e-8}) {
-    const End end = run(rounded::three_cranks(), rounded::study(rounded::three_cranks_start(), "j0/velocity", 1.0, tolerance));
+    const End end = run(rounded::three_cranks(), rounded::study(rounded::three_cranks_start(),
+                                                                "j0/velocity", 1.0, tolerance));
     EXPECT_EQ(end.status.code, StatusCode::kSingularConfiguration) << end.status.cause;
     EXPECT_NEAR(end.status.time, 0.3401, 1e-3);
     EXPECT_NE(end.status.cause.find("singular position"), std::string::npos) << end.status.cause;
@@ -136,15 +148,19 @@ TEST(Standstill, FrictionBeforeASingularPositionEndsTheRunWithItsTimeRankAndJoin
 }
 
 TEST(Standstill, ARunThatNeverComesNearIsLeftAlone) {
-  const End end = run(rounded::three_cranks(), rounded::study(rounded::three_cranks_start(), "j0/velocity", 0.1, 1e-6));
+  const End end = run(rounded::three_cranks(),
+                      rounded::study(rounded::three_cranks_start(), "j0/velocity", 0.1, 1e-6));
   EXPECT_TRUE(end.status.ok()) << end.status.cause;
 }
 
 TEST(Standstill, ARingWhoseRowsTakeTurnsIsNotCalledSingular) {
-  const End end = run(rounded::bennett(), rounded::study(rounded::bennett_start(), "t1/velocity", 1.0, 1e-7));
+  const End end =
+      run(rounded::bennett(), rounded::study(rounded::bennett_start(), "t1/velocity", 1.0, 1e-7));
   EXPECT_EQ(end.status.code, StatusCode::kSingularConfiguration) << end.status.cause;
   EXPECT_NEAR(end.status.time, 0.6803, 2e-3);
-  EXPECT_NE(end.status.cause.find("although all constraints together keep their rank"), std::string::npos) << end.status.cause;
+  EXPECT_NE(end.status.cause.find("although all constraints together keep their rank"),
+            std::string::npos)
+      << end.status.cause;
 }
 
 TEST(FiniteFrame, NamesWhatIsNot) {

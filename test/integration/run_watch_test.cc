@@ -13,7 +13,8 @@
 namespace codesign {
 namespace {
 
-std::shared_ptr<const CompiledSystem> swinging(const std::string& urdf, const std::string& initial, const std::string& signal,
+std::shared_ptr<const CompiledSystem> swinging(const std::string& urdf, const std::string& initial,
+                                               const std::string& signal,
                                                const std::string& solver) {
   return compile(urdf, motion_study(1.0, initial, signal, solver));
 }
@@ -27,8 +28,11 @@ const char* const kThrown = "{shoulder: {position: 0.7, velocity: 2.0}, elbow: {
 
 /// A run at its start, and the motion of its bodies.
 struct Started {
-  Started(const std::string& urdf, const std::string& initial, const std::string& signal, const std::string& coordinates)
-      : system(swinging(urdf, initial, signal, tight(coordinates))), integrator(*system), motion(*system) {
+  Started(const std::string& urdf, const std::string& initial, const std::string& signal,
+          const std::string& coordinates)
+      : system(swinging(urdf, initial, signal, tight(coordinates))),
+        integrator(*system),
+        motion(*system) {
     EXPECT_TRUE(integrator.start({}).ok());
     motion.set_design(integrator.equations());
   }
@@ -58,7 +62,8 @@ TEST(BodyMotion, SpeedsAndDistancesAreTheSameInBothCoordinates) {
     Eigen::VectorXd numbers(6);
     for (int body = 0; body < 2; ++body) {
       const auto [linear, angular] = run.motion.speed(body, state.v);
-      numbers.segment<3>(3 * Eigen::Index{body}) << run.motion.distance(body, state.q), linear, angular;
+      numbers.segment<3>(3 * Eigen::Index{body}) << run.motion.distance(body, state.q), linear,
+          angular;
     }
     return numbers;
   };
@@ -67,24 +72,27 @@ TEST(BodyMotion, SpeedsAndDistancesAreTheSameInBothCoordinates) {
   EXPECT_GT(joint.minCoeff(), 0.4);
 }
 
-// Without springs and friction nothing but gravity has power; a damper of 0.5 N m s at 3 rad/s takes 4.5 W.
+// Without springs and friction nothing but gravity has power; a damper of 0.5 N m s at 3 rad/s
+// takes 4.5 W.
 TEST(BodyMotion, PowerIsThatOfEverythingButGravity) {
   for (const char* coordinates : {"absolute", "joint"})
     for (double damping : {0.0, 0.5}) {
-      const Started run(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"), "{hinge: {position: 0.7, velocity: 3.0}}",
-                        "hinge/velocity", coordinates);
+      const Started run(pendulum("<dynamics damping='" + std::to_string(damping) + "'/>"),
+                        "{hinge: {position: 0.7, velocity: 3.0}}", "hinge/velocity", coordinates);
       const State<double>& state = run.integrator.state();
-      EXPECT_NEAR(run.motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11) << coordinates;
+      EXPECT_NEAR(run.motion.power(state.q, state.v, state.z), -damping * 9.0, 1e-11)
+          << coordinates;
     }
 }
 
 // The work of friction, by Gauss quadrature of the power that the friction law reports.
 TEST(StepWork, OfFrictionIsWhatTheLawTakes) {
   for (const char* method : {"rodas4", "rodas4p2", "rodas5p", "dopri5"}) {
-    const std::string solver =
-        std::string("{integrator: rosenbrock, method: ") + method + ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}";
+    const std::string solver = std::string("{integrator: rosenbrock, method: ") + method +
+                               ", relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}";
     const std::string urdf = double_pendulum(pin_friction()),
-                      study = motion_study(1.0, "{shoulder: {position: 1.5}}", "elbow/velocity", solver);
+                      study = motion_study(1.0, "{shoulder: {position: 1.5}}", "elbow/velocity",
+                                           solver);
     const Balance expected = balance(urdf, study);
     const auto system = compile(urdf, study);
     RosenbrockIntegrator integrator(*system);
@@ -104,16 +112,18 @@ TEST(StepWork, OfFrictionIsWhatTheLawTakes) {
 }
 
 std::string solver(const std::string& integrator, double tolerance) {
-  const std::string relative = std::to_string(tolerance * 1e10) + "e-10", absolute = std::to_string(tolerance * 1e10) + "e-11";
-  return "{integrator: " + integrator + ", relative_tolerance: " + relative + ", absolute_tolerance: " + absolute + "}";
+  const std::string relative = std::to_string(tolerance * 1e10) + "e-10",
+                    absolute = std::to_string(tolerance * 1e10) + "e-11";
+  return "{integrator: " + integrator + ", relative_tolerance: " + relative +
+         ", absolute_tolerance: " + absolute + "}";
 }
 
 /// A pendulum at its start, and a watch over it.
 class WatchedPendulum : public ::testing::Test {
  protected:
   WatchedPendulum()
-      : system_(compile(pendulum(),
-                        motion_study(1.0, "{hinge: {position: 1.0, velocity: 2.0}}", "hinge/velocity", solver("rosenbrock", 1e-6)))),
+      : system_(compile(pendulum(), motion_study(1.0, "{hinge: {position: 1.0, velocity: 2.0}}",
+                                                 "hinge/velocity", solver("rosenbrock", 1e-6)))),
         integrator_(*system_),
         watch_(*system_) {
     EXPECT_TRUE(integrator_.start({}).ok());
@@ -145,7 +155,8 @@ TEST_F(WatchedPendulum, DriftIsTheLargestCorrectionInUnitsOfItsTolerance) {
   positions[1] = 3e-7;  // y stays zero: the absolute tolerance, 1e-7
   EXPECT_NEAR(watch_.drift(state_, positions, velocities), 3.0, 1e-9);
   velocities[0] = -1e-4;
-  EXPECT_NEAR(watch_.drift(state_, positions, velocities), 1e-4 / (1e-7 + 1e-6 * std::abs(state_.v[0])), 1e-6);
+  EXPECT_NEAR(watch_.drift(state_, positions, velocities),
+              1e-4 / (1e-7 + 1e-6 * std::abs(state_.v[0])), 1e-6);
 }
 
 TEST_F(WatchedPendulum, DriftWarnsAndThenFails) {
@@ -191,7 +202,9 @@ TEST_F(WatchedPendulum, EnergyFromNowhereAtTheEndFailsAtOnce) {
 
 // The mechanism rests; its computed motion is only rounding.
 TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
-  const auto system = compile(pendulum(), motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
+  const auto system = compile(
+      pendulum(),
+      motion_study(2.0, "{hinge: {position: 0.0}}", "hinge/velocity", solver("rosenbrock", 1e-10)));
   RosenbrockIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({}).ok());
   while (integrator.state().t < 2.0) ASSERT_TRUE(integrator.advance(2.0).ok());
@@ -199,23 +212,31 @@ TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
   EXPECT_TRUE(integrator.warnings().empty());
 }
 
-// Two stiff springs hold a slide, without gravity; its vibration is less than the tolerances resolve.
+// Two stiff springs hold a slide, without gravity; its vibration is less than the tolerances
+// resolve.
 TEST(RunWatch, WhatSpringsHoldAtRestHasNoEnergyToBeChecked) {
-  const auto spring = [](const std::string& name, const std::string& at, const std::string& length) {
-    return "<codesign:spring_damper name='" + name + "' stiffness='1000000' damping='1000' free_length='" + length +
-           "'><predecessor link='ground'><origin xyz='" + at + " 0 0'/></predecessor><successor link='bar'/></codesign:spring_damper>";
+  const auto spring = [](const std::string& name, const std::string& at,
+                         const std::string& length) {
+    return "<codesign:spring_damper name='" + name +
+           "' stiffness='1000000' damping='1000' free_length='" + length +
+           "'><predecessor link='ground'><origin xyz='" + at +
+           " 0 0'/></predecessor><successor link='bar'/></codesign:spring_damper>";
   };
   const std::string slide = robot(bar("bar") +
-                                  "<joint name='slide' type='prismatic'><parent link='ground'/><child link='bar'/><axis xyz='1 0 0'/>"
+                                  "<joint name='slide' type='prismatic'><parent "
+                                  "link='ground'/><child link='bar'/><axis xyz='1 0 0'/>"
                                   "<limit effort='1' velocity='1'/></joint>" +
                                   spring("left", "-1", "0.5") + spring("right", "1", "0.5000001"));
   for (const char* integrator : {"rosenbrock", "idas"}) {
-    const auto system = compile(slide, motion_study(1.0, "{}", "slide/velocity", solver(integrator, 1e-6)) + "gravity: [0, 0, 0]\n");
+    const auto system =
+        compile(slide, motion_study(1.0, "{}", "slide/velocity", solver(integrator, 1e-6)) +
+                           "gravity: [0, 0, 0]\n");
     Simulation simulation(system, system->parameters());
     Status status = simulation.start();
     if (status.ok()) status = simulation.advance(1.0);
     EXPECT_TRUE(status.ok()) << integrator << ": " << status.cause;
-    EXPECT_TRUE(simulation.warnings().empty()) << integrator << ": " << simulation.statistics().energy_error;
+    EXPECT_TRUE(simulation.warnings().empty())
+        << integrator << ": " << simulation.statistics().energy_error;
   }
 }
 
@@ -223,25 +244,32 @@ double angle(const State<double>& state) { return 2.0 * std::atan2(state.q[5], s
 
 /// theta of upright_row(), which starts upright.
 double upright_angle(int count, double rate, double t) {
-  return reference_angle([count](double x) { return upright_row_acceleration(count, x); }, 0.0, rate, t, 40000);
+  return reference_angle([count](double x) { return upright_row_acceleration(count, x); }, 0.0,
+                         rate, t, 40000);
 }
 
-// IFToMM A02: ten seconds take it past its flat position a dozen times. `idas` used to leave the branch, with half as much energy again.
+// IFToMM A02: ten seconds take it past its flat position a dozen times. `idas` used to leave the
+// branch, with half as much energy again.
 TEST(RunWatch, ADoubleParallelogramKeepsToItsBranchOrSaysThatItDoesNot) {
   const double end = upright_angle(2, 1.0, 10.0);
   for (const char* integrator : {"rosenbrock", "idas"}) {
     for (double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
-      const auto system = compile(
-          upright_row(2), motion_study(10.0, "{hinge0: {position: 0.0, velocity: 1.0}}", "hinge0/velocity", solver(integrator, tolerance)));
+      const auto system =
+          compile(upright_row(2), motion_study(10.0, "{hinge0: {position: 0.0, velocity: 1.0}}",
+                                               "hinge0/velocity", solver(integrator, tolerance)));
       const auto run = make_integrator(*system);
       Status status = run->start({});
       while (status.ok() && run->state().t < 10.0) status = run->advance(10.0);
-      ASSERT_TRUE(status.ok() || tolerance > 1e-5) << integrator << " at " << tolerance << ": " << status.cause;
+      ASSERT_TRUE(status.ok() || tolerance > 1e-5)
+          << integrator << " at " << tolerance << ": " << status.cause;
       if (!status.ok()) {
-        EXPECT_TRUE(status.code == StatusCode::kEnergyError || status.code == StatusCode::kConstraintDrift) << status.cause;
+        EXPECT_TRUE(status.code == StatusCode::kEnergyError ||
+                    status.code == StatusCode::kConstraintDrift)
+            << status.cause;
         continue;
       }
-      EXPECT_NEAR(std::sin(0.5 * (angle(run->state()) - end)), 0.0, 3e3 * tolerance) << integrator << " at " << tolerance;
+      EXPECT_NEAR(std::sin(0.5 * (angle(run->state()) - end)), 0.0, 3e3 * tolerance)
+          << integrator << " at " << tolerance;
       EXPECT_TRUE(run->warnings().empty()) << run->warnings()[0].message;
       EXPECT_GT(run->statistics().constraint_drift, 0.0);
       EXPECT_GT(run->statistics().energy_error, 0.0);
@@ -249,14 +277,20 @@ TEST(RunWatch, ADoubleParallelogramKeepsToItsBranchOrSaysThatItDoesNot) {
   }
 }
 
-// With a tight absolute tolerance nearly every step is a restart there, with ever shorter steps: 200,000 of them took minutes.
+// With a tight absolute tolerance nearly every step is a restart there, with ever shorter steps:
+// 200,000 of them took minutes.
 TEST(RunWatch, IdasThatStandsStillAtAFlatPositionSaysSo) {
-  const std::string solver = "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}";
-  const auto system = compile(upright_row(2), motion_study(10.0, "{hinge0: {position: 0.0, velocity: 1.0}}", "hinge0/velocity", solver));
+  const std::string solver =
+      "{integrator: idas, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}";
+  const auto system = compile(
+      upright_row(2),
+      motion_study(10.0, "{hinge0: {position: 0.0, velocity: 1.0}}", "hinge0/velocity", solver));
   const auto run = make_integrator(*system);
   Status status = run->start({});
   while (status.ok() && run->state().t < 10.0) status = run->advance(10.0);
-  EXPECT_TRUE(status.code == StatusCode::kStepSizeTooSmall || status.code == StatusCode::kSingularConfiguration) << status.cause;
+  EXPECT_TRUE(status.code == StatusCode::kStepSizeTooSmall ||
+              status.code == StatusCode::kSingularConfiguration)
+      << status.cause;
   EXPECT_NEAR(status.time, 0.714, 0.001);
   EXPECT_LT(run->statistics().steps, 10000);
 }
@@ -266,20 +300,25 @@ TEST(RunWatch, ABricardRingIsRightByBothIntegratorsOrSaysThatItIsNot) {
   State<double> reference;
   for (const char* integrator : {"rosenbrock", "idas"}) {
     for (double tolerance : {1e-9, 1e-8, 1e-7, 1e-6}) {
-      const auto system = compile(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity", solver(integrator, tolerance)));
+      const auto system =
+          compile(bricard(), motion_study(2.0, bricard_start(1.2, 0.7), "turn1/velocity",
+                                          solver(integrator, tolerance)));
       const auto run = make_integrator(*system);
       Status status = run->start({});
       while (status.ok() && run->state().t < 2.0) status = run->advance(2.0);
       ASSERT_TRUE(status.ok()) << integrator << " at " << tolerance << ": " << status.cause;
       if (reference.q.size() == 0) reference = run->state();
-      EXPECT_LT((run->state().q - reference.q).cwiseAbs().maxCoeff(), 1e4 * tolerance) << integrator << " at " << tolerance;
+      EXPECT_LT((run->state().q - reference.q).cwiseAbs().maxCoeff(), 1e4 * tolerance)
+          << integrator << " at " << tolerance;
     }
   }
 }
 
-// Gravity along the hinges: the redundant ring gives way by its compliance, less than the absolute tolerance resolves.
+// Gravity along the hinges: the redundant ring gives way by its compliance, less than the absolute
+// tolerance resolves.
 TEST(RunWatch, AMechanismThatHardlyMovesIsNotJudgedByWhatNoToleranceResolves) {
-  const std::string text = motion_study(2.0, "{left_hinge: {position: 0.3}}", "left_hinge/velocity", solver("rosenbrock", 1e-6));
+  const std::string text = motion_study(2.0, "{left_hinge: {position: 0.3}}", "left_hinge/velocity",
+                                        solver("rosenbrock", 1e-6));
   const auto system = compile(four_bar(), text + "gravity: [0, -9.81, 0]\n");
   Simulation simulation(system, system->parameters());
   Status status = simulation.start();

@@ -14,25 +14,32 @@ namespace {
 constexpr double kPeriod = 0.01;
 
 /// A mass of 1 kg on a slide, driven by a sampled PD on its position; no gravity, no friction.
-std::shared_ptr<const CompiledSystem> cart(const std::string& gains, const std::string& keys, const std::string& integrator,
-                                           double duration) {
+std::shared_ptr<const CompiledSystem> cart(const std::string& gains, const std::string& keys,
+                                           const std::string& integrator, double duration) {
   const std::string urdf = robot(
-      "<link name='cart'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+      "<link name='cart'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+      "ixz='0' "
       "iyz='0'/></inertial></link>"
-      "<joint name='slide' type='prismatic'><parent link='ground'/><child link='cart'/><axis xyz='1 0 0'/><limit effort='1' "
+      "<joint name='slide' type='prismatic'><parent link='ground'/><child link='cart'/><axis "
+      "xyz='1 0 0'/><limit effort='1' "
       "velocity='1'/></joint>");
   return compile(
-      urdf, "duration: " + std::to_string(duration) +
-                "\ngravity: [0.0, 0.0, 0.0]\ninitial_state: {slide: {position: 0.1, velocity: 0.3}}\ncontrollers: {pd: {type: pid, input: "
-                "slide/position, setpoint: 0.0, output: slide, gains: " +
-                gains + ", sample_time: 0.01" + keys + "}}\nsolver: {integrator: " + integrator +
-                ", relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11, maximum_speed: 1.0e6}\n");
+      urdf,
+      "duration: " + std::to_string(duration) +
+          "\ngravity: [0.0, 0.0, 0.0]\ninitial_state: {slide: {position: 0.1, velocity: "
+          "0.3}}\ncontrollers: {pd: {type: pid, input: "
+          "slide/position, setpoint: 0.0, output: slide, gains: " +
+          gains + ", sample_time: 0.01" + keys + "}}\nsolver: {integrator: " + integrator +
+          ", relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11, maximum_speed: 1.0e6}\n");
 }
 
-std::string pd(double p, double d) { return "{p: " + std::to_string(p) + ", d: " + std::to_string(d) + "}"; }
+std::string pd(double p, double d) {
+  return "{p: " + std::to_string(p) + ", d: " + std::to_string(d) + "}";
+}
 
-/// One sample of the closed loop for (x, v, x at the sample before, outputs that wait, the oldest first): the controller reads x, the
-/// output that comes into effect drives the mass for one period.
+/// One sample of the closed loop for (x, v, x at the sample before, outputs that wait, the oldest
+/// first): the controller reads x, the output that comes into effect drives the mass for one
+/// period.
 Eigen::MatrixXd closed_loop(double p, double d, int wait) {
   const double T = kPeriod;
   const Eigen::Index size = 3 + wait;
@@ -55,21 +62,24 @@ Eigen::MatrixXd closed_loop(double p, double d, int wait) {
 
 double spectral_radius(const Eigen::MatrixXd& A) { return A.eigenvalues().cwiseAbs().maxCoeff(); }
 
-/// The largest stable p of the loop without delay, by Jury's criterion for z^3 + (a + b - 2) z^2 + (1 + a) z - b with a = p T^2/2 and
-/// b = d T/2: a < 2 b (1 - b)/(1 + b). (Astrom and Wittenmark, Computer-Controlled Systems, 3.2.)
+/// The largest stable p of the loop without delay, by Jury's criterion for z^3 + (a + b - 2) z^2 +
+/// (1 + a) z - b with a = p T^2/2 and b = d T/2: a < 2 b (1 - b)/(1 + b). (Astrom and Wittenmark,
+/// Computer-Controlled Systems, 3.2.)
 double critical_gain(double d) {
   const double b = 0.5 * d * kPeriod;
   return 2.0 / (kPeriod * kPeriod) * 2.0 * b * (1.0 - b) / (1.0 + b);
 }
 
 /// Positions at the samples.
-std::vector<double> simulate_cart(const std::shared_ptr<const CompiledSystem>& system, int samples) {
+std::vector<double> simulate_cart(const std::shared_ptr<const CompiledSystem>& system,
+                                  int samples) {
   Simulation simulation(system, {}, {parse_signal("slide/position", {}, "signal")});
   std::vector<double> positions;
-  const Status status = simulate(&simulation, samples * kPeriod, samples + 1, [&](const Frame& frame) {
-    positions.push_back(frame.signals[0]);
-    return true;
-  });
+  const Status status =
+      simulate(&simulation, samples * kPeriod, samples + 1, [&](const Frame& frame) {
+        positions.push_back(frame.signals[0]);
+        return true;
+      });
   EXPECT_TRUE(status.ok()) << status.cause;
   return positions;
 }
@@ -79,13 +89,15 @@ TEST(SampledControl, MovesADoubleIntegratorFromSampleToSampleAsItsMatrixSays) {
   for (const char* integrator : {"rosenbrock", "idas"})
     for (const int wait : {0, 1, 3}) {
       const std::string delay = wait == 0 ? "" : ", delay: " + std::to_string(wait * kPeriod);
-      const std::vector<double> positions = simulate_cart(cart(pd(900.0, 40.0), delay, integrator, kSamples * kPeriod), kSamples);
+      const std::vector<double> positions =
+          simulate_cart(cart(pd(900.0, 40.0), delay, integrator, kSamples * kPeriod), kSamples);
       ASSERT_EQ(positions.size(), kSamples + 1u);
       const Eigen::MatrixXd A = closed_loop(900.0, 40.0, wait);
       Eigen::VectorXd state = Eigen::VectorXd::Zero(A.rows());
       state << 0.1, 0.3, 0.1, Eigen::VectorXd::Zero(wait);
       for (int k = 0; k <= kSamples; ++k) {
-        EXPECT_NEAR(positions[static_cast<std::size_t>(k)], state[0], 1e-7 * (1.0 + std::abs(state[0])))
+        EXPECT_NEAR(positions[static_cast<std::size_t>(k)], state[0],
+                    1e-7 * (1.0 + std::abs(state[0])))
             << integrator << " " << wait << " " << k;
         state = A * state;
       }
@@ -94,10 +106,12 @@ TEST(SampledControl, MovesADoubleIntegratorFromSampleToSampleAsItsMatrixSays) {
 
 TEST(SampledControl, LosesStabilityAtTheGainOfTheTextbook) {
   const double d = 60.0, critical = critical_gain(d);
-  EXPECT_NEAR(spectral_radius(closed_loop(critical, d, 0)), 1.0, 1e-9) << "the eigenvalues say what Jury's criterion says";
+  EXPECT_NEAR(spectral_radius(closed_loop(critical, d, 0)), 1.0, 1e-9)
+      << "the eigenvalues say what Jury's criterion says";
   constexpr int kSamples = 400;
   const auto growth = [&](double p) {
-    const std::vector<double> x = simulate_cart(cart(pd(p, d), "", "rosenbrock", kSamples * kPeriod), kSamples);
+    const std::vector<double> x =
+        simulate_cart(cart(pd(p, d), "", "rosenbrock", kSamples * kPeriod), kSamples);
     double early = 0.0, late = 0.0;
     for (std::size_t k = 0; k < 100; ++k) {
       early = std::max(early, std::abs(x[100 + k]));
@@ -113,9 +127,12 @@ TEST(SampledControl, LosesStabilityAtTheGainOfTheTextbook) {
 }
 
 TEST(SampledControl, RoundsWhatItMeasures) {
-  // x = 0.1 + 0.3 t with a gain of zero would not show; a small gain and a coarse encoder give outputs in multiples of p q.
+  // x = 0.1 + 0.3 t with a gain of zero would not show; a small gain and a coarse encoder give
+  // outputs in multiples of p q.
   const auto system = cart("{p: 0.01}", ", quantization: 0.02", "rosenbrock", 0.5);
-  Simulation simulation(system, {}, {parse_signal("pd/output", {}, "signal"), parse_signal("slide/position", {}, "signal")});
+  Simulation simulation(
+      system, {},
+      {parse_signal("pd/output", {}, "signal"), parse_signal("slide/position", {}, "signal")});
   int changes = 0;
   double last = 0.0;
   const Status status = simulate(&simulation, 0.495, 100, [&](const Frame& frame) {

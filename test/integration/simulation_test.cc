@@ -15,14 +15,16 @@
 namespace codesign {
 namespace {
 
-const char* const kTight = "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n";
+const char* const kTight =
+    "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n";
 
 std::shared_ptr<const CompiledSystem> system_of(const std::string& urdf, const std::string& study) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   return make_system(robot, read_study({"test.yaml", study}, robot));
 }
 
-/// A small swing of a bar, and its angular frequency: the root of 9.81 * 0.5 over its moment of inertia about the hinge.
+/// A small swing of a bar, and its angular frequency: the root of 9.81 * 0.5 over its moment of
+/// inertia about the hinge.
 std::shared_ptr<const CompiledSystem> small_swing() {
   return system_of(pendulum(), let_go("{hinge: {position: 1.0e-4}}", "hinge/position", kTight));
 }
@@ -36,7 +38,8 @@ TEST(Simulation, ASmallSwingIsHarmonicBetweenStepsToo) {
     const double phase = kFrequency * frame.time;
     EXPECT_NEAR(frame.joints[0].position, 1e-4 * std::cos(phase), 1e-11);
     EXPECT_NEAR(frame.signals[0], -1e-4 * kFrequency * std::sin(phase), 1e-10);
-    EXPECT_NEAR(frame.joints[0].acceleration, -1e-4 * kFrequency * kFrequency * std::cos(phase), 1e-9);
+    EXPECT_NEAR(frame.joints[0].acceleration, -1e-4 * kFrequency * kFrequency * std::cos(phase),
+                1e-9);
     return true;
   });
   ASSERT_TRUE(status.ok()) << status.cause;
@@ -83,7 +86,9 @@ TEST(Simulation, RunsOnBeyondTheDuration) {
 }
 
 TEST(Simulation, ContinuousJointsCountTheirTurns) {
-  Simulation simulation(system_of(pendulum(), let_go("{hinge: {position: 14.0, velocity: 20.0}}", "hinge/velocity", kTight)), {});
+  Simulation simulation(system_of(pendulum(), let_go("{hinge: {position: 14.0, velocity: 20.0}}",
+                                                     "hinge/velocity", kTight)),
+                        {});
   double previous = 14.0;
   const Status status = simulate(&simulation, 1.0, 101, [&](const Frame& frame) {
     EXPECT_GE(frame.joints[0].position, previous);
@@ -98,7 +103,8 @@ TEST(Simulation, ContinuousJointsCountTheirTurns) {
 TEST(Simulation, AnObserverMayEndIt) {
   Simulation simulation(small_swing(), {});
   int frames = 0;
-  const Status status = simulate(&simulation, 1.0, 11, [&frames](const Frame&) { return ++frames < 3; });
+  const Status status =
+      simulate(&simulation, 1.0, 11, [&frames](const Frame&) { return ++frames < 3; });
   EXPECT_EQ(status.code, StatusCode::kCancelled);
   EXPECT_NEAR(status.time, 0.2, 1e-15);
   EXPECT_EQ(frames, 3);

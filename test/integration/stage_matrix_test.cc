@@ -25,13 +25,18 @@ class StageProductTest : public ::testing::TestWithParam<bool> {
   void compare() {
     const StageProduct product(*system, GetParam());
     const Layout& layout = system->layout();
-    const Eigen::Matrix<double, N, Eigen::Dynamic> xv = Eigen::Matrix<double, N, Eigen::Dynamic>::Random(N, layout.positions() + layout.n);
-    Eigen::Matrix<double, N, Eigen::Dynamic> y = Eigen::Matrix<double, N, Eigen::Dynamic>::Random(N, layout.columns()), expected = y;
+    const Eigen::Matrix<double, N, Eigen::Dynamic> xv =
+        Eigen::Matrix<double, N, Eigen::Dynamic>::Random(N, layout.positions() + layout.n);
+    Eigen::Matrix<double, N, Eigen::Dynamic> y = Eigen::Matrix<double, N, Eigen::Dynamic>::Random(
+                                                 N, layout.columns()),
+                                             expected = y;
     for (int lane = 0; lane < N; ++lane) {
-      const VectorX<double> x = xv.row(lane).head(layout.positions()), v = xv.row(lane).tail(layout.n);
+      const VectorX<double> x = xv.row(lane).head(layout.positions()),
+                            v = xv.row(lane).tail(layout.n);
       for (int row = 0; row < layout.columns(); ++row)
-        expected(lane, row) -= row_product(system->patterns().position, derivatives.position, row, x) +
-                               row_product(system->patterns().velocity, derivatives.velocity, row, v);
+        expected(lane, row) -=
+            row_product(system->patterns().position, derivatives.position, row, x) +
+            row_product(system->patterns().velocity, derivatives.velocity, row, v);
     }
     product.subtract<N>(derivatives, xv, y);
     EXPECT_LT((y - expected).cwiseAbs().maxCoeff(), 1e-13);
@@ -51,7 +56,9 @@ TEST_P(StageProductTest, IsThatOfBothMatricesForOneAndForSeveralVectors) {
 INSTANTIATE_TEST_SUITE_P(MachineCodeAndLoops, StageProductTest, ::testing::Bool());
 
 TEST(Projection, TakesDriftAwayAndMovesByNoMore) {
-  const auto system = compile(double_pendulum(), motion_study(1.0, "{shoulder: {position: 0.7, velocity: 2.0}}", "elbow/velocity", "{}"));
+  const auto system = compile(
+      double_pendulum(),
+      motion_study(1.0, "{shoulder: {position: 0.7, velocity: 2.0}}", "elbow/velocity", "{}"));
   RosenbrockIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({}).ok());
   Projection projection(*system);
@@ -71,7 +78,9 @@ TEST(Projection, TakesDriftAwayAndMovesByNoMore) {
 }
 
 TEST(Projection, LeavesAConsistentStateAlone) {
-  const auto system = compile(double_pendulum(), motion_study(1.0, "{shoulder: {position: 0.7, velocity: 2.0}}", "elbow/velocity", "{}"));
+  const auto system = compile(
+      double_pendulum(),
+      motion_study(1.0, "{shoulder: {position: 0.7, velocity: 2.0}}", "elbow/velocity", "{}"));
   RosenbrockIntegrator integrator(*system);
   ASSERT_TRUE(integrator.start({}).ok());
   State<double> state = integrator.state();

@@ -37,7 +37,8 @@ TEST(StepController, ChangesAreLimited) {
 
 TEST(StepController, AnErrorThatIsNoNumberIsARejection) {
   double proposal = 0.0;
-  for (double error : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (double error :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_FALSE(StepController(4).accept(1.0, error, &proposal));
     EXPECT_EQ(proposal, 0.2);
   }
@@ -66,14 +67,17 @@ TEST(StepController, AGrowingErrorIsForeseen) {
 }
 
 Study study_of(const std::string& controllers, const std::string& reference = "0.0") {
-  return read_study({"test.yaml", "duration: 2.0\ncontrollers:\n" + controllers +
-                                      "objective: {integral: [{signal: hinge/position, reference: " + reference + "}]}\n"},
-                    read_urdf({"test.urdf", pendulum()}));
+  return read_study(
+      {"test.yaml", "duration: 2.0\ncontrollers:\n" + controllers +
+                        "objective: {integral: [{signal: hinge/position, reference: " + reference +
+                        "}]}\n"},
+      read_urdf({"test.urdf", pendulum()}));
 }
 
 TEST(BreakTimes, AreWaypointsOfSetpointsAndReferences) {
   const BreakTimes breaks(
-      study_of("  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: {type: waypoints, times: [0.5, 1.5], "
+      study_of("  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: "
+               "{type: waypoints, times: [0.5, 1.5], "
                "positions: [0, 1]}}\n",
                "{type: waypoints, times: [0.0, 0.7], positions: [0, 1]}"));
   EXPECT_EQ(breaks.next(0.0, 2.0), 0.5);
@@ -84,19 +88,26 @@ TEST(BreakTimes, AreWaypointsOfSetpointsAndReferences) {
 }
 
 TEST(BreakTimes, OfAShapedInputAreItsKinks) {
-  const BreakTimes linear(study_of("  a: {type: basis, output: hinge, duration: 1.0, coefficients: [0, 1, 0]}\n"));
+  const BreakTimes linear(
+      study_of("  a: {type: basis, output: hinge, duration: 1.0, coefficients: [0, 1, 0]}\n"));
   EXPECT_EQ(linear.next(0.0, 2.0), 0.5);
   EXPECT_EQ(linear.next(0.5, 2.0), 1.0);
-  const BreakTimes cubic(study_of("  a: {type: basis, shape: cubic, output: hinge, duration: 1.0, coefficients: [0, 1, 0, 2, 3, 0]}\n"));
+  const BreakTimes cubic(
+      study_of("  a: {type: basis, shape: cubic, output: hinge, duration: 1.0, coefficients: [0, "
+               "1, 0, 2, 3, 0]}\n"));
   EXPECT_EQ(cubic.next(0.0, 2.0), 1.0);
-  EXPECT_EQ(BreakTimes(study_of("  a: {type: basis, output: hinge, coefficients: [0, 1]}\n")).next(0.0, 0.3), 0.3);
+  EXPECT_EQ(BreakTimes(study_of("  a: {type: basis, output: hinge, coefficients: [0, 1]}\n"))
+                .next(0.0, 0.3),
+            0.3);
 }
 
 TEST(BreakTimes, OfSamplesAreTheSamplesAtTheDelayOfTheStart) {
-  Study study = study_of("  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: 0.0}\n");
+  Study study = study_of(
+      "  a: {type: pid, input: hinge/position, output: hinge, gains: {p: 1.0}, setpoint: 0.0}\n");
   ReferenceDescription& setpoint = study.controllers.front().setpoint;
   setpoint.kind = ReferenceDescription::Kind::kSampled;
-  setpoint.sampled.samples = std::make_shared<const SampledFunction>(std::vector<double>{0.5, 0.75}, std::vector<double>{0.0, 1.0});
+  setpoint.sampled.samples = std::make_shared<const SampledFunction>(std::vector<double>{0.5, 0.75},
+                                                                     std::vector<double>{0.0, 1.0});
   setpoint.sampled.delay = Quantity(0.125);
   const BreakTimes breaks(study);
   EXPECT_EQ(breaks.next(0.0, 2.0), 0.375);
@@ -107,13 +118,16 @@ TEST(BreakTimes, OfSamplesAreTheSamplesAtTheDelayOfTheStart) {
 // The push acts for 20 ms in the middle of a long rest.
 TEST(BreakTimes, NothingIsOverlookedAfterARest) {
   for (const char* integrator : {"rosenbrock", "idas"}) {
-    const auto system =
-        compile(pendulum(),
-                std::string("duration: 2.0\nobjective: {integral: [{signal: hinge/velocity}]}\ncontrollers:\n"
-                            "  push: {type: state_feedback, output: hinge, feedback: [{signal: hinge/velocity, gain: 0.0}],\n"
-                            "    feedforward: {type: waypoints, times: [1.0, 1.01, 1.02], positions: [0, 10, 0], interpolation: linear}}\n"
-                            "solver: {integrator: ") +
-                    integrator + "}\n");
+    const auto system = compile(
+        pendulum(),
+        std::string(
+            "duration: 2.0\nobjective: {integral: [{signal: hinge/velocity}]}\ncontrollers:\n"
+            "  push: {type: state_feedback, output: hinge, feedback: [{signal: hinge/velocity, "
+            "gain: 0.0}],\n"
+            "    feedforward: {type: waypoints, times: [1.0, 1.01, 1.02], positions: [0, 10, 0], "
+            "interpolation: linear}}\n"
+            "solver: {integrator: ") +
+            integrator + "}\n");
     const auto engine = make_integrator(*system);
     ASSERT_TRUE(engine->start({}).ok());
     std::vector<double> ends;
@@ -122,7 +136,9 @@ TEST(BreakTimes, NothingIsOverlookedAfterARest) {
       ends.push_back(engine->state().t);
     }
     for (double time : {1.0, 1.01, 1.02})
-      EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [time](double end) { return std::abs(end - time) < 1e-12; })) << integrator << time;
+      EXPECT_TRUE(std::any_of(ends.begin(), ends.end(),
+                              [time](double end) { return std::abs(end - time) < 1e-12; }))
+          << integrator << time;
     EXPECT_GT(engine->psi(), 1e-3) << integrator;
   }
 }

@@ -27,7 +27,8 @@ double integrate(const RosenbrockTableau& tableau, int steps, double* dense_midd
         stage += tableau.a[i][j] * u[j];
         sum += tableau.c[i][j] / h * u[j];
       }
-      u.push_back(tableau.is_explicit() ? h * f(stage) : (f(stage) + sum) / (1.0 / (h * tableau.gamma) - J));
+      u.push_back(tableau.is_explicit() ? h * f(stage)
+                                        : (f(stage) + sum) / (1.0 / (h * tableau.gamma) - J));
     }
     double end = y;
     for (std::size_t j = 0; j < u.size(); ++j) end += tableau.weights[j] * u[j];
@@ -35,7 +36,8 @@ double integrate(const RosenbrockTableau& tableau, int steps, double* dense_midd
       *dense_middle = 0.5 * (y + end);
       for (int k = 0; k < tableau.dense_terms; ++k)
         for (std::size_t j = 0; j < u.size(); ++j)
-          *dense_middle += 0.25 * std::pow(0.5, k) * tableau.dense[static_cast<std::size_t>(k)][j] * u[j];
+          *dense_middle +=
+              0.25 * std::pow(0.5, k) * tableau.dense[static_cast<std::size_t>(k)][j] * u[j];
     }
     y = end;
   }
@@ -48,7 +50,8 @@ TEST_P(Tableau, ConvergesAtItsOrder) {
   const RosenbrockTableau& tableau = rosenbrock_tableau(method_named(GetParam()));
   double unused = 0.0;
   const double exact = integrate(rodas5p(), 4096, &unused);
-  const double coarse = std::abs(integrate(tableau, 8, &unused) - exact), fine = std::abs(integrate(tableau, 16, &unused) - exact);
+  const double coarse = std::abs(integrate(tableau, 8, &unused) - exact),
+               fine = std::abs(integrate(tableau, 16, &unused) - exact);
   EXPECT_NEAR(std::log2(coarse / fine), tableau.order, 0.5);
 }
 
@@ -63,7 +66,8 @@ TEST_P(Tableau, DenseOutputIsOneOrderLess) {
     double y = 1.0;
     const double h = 0.5 / steps[k] / fine;
     for (int n = 0; n < fine; ++n) {
-      const double k1 = f(y), k2 = f(y + 0.5 * h * k1), k3 = f(y + 0.5 * h * k2), k4 = f(y + h * k3);
+      const double k1 = f(y), k2 = f(y + 0.5 * h * k1), k3 = f(y + 0.5 * h * k2),
+                   k4 = f(y + h * k3);
       y += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
     }
     exact[k] = y;
@@ -84,7 +88,8 @@ TEST_P(Tableau, HasItsLastStageAtTheEnd) {
 TEST_P(Tableau, SlopesAndCurvaturesOfTheDenseOutputAreItsDerivatives) {
   const RosenbrockTableau& t = rosenbrock_tableau(method_named(GetParam()));
   const double theta = 0.3, step = 1e-5;
-  const auto before = dense_weights(t, theta - step), behind = dense_weights(t, theta + step), at = dense_weights(t, theta);
+  const auto before = dense_weights(t, theta - step), behind = dense_weights(t, theta + step),
+             at = dense_weights(t, theta);
   const auto slopes = dense_weight_slopes(t, theta), curvatures = dense_weight_curvatures(t, theta);
   for (std::size_t j = 0; j < static_cast<std::size_t>(t.stages); ++j) {
     EXPECT_NEAR(slopes[j], (behind[j] - before[j]) / (2.0 * step), 1e-7);
@@ -101,13 +106,15 @@ TEST(Dopri5, RatesOfTheDenseOutputAreThoseOfItsEnds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Tableau, ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
+INSTANTIATE_TEST_SUITE_P(All, Tableau,
+                         ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
 
 TEST(TableauNames, AreThoseOfStudies) {
   for (const char* name : kRosenbrockMethodNames) {
     const bool is_automatic = method_named(name) == RosenbrockMethod::kAuto;
     EXPECT_STREQ(rosenbrock_tableau(method_named(name)).name, is_automatic ? "dopri5" : name);
-    EXPECT_EQ(most_stages(method_named(name)), is_automatic ? 8 : rosenbrock_tableau(method_named(name)).stages);
+    EXPECT_EQ(most_stages(method_named(name)),
+              is_automatic ? 8 : rosenbrock_tableau(method_named(name)).stages);
   }
 }
 

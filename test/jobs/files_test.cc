@@ -46,7 +46,8 @@ TEST(WholeFile, AFullDiskLeavesTheOldFileAndNoPart) {
 
 TEST(GiveFinalName, NeverReplacesAFile) {
   const TemporaryDirectory directory;
-  const std::string active = (directory.path() / "a.active").string(), path = (directory.path() / "a").string();
+  const std::string active = (directory.path() / "a.active").string(),
+                    path = (directory.path() / "a").string();
   write_whole_file(active, "mine");
   write_whole_file(path, "another's");
   EXPECT_THROW(give_final_name(active, path), OutputError);
@@ -106,14 +107,18 @@ TEST_F(Locks, OfManyProcessesEachGetsAnother) {
     for (int number = 0;; ++number) {
       const auto lock = LockFile::create(path_ + std::to_string(number));
       if (!lock) continue;
-      std::ofstream((directory_.path() / "log").string() + std::to_string(number), std::ios::app) << "x";
+      std::ofstream((directory_.path() / "log").string() + std::to_string(number), std::ios::app)
+          << "x";
       usleep(200000);
       _exit(0);
     }
   }
   for (int k = 0; k < kProcesses; ++k) waitpid(-1, nullptr, 0);
   for (int number = 0; number < kProcesses; ++number)
-    EXPECT_EQ(std::filesystem::file_size((directory_.path() / "log").string() + std::to_string(number)), 1U) << number;
+    EXPECT_EQ(
+        std::filesystem::file_size((directory_.path() / "log").string() + std::to_string(number)),
+        1U)
+        << number;
 }
 
 }  // namespace

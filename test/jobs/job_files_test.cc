@@ -55,7 +55,8 @@ class Names : public testing::Test {
     int status = 0;
     waitpid(child, &status, 0);
     for (const auto& entry : std::filesystem::directory_iterator(folder()))
-      if (entry.path().extension() == ".job") return (entry.path().parent_path() / entry.path().stem()).string();
+      if (entry.path().extension() == ".job")
+        return (entry.path().parent_path() / entry.path().stem()).string();
     return "";
   }
 
@@ -74,12 +75,16 @@ class Names : public testing::Test {
 
 TEST_F(Names, TellTheRobotAndTheTimeInAFolderTheyMake) {
   const JobFiles job(folder() + "/a/b", "slider_crank");
-  EXPECT_TRUE(std::regex_match(job.bag(), std::regex(folder() + R"(/a/b/slider_crank_\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d\.bag)"))) << job.bag();
+  EXPECT_TRUE(std::regex_match(
+      job.bag(), std::regex(folder() + R"(/a/b/slider_crank_\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d\.bag)")))
+      << job.bag();
 }
 
 TEST_F(Names, CannotLeadOutOfTheFolder) {
-  EXPECT_EQ(std::filesystem::path(JobFiles(folder(), "../../etc/evil robot").bag()).parent_path(), directory_.path());
-  EXPECT_EQ(std::filesystem::path(JobFiles(folder(), "").bag()).filename().string().substr(0, 6), "robot_");
+  EXPECT_EQ(std::filesystem::path(JobFiles(folder(), "../../etc/evil robot").bag()).parent_path(),
+            directory_.path());
+  EXPECT_EQ(std::filesystem::path(JobFiles(folder(), "").bag()).filename().string().substr(0, 6),
+            "robot_");
 }
 
 TEST_F(Names, OfAnyLengthAreShortEnoughForEveryFileOfTheJob) {
@@ -102,22 +107,27 @@ TEST_F(Names, OfManyJobsInOneSecondDiffer) {
 
 TEST_F(Names, OfJobsThatFollowEachOtherDoNotMeetWhatIsThere) {
   std::set<std::string> stems;
-  for (const std::string suffix : {".bag", ".bag.active", ".best.json", ".best.urdf", ".journal.jsonl"}) {
+  for (const std::string suffix :
+       {".bag", ".bag.active", ".best.json", ".best.urdf", ".journal.jsonl"}) {
     const JobFiles job(folder(), "r");
     EXPECT_TRUE(stems.insert(job.stem()).second) << suffix;
     std::ofstream(job.stem() + suffix) << "x";
   }
 }
 
-TEST_F(Names, AFolderThatCannotBeMadeIsAnOutputError) { EXPECT_THROW(JobFiles("/dev/null/bags", "r"), OutputError); }
+TEST_F(Names, AFolderThatCannotBeMadeIsAnOutputError) {
+  EXPECT_THROW(JobFiles("/dev/null/bags", "r"), OutputError);
+}
 
 TEST_F(Names, LeftoversOfKilledJobsGoAndAreSaid) {
-  const std::string stem = killed_job({".bag.active", ".best.json", ".best.urdf", ".best.json.part"});
+  const std::string stem =
+      killed_job({".bag.active", ".best.json", ".best.urdf", ".best.json.part"});
   const std::vector<std::string> said = remove_leftovers(folder());
   ASSERT_EQ(said.size(), 1U);
   EXPECT_NE(said[0].find("removed " + stem + ".bag.active"), std::string::npos) << said[0];
   EXPECT_NE(said[0].find(stem + ".best.json"), std::string::npos) << said[0];
-  for (const char* gone : {".bag.active", ".best.json.part", ".job"}) EXPECT_FALSE(is_there(stem + gone)) << gone;
+  for (const char* gone : {".bag.active", ".best.json.part", ".job"})
+    EXPECT_FALSE(is_there(stem + gone)) << gone;
   for (const char* kept : {".best.json", ".best.urdf"}) EXPECT_TRUE(is_there(stem + kept)) << kept;
   EXPECT_TRUE(remove_leftovers(folder()).empty());
 }
@@ -145,7 +155,9 @@ TEST_F(Names, ANodeThatStartsSaysHowAKilledJobIsResumed) {
   const std::string stem = killed_job({".bag.active", ".journal.jsonl"});
   const std::vector<std::string> said = remove_leftovers(folder());
   ASSERT_EQ(said.size(), 1U);
-  EXPECT_NE(said[0].find("resume: " + std::filesystem::path(stem).filename().string() + " goes on"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("resume: " + std::filesystem::path(stem).filename().string() + " goes on"),
+            std::string::npos)
+      << said[0];
   EXPECT_TRUE(is_there(stem + ".journal.jsonl"));
 }
 
@@ -164,9 +176,12 @@ TEST_F(Names, ToResumeAreBareNamesOfJobsInTheFolder) {
   std::ofstream(folder() + "/done.bag") << "x";
   std::filesystem::create_directory(folder() + "/below");
   std::ofstream(folder() + "/below/there.journal.jsonl") << "x";
-  std::filesystem::create_symlink(folder() + "/below/there.journal.jsonl", folder() + "/link.journal.jsonl");
-  for (const std::string& name : {std::string("below/there"), std::string("./there"), std::string("/etc/passwd"), std::string(".."),
-                                  std::string("there.journal.jsonl"), std::string("there\0", 6), std::string(256, 'a')})
+  std::filesystem::create_symlink(folder() + "/below/there.journal.jsonl",
+                                  folder() + "/link.journal.jsonl");
+  for (const std::string& name :
+       {std::string("below/there"), std::string("./there"), std::string("/etc/passwd"),
+        std::string(".."), std::string("there.journal.jsonl"), std::string("there\0", 6),
+        std::string(256, 'a')})
     expect_refusal(name, "not the name of a job");
   expect_refusal("where", "there is no journal " + folder() + "/where.journal.jsonl");
   expect_refusal("link", "there is no journal");
@@ -178,7 +193,8 @@ TEST_F(Names, ToResumeAreBareNamesOfJobsInTheFolder) {
 TEST_F(Names, FilesOfLivingJobsAndOfOtherProgramsStay) {
   const JobFiles living(folder(), "living");
   std::ofstream(living.stem() + ".bag.active") << "x";
-  std::ofstream(folder() + "/recorded_2026-11-22-06-00-00.bag.active") << "rosbag record is writing this";
+  std::ofstream(folder() + "/recorded_2026-11-22-06-00-00.bag.active")
+      << "rosbag record is writing this";
   EXPECT_TRUE(remove_leftovers(folder()).empty());
   EXPECT_TRUE(is_there(living.stem() + ".bag.active"));
   EXPECT_TRUE(is_there(folder() + "/recorded_2026-11-22-06-00-00.bag.active"));

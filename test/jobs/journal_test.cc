@@ -16,10 +16,13 @@ namespace {
 
 class JournalTest : public testing::Test {
  protected:
-  Journal open(Journal::Mode mode) const { return {path(), problem_, problem_.optimizer_options(), mode}; }
+  Journal open(Journal::Mode mode) const {
+    return {path(), problem_, problem_.optimizer_options(), mode};
+  }
   std::string path() const { return (folder_.path() / "journal.jsonl").string(); }
   EvaluationTask task(double kp, bool with_gradient = false) const {
-    return {problem_.system(), problem_.parameters(Eigen::Vector2d(kp, 3.0)), gradient_if(with_gradient)};
+    return {problem_.system(), problem_.parameters(Eigen::Vector2d(kp, 3.0)),
+            gradient_if(with_gradient)};
   }
   static Evaluation value(double objective) {
     Evaluation evaluation;
@@ -47,7 +50,8 @@ class JournalTest : public testing::Test {
     ASSERT_EQ(journal.warnings().size(), 1u) << reason;
     const Warning warning = journal.warnings()[0];
     EXPECT_EQ(warning.code, "journal_damaged");
-    EXPECT_NE(warning.message.find(path() + ":2: line 2 is damaged: "), std::string::npos) << warning.message;
+    EXPECT_NE(warning.message.find(path() + ":2: line 2 is damaged: "), std::string::npos)
+        << warning.message;
     EXPECT_NE(warning.message.find(reason), std::string::npos) << warning.message;
     EXPECT_NE(warning.message.find("computed again"), std::string::npos) << warning.message;
     EXPECT_EQ(journal.notes().back(), warning.message);
@@ -77,7 +81,8 @@ TEST_F(JournalTest, FindsWhatAnEarlierProcessKept) {
   EXPECT_EQ(journal.find(task(2.0, true))->gradient, Eigen::Vector2d(20.0, -20.0));
   EXPECT_FALSE(journal.find(task(1.0, true))) << "its gradient is not known";
   EXPECT_FALSE(journal.find(task(1.0 + 1e-16 * 4))) << "other bits";
-  EXPECT_FALSE(journal.find({block("").system(), task(1.0).parameters, Derivatives::kNone})) << "a system of another problem";
+  EXPECT_FALSE(journal.find({block("").system(), task(1.0).parameters, Derivatives::kNone}))
+      << "a system of another problem";
   journal.keep(task(3.0), value(30.0));
   EXPECT_EQ(journal.find(task(3.0))->objective, 30.0);
   EXPECT_EQ(open(Journal::Mode::kResume).resumed(), 3u);
@@ -93,7 +98,8 @@ TEST_F(JournalTest, KeepsTheRootOfWhatWasAskedForWithIt) {
   Journal journal = open(Journal::Mode::kResume);
   ASSERT_TRUE(journal.find(asked));
   EXPECT_EQ(journal.find(asked)->jacobian_root, evaluation.jacobian_root);
-  EXPECT_EQ(journal.find(task(2.0, true))->jacobian_root.size(), 0) << "another line of the same design";
+  EXPECT_EQ(journal.find(task(2.0, true))->jacobian_root.size(), 0)
+      << "another line of the same design";
   asked.parameters = task(1.0).parameters;
   EXPECT_FALSE(journal.find(asked));
 }
@@ -130,14 +136,17 @@ TEST_F(JournalTest, LeavesDamagedLinesOutAndNamesThem) {
   const std::string line = whole.substr(second, third - second - 1);
   std::string flipped = line;
   flipped[line.find("10.0")] = '3';
-  const auto set = [&](const char* key, const Json& value) { return edited_line(line, [&](Json* object) { (*object)[key] = value; }); };
-  const std::pair<std::string, const char*> cases[] = {{std::string(1, '\0') + line.substr(1), "checksum"},
-                                                       {flipped, "checksum"},
-                                                       {line.substr(0, line.rfind(",\"checksum")) + "}", "checksum"},
-                                                       {"", "checksum"},
-                                                       {set("system", 7), "of another job"},
-                                                       {set("parameters", {1.0}), "of another job"},
-                                                       {set("objective", "inf"), "not finite"}};
+  const auto set = [&](const char* key, const Json& value) {
+    return edited_line(line, [&](Json* object) { (*object)[key] = value; });
+  };
+  const std::pair<std::string, const char*> cases[] = {
+      {std::string(1, '\0') + line.substr(1), "checksum"},
+      {flipped, "checksum"},
+      {line.substr(0, line.rfind(",\"checksum")) + "}", "checksum"},
+      {"", "checksum"},
+      {set("system", 7), "of another job"},
+      {set("parameters", {1.0}), "of another job"},
+      {set("objective", "inf"), "not finite"}};
   for (const auto& [damaged, reason] : cases) {
     write(whole.substr(0, second) + damaged + "\n" + whole.substr(third));
     expect_damage(reason);
@@ -154,19 +163,25 @@ TEST_F(JournalTest, LeavesOutGradientsOfAnotherLength) {
   const std::string whole = text();
   const std::size_t third = whole.rfind('\n', whole.size() - 2) + 1;
   for (const std::size_t count : {0, 1, 3, 100003}) {
-    const auto resize = [count](Json* line) { (*line)["gradient"] = std::vector<double>(count, 1.0); };
-    write(whole.substr(0, second_line_of(whole)) + edited_line(whole.substr(third, whole.size() - third - 1), resize) + "\n");
+    const auto resize = [count](Json* line) {
+      (*line)["gradient"] = std::vector<double>(count, 1.0);
+    };
+    write(whole.substr(0, second_line_of(whole)) +
+          edited_line(whole.substr(third, whole.size() - third - 1), resize) + "\n");
     expect_damage(std::to_string(count) + " numbers of the gradient instead of 2");
     EXPECT_FALSE(open(Journal::Mode::kResume).find(task(2.0, true)));
   }
 }
 
 TEST_F(JournalTest, LeavesOutExtremesOfAnotherNumber) {
-  const auto more = [](Json* line) { (*line)["extremes"] = {{"values", {1.0}}, {"times", {0.0}}, {"gradients", Json::array()}}; };
+  const auto more = [](Json* line) {
+    (*line)["extremes"] = {{"values", {1.0}}, {"times", {0.0}}, {"gradients", Json::array()}};
+  };
   write_two();
   const std::string whole = text();
   const std::size_t second = second_line_of(whole), third = whole.find('\n', second) + 1;
-  write(whole.substr(0, second) + edited_line(whole.substr(second, third - second - 1), more) + "\n");
+  write(whole.substr(0, second) + edited_line(whole.substr(second, third - second - 1), more) +
+        "\n");
   expect_damage("1 numbers of the signals' extremes instead of 0");
 }
 
@@ -180,16 +195,21 @@ TEST_F(JournalTest, UsesNeitherOfTwoLinesThatContradictEachOther) {
   const Journal journal = open(Journal::Mode::kResume);
   ASSERT_EQ(journal.warnings().size(), 1u);
   const std::string message = journal.warnings()[0].message;
-  EXPECT_NE(message.find("line 3 is damaged: line 5 contradicts it; damaged, too: 5"), std::string::npos) << message;
+  EXPECT_NE(message.find("line 3 is damaged: line 5 contradicts it; damaged, too: 5"),
+            std::string::npos)
+      << message;
   EXPECT_FALSE(open(Journal::Mode::kResume).find(task(2.0, true)));
-  EXPECT_EQ(open(Journal::Mode::kResume).find(task(1.0))->objective, 10.0) << "said twice is no contradiction";
+  EXPECT_EQ(open(Journal::Mode::kResume).find(task(1.0))->objective, 10.0)
+      << "said twice is no contradiction";
 }
 
 TEST_F(JournalTest, NamesAtMostTenDamagedLines) {
   write_two();
   write(text() + std::string(30, '\n'));
   const std::string message = open(Journal::Mode::kResume).warnings().at(0).message;
-  EXPECT_NE(message.find("damaged, too: 5, 6, 7, 8, 9, 10, 11, 12, 13 and 20 more"), std::string::npos) << message;
+  EXPECT_NE(message.find("damaged, too: 5, 6, 7, 8, 9, 10, 11, 12, 13 and 20 more"),
+            std::string::npos)
+      << message;
 }
 
 TEST_F(JournalTest, RefusesAnotherJob) {
@@ -205,11 +225,14 @@ TEST_F(JournalTest, RefusesAnotherJob) {
 TEST_F(JournalTest, ReplacesNoFile) {
   write_two();
   EXPECT_THROW(open(Journal::Mode::kNew), std::exception);
-  EXPECT_THROW(Journal("/dev/null/journal", problem_, problem_.optimizer_options(), Journal::Mode::kNew), std::exception);
+  EXPECT_THROW(
+      Journal("/dev/null/journal", problem_, problem_.optimizer_options(), Journal::Mode::kNew),
+      std::exception);
 }
 
 TEST_F(JournalTest, TellsVariantsOfTheSystemApart) {
-  const Problem problem = block("runs: {a: {}, b: {controllers: {hold: {setpoint: 1.0}}}}\nrobust: {measure: mean}\n");
+  const Problem problem =
+      block("runs: {a: {}, b: {controllers: {hold: {setpoint: 1.0}}}}\nrobust: {measure: mean}\n");
   const auto a = variant_of(problem, 0, -1), b = variant_of(problem, 1, -1);
   ASSERT_NE(a, b);
   {

@@ -45,7 +45,9 @@ TEST(ParameterRecords, ALongCheckIsLeftOut) {
   const Problem problem = pendulum();
   OptimizationResult result = result_at(problem, 0.5, 1.0);
   result.statistics.cpu_seconds = 10.0;
-  EXPECT_NE(gradient_check_json(problem, result, nullptr)["skipped"].get<std::string>().find("420 s"), std::string::npos);
+  EXPECT_NE(
+      gradient_check_json(problem, result, nullptr)["skipped"].get<std::string>().find("420 s"),
+      std::string::npos);
   result.status.code = StatusCode::kCancelled;
   EXPECT_EQ(gradient_check_json(problem, result, nullptr)["skipped"], "the search was interrupted");
 }

@@ -15,11 +15,15 @@ TEST(Json, ValuesGoByName) {
   EXPECT_EQ(by_name({"a"}, std::vector<double>{}).dump(), "{}");
 }
 
-TEST(Json, BytesThatAreNoUtf8AreReplaced) { EXPECT_EQ(Json::parse(to_text({{"model", "arm\xe4"}}))["model"], "arm\xef\xbf\xbd"); }
+TEST(Json, BytesThatAreNoUtf8AreReplaced) {
+  EXPECT_EQ(Json::parse(to_text({{"model", "arm\xe4"}}))["model"], "arm\xef\xbf\xbd");
+}
 
 TEST(Json, TheVersionComesFirst) {
-  EXPECT_EQ(to_text({{"objective", 0.5}}), "{\n  \"version\": \"" + std::string(version()) + "\",\n  \"objective\": 0.5\n}\n");
-  EXPECT_EQ(Json::parse(to_text(Json::parse(to_text(Json::object())))), Json({{"version", version()}}));
+  EXPECT_EQ(to_text({{"objective", 0.5}}),
+            "{\n  \"version\": \"" + std::string(version()) + "\",\n  \"objective\": 0.5\n}\n");
+  EXPECT_EQ(Json::parse(to_text(Json::parse(to_text(Json::object())))),
+            Json({{"version", version()}}));
 }
 
 }  // namespace

@@ -33,17 +33,19 @@ TEST(OptimizationRecords, ASearchWithoutAStartHasNoDesign) {
 
 OptimizationResult result() {
   OptimizationResult r;
-  r.scenarios = {{"light", -1, 0.5, {{"mass", 1.0}}, 3.0, 2.0}, {"wide", 4, 0.5, {{"mu", 0.3}}, 5.0, 1.0}};
+  r.scenarios = {{"light", -1, 0.5, {{"mass", 1.0}}, 3.0, 2.0},
+                 {"wide", 4, 0.5, {{"mu", 0.3}}, 5.0, 1.0}};
   r.validation = Validation{100, 2, 1.5, 1.75, 1.5, 3.25};
-  r.starts = {{Eigen::Vector2d(1.0, 2.0), Eigen::Vector2d(3.0, 4.0), 9.0, 0.5, {}, "success", 12, 0},
-              {Eigen::Vector2d(5.0, 6.0),
-               Eigen::Vector2d(5.0, 6.0),
-               10.0,
-               10.0,
-               {StatusCode::kUnstableMotion, 0.1, "fast"},
-               "start_failed",
-               1,
-               -1}};
+  r.starts = {
+      {Eigen::Vector2d(1.0, 2.0), Eigen::Vector2d(3.0, 4.0), 9.0, 0.5, {}, "success", 12, 0},
+      {Eigen::Vector2d(5.0, 6.0),
+       Eigen::Vector2d(5.0, 6.0),
+       10.0,
+       10.0,
+       {StatusCode::kUnstableMotion, 0.1, "fast"},
+       "start_failed",
+       1,
+       -1}};
   r.optima = {{Eigen::Vector2d(3.0, 4.0), 0.5, 1}};
   r.screened = 8;
   r.unusable = 3;
@@ -77,12 +79,13 @@ TEST(EnsembleRecords, TellTheValueAtRiskOfCvar) {
   EXPECT_EQ(object["value_at_risk"], 2.25);
   EXPECT_EQ(object["validation"]["value_at_risk"], 2.5);
   EXPECT_EQ(object["validation"]["within"], 0.875);
-  const Problem asked = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.8}\n");
+  const Problem asked =
+      block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.8}\n");
   const std::string sentence = ensemble_sentences(asked, risky).at(1);
-  EXPECT_EQ(
-      sentence,
-      "with a probability of 0.8 the objective is at most 2.25 on these samples, and at most 2.5 on fresh samples, of which 87.5 % do "
-      "not exceed the first value");
+  EXPECT_EQ(sentence,
+            "with a probability of 0.8 the objective is at most 2.25 on these samples, and at most "
+            "2.5 on fresh samples, of which 87.5 % do "
+            "not exceed the first value");
 }
 
 TEST(EnsembleRecords, TablesHaveOneRowPerSearchAndScenario) {
@@ -95,9 +98,11 @@ TEST(EnsembleRecords, TablesHaveOneRowPerSearchAndScenario) {
   EXPECT_EQ(starts[0][9], "3");
   EXPECT_EQ(starts[1][3], "unstable_motion");
   EXPECT_EQ(starts[1][6], "0") << "found no optimum";
-  EXPECT_EQ(scenario_columns(result()), (std::vector<std::string>{"run", "sample", "weight", "initial_objective", "objective",
-                                                                  "initial_failed", "failed", "mass", "mu"}));
-  EXPECT_EQ(scenarios[0], (std::vector<std::string>{"light", "0", "0.5", "3", "2", "0", "0", "1", ""}));
+  EXPECT_EQ(scenario_columns(result()),
+            (std::vector<std::string>{"run", "sample", "weight", "initial_objective", "objective",
+                                      "initial_failed", "failed", "mass", "mu"}));
+  EXPECT_EQ(scenarios[0],
+            (std::vector<std::string>{"light", "0", "0.5", "3", "2", "0", "0", "1", ""}));
   EXPECT_EQ(scenarios[1].back(), "0.3");
 }
 
@@ -106,8 +111,10 @@ TEST(EnsembleRecords, SentencesCountSearchesAndOptima) {
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0], "objective: mean over 2 scenarios; the worst is run \"light\", with 2");
   EXPECT_NE(lines[1].find("1.75 instead of 1.5"), std::string::npos) << lines[1];
-  EXPECT_NE(lines[2].find("2 searches, 1 of them without an optimum"), std::string::npos) << lines[2];
-  EXPECT_NE(lines[3].find("optimum 1: objective 0.5, found by 1 searches"), std::string::npos) << lines[3];
+  EXPECT_NE(lines[2].find("2 searches, 1 of them without an optimum"), std::string::npos)
+      << lines[2];
+  EXPECT_NE(lines[3].find("optimum 1: objective 0.5, found by 1 searches"), std::string::npos)
+      << lines[3];
 }
 
 TEST(EnsembleRecords, TheWorstIsOneThatCouldBeIntegrated) {
@@ -128,7 +135,9 @@ TEST(EnsembleRecords, TheWorstIsOneThatCouldBeIntegrated) {
   EXPECT_EQ(scenario_rows(r)[0][6], "1");
   EXPECT_EQ(scenario_rows(r)[1][7], "gonthier");
   const std::string line = ensemble_sentences(block("runs: {a: {}}\n"), r)[0];
-  EXPECT_NE(line.find("the worst is run \"wide\", sample 5 (gonthier), with 1; 1 failed"), std::string::npos) << line;
+  EXPECT_NE(line.find("the worst is run \"wide\", sample 5 (gonthier), with 1; 1 failed"),
+            std::string::npos)
+      << line;
 }
 
 TEST(EnsembleRecords, OneRunAndOneStartAddNothing) {

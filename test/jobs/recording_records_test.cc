@@ -18,7 +18,8 @@ TEST(RecordingRecords, TellWhatARecordingHolds) {
   filter.cutoff = 10.0;
   filter.decimate = 2;
   Warnings warnings;
-  const RecordingSummary summary = summary_of(recording, measured_motion(recording, filter, &warnings));
+  const RecordingSummary summary =
+      summary_of(recording, measured_motion(recording, filter, &warnings));
   EXPECT_EQ(summary.samples, 400U);
   EXPECT_NEAR(summary.rate, 100.0, 1e-9);
   EXPECT_EQ(summary.fitted, 176);
@@ -47,7 +48,8 @@ ExcitationResult some_result() {
   result.criterion = -14.0;
   result.points.joints = {"hinge"};
   result.points.times = {0.0, 0.5};
-  result.points.position = result.points.velocity = result.points.acceleration = Eigen::RowVector2d(0.25, 0.5);
+  result.points.position = result.points.velocity = result.points.acceleration =
+      Eigen::RowVector2d(0.25, 0.5);
   result.points.effort = Eigen::RowVector2d(7.0, 8.0);
   result.rest = Eigen::VectorXd::Constant(1, 0.25);
   result.coefficients = Eigen::MatrixXd::Constant(3, 1, 0.5);
@@ -86,7 +88,8 @@ TEST(ExcitationRecords, Sentences) {
   result.undetermined = {"mass and inertia appear only as mass + 4 inertia"};
   const std::vector<std::string> sentences = excitation_sentences(result);
   ASSERT_EQ(sentences.size(), 2U);
-  EXPECT_NE(sentences[0].find("not identifiable by any trajectory: mass and inertia"), std::string::npos);
+  EXPECT_NE(sentences[0].find("not identifiable by any trajectory: mass and inertia"),
+            std::string::npos);
   EXPECT_NE(sentences[1].find("7.39 times smaller than"), std::string::npos) << sentences[1];
   result.criterion_before = std::numeric_limits<double>::infinity();
   EXPECT_NE(excitation_sentences(result)[1].find("does not determine"), std::string::npos);
@@ -95,7 +98,8 @@ TEST(ExcitationRecords, Sentences) {
 TEST(ExcitationRecords, Table) {
   const ExcitationResult result = some_result();
   EXPECT_EQ(trajectory_columns(result.points),
-            (std::vector<std::string>{"time", "hinge/position", "hinge/velocity", "hinge/acceleration", "hinge/effort"}));
+            (std::vector<std::string>{"time", "hinge/position", "hinge/velocity",
+                                      "hinge/acceleration", "hinge/effort"}));
   const auto rows = trajectory_rows(result.points);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[1], (std::vector<std::string>{"0.5", "0.5", "0.5", "0.5", "8"}));

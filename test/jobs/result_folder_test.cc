@@ -25,7 +25,9 @@ class Best : public testing::Test {
     trial.rho = trial.gradient = Eigen::Vector2d(length, 1.0);
     return trial;
   }
-  nlohmann::json on_disk() const { return nlohmann::json::parse(std::ifstream(prefix_ + "best.json")); }
+  nlohmann::json on_disk() const {
+    return nlohmann::json::parse(std::ifstream(prefix_ + "best.json"));
+  }
 
   TemporaryDirectory directory_;
   std::string prefix_ = (directory_.path() / "stem.").string();
@@ -75,10 +77,12 @@ class TakenAway : public testing::Test {
 TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
   EXPECT_TRUE(folder_.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
   for (const auto& [model, design, objective] :
-       {std::tuple{"tuned.urdf", "result.json", result_.objective}, std::tuple{"initial.urdf", "result.json", result_.objective},
+       {std::tuple{"tuned.urdf", "result.json", result_.objective},
+        std::tuple{"initial.urdf", "result.json", result_.objective},
         std::tuple{"initial.urdf", "initial.json", result_.initial_objective}}) {
     const Problem again =
-        load_problem(read_source(path(model)), {}, read_source(path("job_study.yaml")), read_result(read_source(path(design))));
+        load_problem(read_source(path(model)), {}, read_source(path("job_study.yaml")),
+                     read_result(read_source(path(design))));
     const Evaluation evaluation = Evaluator(again).evaluate(again.start(), true);
     ASSERT_TRUE(evaluation.status.ok());
     EXPECT_NEAR(evaluation.objective, objective, 1e-12 * objective) << model << " with " << design;
@@ -96,7 +100,8 @@ TEST_F(TakenAway, EveryFileIsThere) {
   const Json details = Json::parse(std::ifstream(path("details.json")));
   EXPECT_EQ(details["model"], "pendulum");
   EXPECT_EQ(details["files"]["study"], "pendulum.yaml");
-  for (const char* side : {"initial", "tuned"}) EXPECT_EQ(details[side]["status"]["code"], "success") << side;
+  for (const char* side : {"initial", "tuned"})
+    EXPECT_EQ(details[side]["status"]["code"], "success") << side;
   EXPECT_LT(details["gradient_check"]["largest_relative_difference"].get<double>(), 1e-8);
 }
 
@@ -106,15 +111,18 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
       R"({"names": ["mass"], "covariance": [[1e-4]], "identified": {"mass": {"value": 1.0, "determined": true}}})";
   const auto written = [&](const std::string& name, const std::string& read_from) {
     const auto files = [&](const FileAddress&) { return SourceText{read_from, identification}; };
-    const std::string study = kPendulumStudy + "uncertain: {from: " + name + "}\nrobust: {measure: mean, samples: 2}\n";
-    const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, {}, files);
+    const std::string study =
+        kPendulumStudy + "uncertain: {from: " + name + "}\nrobust: {measure: mean, samples: 2}\n";
+    const Problem problem =
+        load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, {}, files);
     OptimizationResult result;
     result.rho = result.initial_rho = problem.start();
     return ResultFolder(directory_.path().string(), problem).write_design("{}\n", result).size();
   };
   EXPECT_EQ(written("rig/i.json", "/elsewhere/rig/i.json"), 0U);
   EXPECT_EQ(read_source(path("rig/i.json")).text, identification);
-  EXPECT_NO_THROW(load_problem(read_source(path("tuned.urdf")), {}, read_source(path("job_study.yaml"))));
+  EXPECT_NO_THROW(
+      load_problem(read_source(path("tuned.urdf")), {}, read_source(path("job_study.yaml"))));
   // Files outside the folder stay there, and the file that was read does not change.
   EXPECT_EQ(written("../i.json", "/elsewhere/i.json") + written("/far/i.json", "/far/i.json"), 0U);
   EXPECT_FALSE(std::filesystem::exists(directory_.path().parent_path() / "i.json"));
@@ -125,7 +133,8 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
 
 TEST_F(TakenAway, AFolderThatIsGoneIsTold) {
   std::filesystem::remove_all(directory_.path());
-  const std::vector<Failure> failures = folder_.write_design(to_text(optimization_json(problem_, result_)), result_);
+  const std::vector<Failure> failures =
+      folder_.write_design(to_text(optimization_json(problem_, result_)), result_);
   ASSERT_EQ(failures.size(), 6U) << "one for each file";
   EXPECT_EQ(failures[0].code, "output_failed");
   EXPECT_NE(failures[0].message.find("result.json"), std::string::npos) << failures[0].message;
@@ -137,7 +146,8 @@ TEST(Convergence, AFailedTrialLeavesItsNumbersEmpty) {
   trial.status.code = StatusCode::kAssemblyFailed;
   trial.best_objective = 0.25;
   trial.rho = Eigen::Vector2d(1.0, 0.5);
-  EXPECT_EQ(convergence_row(trial), (std::vector<std::string>{"2", "0", "assembly_failed", "", "0.25", "", "1", "0.5"}));
+  EXPECT_EQ(convergence_row(trial),
+            (std::vector<std::string>{"2", "0", "assembly_failed", "", "0.25", "", "1", "0.5"}));
   EXPECT_EQ(convergence_columns({"a", "b"}).size(), convergence_row(trial).size());
 }
 

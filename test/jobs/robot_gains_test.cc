@@ -18,12 +18,15 @@ TEST(RobotGainsOfAStudy, AreThoseOfTheDesign) {
   EXPECT_EQ(all[0].name_space, "arm_controller/gains/hinge");
   EXPECT_EQ(all[0].controller, "hold");
   EXPECT_EQ(all[0].joint, "hinge");
-  EXPECT_EQ((std::vector<double>{all[0].p, all[0].i, all[0].d, all[0].i_clamp}), (std::vector<double>{3.25, 0.25, 0.0, 2.0}));
+  EXPECT_EQ((std::vector<double>{all[0].p, all[0].i, all[0].d, all[0].i_clamp}),
+            (std::vector<double>{3.25, 0.25, 0.0, 2.0}));
   EXPECT_TRUE(all[0].antiwindup);
   EXPECT_FALSE(all[0].loses_weight);
 }
 
-TEST(RobotGainsOfAStudy, WithoutHardwareThereAreNone) { EXPECT_TRUE(robot_gains(pendulum(), pendulum().parameters()).empty()); }
+TEST(RobotGainsOfAStudy, WithoutHardwareThereAreNone) {
+  EXPECT_TRUE(robot_gains(pendulum(), pendulum().parameters()).empty());
+}
 
 /// With another name of the controller.
 std::string gains_of(const std::string& controller) {
@@ -33,7 +36,9 @@ std::string gains_of(const std::string& controller) {
   return gains_yaml(with_study(problem, study), problem.parameters());
 }
 
-TEST(GainsYaml, WithoutHardwareThereIsNone) { EXPECT_EQ(gains_yaml(pendulum(), pendulum().parameters()), ""); }
+TEST(GainsYaml, WithoutHardwareThereIsNone) {
+  EXPECT_EQ(gains_yaml(pendulum(), pendulum().parameters()), "");
+}
 
 TEST(GainsYaml, HoldsWhatControlToolboxReads) {
   const Problem problem = pendulum_on_hardware();
@@ -54,27 +59,37 @@ TEST(GainsYaml, HoldsWhatControlToolboxReads) {
 }
 
 TEST(GainsYaml, NamesStayInTheirComments) {
-  // All line ends of YAML 1.1, and what its readers refuse: control characters, bytes that are not UTF-8, U+FFFE.
-  const char* const parts[] = {"\n", "\r", "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9", "\x01", "\x7f", "\xff", "\xef\xbf\xbe"};
+  // All line ends of YAML 1.1, and what its readers refuse: control characters, bytes that are not
+  // UTF-8, U+FFFE.
+  const char* const parts[] = {"\n",   "\r",   "\xc2\x85", "\xe2\x80\xa8", "\xe2\x80\xa9",
+                               "\x01", "\x7f", "\xff",     "\xef\xbf\xbe"};
   for (const std::string part : parts) {
     const std::string text = gains_of("c" + part + "evil: {p: 1}" + part + "#");
-    EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); })) << text;
+    EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) {
+      return c == '\n' || (c >= ' ' && c <= '~');
+    })) << text;
     EXPECT_EQ(YAML::Load(text).size(), 1U) << text;
   }
-  EXPECT_NE(gains_of("hold 1").find(": hold 1 of the study, which drives hinge\n"), std::string::npos) << "as it is";
+  EXPECT_NE(gains_of("hold 1").find(": hold 1 of the study, which drives hinge\n"),
+            std::string::npos)
+      << "as it is";
 }
 
 TEST(GainsYaml, SoDoNamesOfJoints) {
   const auto renamed = [](std::string text, const std::string& name) {
-    for (std::size_t at = 0; (at = text.find("hinge", at)) != std::string::npos; at += name.size()) text.replace(at, 5, name);
+    for (std::size_t at = 0; (at = text.find("hinge", at)) != std::string::npos; at += name.size())
+      text.replace(at, 5, name);
     return text;
   };
   const Problem plain = pendulum();
   const std::string study = renamed(plain.study_text().text, "\"hi\\nevil: 1\\n#\"");
-  const std::string signal = replaced(study, "\"hi\\nevil: 1\\n#\"/position", "\"hi\\nevil: 1\\n#/position\"");
-  const Problem problem = load_problem({"a.urdf", renamed(plain.urdf().text, "hi&#10;evil: 1&#10;#")}, {},
-                                       {"a.yaml", replaced(signal, "\"hi\\nevil: 1\\n#\"/velocity", "\"hi\\nevil: 1\\n#/velocity\"") +
-                                                      "hardware: {hold: {namespace: a/b}}\n"});
+  const std::string signal =
+      replaced(study, "\"hi\\nevil: 1\\n#\"/position", "\"hi\\nevil: 1\\n#/position\"");
+  const Problem problem = load_problem(
+      {"a.urdf", renamed(plain.urdf().text, "hi&#10;evil: 1&#10;#")}, {},
+      {"a.yaml",
+       replaced(signal, "\"hi\\nevil: 1\\n#\"/velocity", "\"hi\\nevil: 1\\n#/velocity\"") +
+           "hardware: {hold: {namespace: a/b}}\n"});
   const std::string text = gains_yaml(problem, problem.parameters());
   EXPECT_EQ(YAML::Load(text).size(), 1U) << text;
   EXPECT_NE(text.find("which drives \"hi\\nevil: 1\\n#\"\n"), std::string::npos) << text;

@@ -23,9 +23,10 @@ TEST(DesignRecord, EnergiesBalance) {
   ASSERT_TRUE(record.status.ok());
   const Json& energy = record.summary["energy"];
   EXPECT_LT(energy["friction"].get<double>(), 0.0);
-  EXPECT_EQ(record.summary["friction_energy"]["hinge"], energy["friction"]) << "the one joint with friction";
-  // The energy that the powers put in equals the gain of kinetic and potential energy, here from the first and the last row of a run with
-  // these signals.
+  EXPECT_EQ(record.summary["friction_energy"]["hinge"], energy["friction"])
+      << "the one joint with friction";
+  // The energy that the powers put in equals the gain of kinetic and potential energy, here from
+  // the first and the last row of a run with these signals.
   Simulation simulation(problem, problem.parameters(), {"mechanism/total_energy"});
   std::vector<double> total;
   const auto keep = [&total](const Frame& frame) {
@@ -33,7 +34,8 @@ TEST(DesignRecord, EnergiesBalance) {
     return true;
   };
   ASSERT_TRUE(simulate(&simulation, problem.duration(), 2, keep).ok());
-  const double in = energy["friction"].get<double>() + energy["damping"].get<double>() + energy["actuator"].get<double>();
+  const double in = energy["friction"].get<double>() + energy["damping"].get<double>() +
+                    energy["actuator"].get<double>();
   EXPECT_NEAR(total[1] - total[0], in, 1e-5 * std::abs(in));
 }
 
@@ -44,7 +46,8 @@ TEST(DesignRecord, PeaksLieInTheTable) {
   EXPECT_LT(velocity["smallest"].get<double>(), -1.0);
   EXPECT_EQ(velocity["largest_time"], 0.0) << "it starts at rest and falls";
   EXPECT_EQ(velocity["upper"], 2.0);
-  EXPECT_EQ(std::count(record.csv.begin(), record.csv.end(), '\n'), 502) << "a header and 501 instants";
+  EXPECT_EQ(std::count(record.csv.begin(), record.csv.end(), '\n'), 502)
+      << "a header and 501 instants";
   EXPECT_EQ(record.csv.rfind("time,hinge/position", 0), 0U);
   EXPECT_NE(record.csv.find("hold/error"), std::string::npos);
   const Json& poses = record.summary["poses"];

@@ -29,8 +29,9 @@ InputFault fault_in(const std::string& json) {
 }
 
 TEST(SavedResult, HoldsEveryParameterToTheLastBit) {
-  const ParameterSettings settings =
-      read_result({"result.json", R"({"objective": 1, "parameters": {"a": 0.1, "Kp": 5, "b": 0.22358268481765226}})"});
+  const ParameterSettings settings = read_result(
+      {"result.json",
+       R"({"objective": 1, "parameters": {"a": 0.1, "Kp": 5, "b": 0.22358268481765226}})"});
   EXPECT_EQ(settings, (ParameterSettings{{"a", 0.1}, {"Kp", 5.0}, {"b", 0.22358268481765226}}));
 }
 
@@ -43,19 +44,24 @@ TEST(SavedResult, SaysWhatIsWrong) {
   EXPECT_EQ(fault.element, "parameters.a");
   EXPECT_EQ(fault.value, "null");
   EXPECT_EQ(fault_in("{\n\"parameters\": {\"b\": 1,\n\"a\": true}}").where.line, 3);
-  const InputFault beyond = fault_in("{\"3e999\": [\"\\\"4e999\", 5e-999],\n\"parameters\": {\n\"a\": 1, \"b\": -1e999}}");
+  const InputFault beyond = fault_in(
+      "{\"3e999\": [\"\\\"4e999\", 5e-999],\n\"parameters\": {\n\"a\": 1, \"b\": -1e999}}");
   EXPECT_EQ(beyond.where.line, 3);
   EXPECT_EQ(beyond.value, "1e999");
   EXPECT_EQ(beyond.message, "a number is beyond the range of double");
   const std::string deep(100000, '[');
-  EXPECT_EQ(fault_in("{\"parameters\": {\"a\": " + deep + std::string(deep.size(), ']') + "}}").value, "array");
+  EXPECT_EQ(
+      fault_in("{\"parameters\": {\"a\": " + deep + std::string(deep.size(), ']') + "}}").value,
+      "array");
 }
 
-/// The pendulum with bounds that no other number equals, since its optimum lies on them: length 0.7654 and Kp 0.4321.
+/// The pendulum with bounds that no other number equals, since its optimum lies on them: length
+/// 0.7654 and Kp 0.4321.
 Problem pendulum_with_odd_bounds() {
   const Problem problem = pendulum_on_hardware();
-  return load_problem({"pendulum.urdf", replaced(problem.urdf().text, "upper=\"0.8\"", "upper=\"0.7654\"")}, {},
-                      {"pendulum.yaml", replaced(problem.study_text().text, "lower: 0.0", "lower: 0.4321")});
+  return load_problem(
+      {"pendulum.urdf", replaced(problem.urdf().text, "upper=\"0.8\"", "upper=\"0.7654\"")}, {},
+      {"pendulum.yaml", replaced(problem.study_text().text, "lower: 0.0", "lower: 0.4321")});
 }
 
 /// The folder of an optimization of the pendulum, in which a test may change files.
@@ -68,19 +74,25 @@ class FinishedPendulum : public testing::Test {
       return true;
     });
     const ResultFolder folder(path(), problem_);
-    EXPECT_TRUE(folder.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
+    EXPECT_TRUE(
+        folder.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
     EXPECT_TRUE(folder.write_runs(result_, nullptr).empty());
-    write_whole_file(path("convergence.csv"), csv_text(convergence_columns(problem_.tuned_names()), rows, "convergence.csv"));
+    write_whole_file(path("convergence.csv"), csv_text(convergence_columns(problem_.tuned_names()),
+                                                       rows, "convergence.csv"));
   }
 
-  std::string path(const std::string& name = "") const { return (directory_.path() / "job" / name).string(); }
+  std::string path(const std::string& name = "") const {
+    return (directory_.path() / "job" / name).string();
+  }
   std::string tuned(int k) const { return to_decimal(result_.rho[k]); }
 
   /// Replaces each `from` in a file, which must have one.
   void change(const std::string& name, const std::string& from, const std::string& to) const {
     std::string text = read_source(path(name)).text;
     ASSERT_NE(text.find(from), std::string::npos) << name << " has no " << from;
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
     write_whole_file(path(name), text);
   }
 
@@ -94,7 +106,9 @@ class FinishedPendulum : public testing::Test {
     return "";
   }
 
-  static bool make(const std::filesystem::path& folder) { return std::filesystem::create_directory(folder); }
+  static bool make(const std::filesystem::path& folder) {
+    return std::filesystem::create_directory(folder);
+  }
 
   TemporaryDirectory directory_;
   const bool made_ = make(directory_.path() / "job");
@@ -115,7 +129,8 @@ TEST_F(FinishedPendulum, IsTakenWithItsDesign) {
 TEST_F(FinishedPendulum, AValueChangedInOneFileIsRefused) {
   const std::string other = to_decimal(std::nextafter(result_.rho[1], 10.0));
   change("result.json", tuned(1), other);
-  EXPECT_NE(refusal().find("no trial point of convergence.csv has"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("no trial point of convergence.csv has"), std::string::npos)
+      << refusal();
 }
 
 TEST_F(FinishedPendulum, ADamagedResultIsBadInput) {
@@ -133,8 +148,10 @@ TEST_F(FinishedPendulum, ADamagedResultIsBadInput) {
 }
 
 TEST_F(FinishedPendulum, AModelChangedAfterItIsRefused) {
-  write_whole_file(path("tuned.urdf"), write_tuned_urdf(problem_.urdf(), {}, problem_.parameters()));
-  EXPECT_NE(refusal().find("length is " + tuned(0) + ", but 0.5 in"), std::string::npos) << refusal();
+  write_whole_file(path("tuned.urdf"),
+                   write_tuned_urdf(problem_.urdf(), {}, problem_.parameters()));
+  EXPECT_NE(refusal().find("length is " + tuned(0) + ", but 0.5 in"), std::string::npos)
+      << refusal();
 }
 
 TEST_F(FinishedPendulum, AGainChangedInGainsYamlIsRefusedWithItsLine) {
@@ -143,8 +160,11 @@ TEST_F(FinishedPendulum, AGainChangedInGainsYamlIsRefusedWithItsLine) {
 }
 
 TEST_F(FinishedPendulum, AValueChangedInEveryFileIsRefusedByTheSimulation) {
-  for (const char* file : {"result.json", "convergence.csv", "gains.yaml"}) change(file, tuned(1), "2.5");
-  EXPECT_NE(refusal().find("the objective is " + to_decimal(result_.objective) + ", but "), std::string::npos) << refusal();
+  for (const char* file : {"result.json", "convergence.csv", "gains.yaml"})
+    change(file, tuned(1), "2.5");
+  EXPECT_NE(refusal().find("the objective is " + to_decimal(result_.objective) + ", but "),
+            std::string::npos)
+      << refusal();
 }
 
 TEST_F(FinishedPendulum, AParameterThatWasNotTunedKeepsItsValue) {
@@ -163,8 +183,10 @@ TEST_F(FinishedPendulum, AStudyChangedAfterItIsRefused) {
 TEST_F(FinishedPendulum, AJobThatDidNotFinishIsRefused) {
   std::filesystem::remove(path("details.json"));
   EXPECT_NE(refusal().find("details.json: it is missing"), std::string::npos) << refusal();
-  change("result.json", "\"objective\"", "\"error\": {\"code\": \"cancelled\", \"message\": \"by the user\"}, \"objective\"");
-  EXPECT_NE(refusal().find("did not finish (cancelled: by the user)"), std::string::npos) << refusal();
+  change("result.json", "\"objective\"",
+         "\"error\": {\"code\": \"cancelled\", \"message\": \"by the user\"}, \"objective\"");
+  EXPECT_NE(refusal().find("did not finish (cancelled: by the user)"), std::string::npos)
+      << refusal();
 }
 
 TEST_F(FinishedPendulum, WhatIsMissingIsBadInput) {
@@ -179,7 +201,9 @@ TEST_F(FinishedPendulum, AValueBeyondTheBoundsIsBadInput) {
     read_finished_job(path());
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("value outside the parameter's bounds (value: 7.5"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("value outside the parameter's bounds (value: 7.5"),
+              std::string::npos)
+        << error.what();
   }
 }
 

@@ -10,7 +10,9 @@ namespace codesign {
 namespace {
 
 const ShownSignal* find_shown(const std::vector<ShownSignal>& shown, const std::string& name) {
-  const auto found = std::find_if(shown.begin(), shown.end(), [&](const ShownSignal& signal) { return signal.signal.text == name; });
+  const auto found = std::find_if(shown.begin(), shown.end(), [&](const ShownSignal& signal) {
+    return signal.signal.text == name;
+  });
   return found == shown.end() ? nullptr : &*found;
 }
 
@@ -38,7 +40,8 @@ TEST(ShownSignals, HaveUnitsAndLimits) {
   EXPECT_EQ(find_shown(shown, "hinge/velocity")->upper, 2.0);
   EXPECT_FALSE(find_shown(shown, "hinge/position")->upper) << "a continuous joint has no stops";
   for (std::size_t i = 0; i < shown.size(); ++i)
-    EXPECT_EQ(find_shown(shown, shown[i].signal.text), &shown[i]) << "twice: " << shown[i].signal.text;
+    EXPECT_EQ(find_shown(shown, shown[i].signal.text), &shown[i])
+        << "twice: " << shown[i].signal.text;
 }
 
 TEST(ShownSignals, UnitsOfLinksAndDifferences) {

@@ -41,18 +41,22 @@ TEST(TrialLines, TellObjectiveStepAndTimeLeft) {
   const Study study = one_parameter();
   TrialLines lines(study);
   Progress progress;
-  EXPECT_EQ(lines.line(trial_at(1, 0, 5.0), progress), "trial 1: objective 25, scaled gradient 0.5, best 25");
+  EXPECT_EQ(lines.line(trial_at(1, 0, 5.0), progress),
+            "trial 1: objective 25, scaled gradient 0.5, best 25");
   progress.seconds_left = 12.0;
   progress.is_bound = true;
-  EXPECT_EQ(lines.line(trial_at(2, 1, 4.0), progress), "trial 2: objective 16, scaled gradient 0.5, step 0.1, best 16, at most 12 s left");
+  EXPECT_EQ(lines.line(trial_at(2, 1, 4.0), progress),
+            "trial 2: objective 16, scaled gradient 0.5, step 0.1, best 16, at most 12 s left");
 }
 
 TEST(TrialLines, TheStepIsFromTheBestPointOfTheSameSearch) {
   const Study study = one_parameter();
   TrialLines lines(study);
   lines.line(trial_at(1, 0, 5.0), {});
-  EXPECT_NE(lines.line(trial_at(2, 0, 9.0), {}).find("step 0.4,"), std::string::npos) << "no improvement";
-  EXPECT_NE(lines.line(trial_at(3, 1, 4.0), {}).find("step 0.1,"), std::string::npos) << "from 5, not from 9";
+  EXPECT_NE(lines.line(trial_at(2, 0, 9.0), {}).find("step 0.4,"), std::string::npos)
+      << "no improvement";
+  EXPECT_NE(lines.line(trial_at(3, 1, 4.0), {}).find("step 0.1,"), std::string::npos)
+      << "from 5, not from 9";
   EXPECT_NE(lines.line(trial_at(4, 2, 3.0), {}).find("step 0.1,"), std::string::npos) << "from 4";
   Trial other = trial_at(5, 2, 8.0);
   other.start = 2;
@@ -102,8 +106,10 @@ TEST(Sentences, NameCodeTimeAndCause) {
 }
 
 TEST(Sentences, WhatEndedASearchHasNoTimeOfARun) {
-  EXPECT_EQ(reason({StatusCode::kCancelled, 0.0, "the best point so far is kept"}), "the best point so far is kept");
-  EXPECT_EQ(describe({StatusCode::kInfeasible, 0.0, "outside its constraints"}), "infeasible: outside its constraints");
+  EXPECT_EQ(reason({StatusCode::kCancelled, 0.0, "the best point so far is kept"}),
+            "the best point so far is kept");
+  EXPECT_EQ(describe({StatusCode::kInfeasible, 0.0, "outside its constraints"}),
+            "infeasible: outside its constraints");
   EXPECT_EQ(reason({StatusCode::kAssemblyFailed, 0.0, "no way"}), "no way (at t = 0 s)");
 }
 

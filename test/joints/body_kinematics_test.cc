@@ -20,7 +20,8 @@ MovingBody on_a_path(double t) {
   const double u = 0.5 * t * t, ud = t, udd = 1.0;
   b.p = {std::cos(u), 0.0, 0.0, std::sin(u)};
   b.pd = {-std::sin(u) * ud, 0.0, 0.0, std::cos(u) * ud};
-  b.pdd = {-std::cos(u) * ud * ud - std::sin(u) * udd, 0.0, 0.0, -std::sin(u) * ud * ud + std::cos(u) * udd};
+  b.pdd = {-std::cos(u) * ud * ud - std::sin(u) * udd, 0.0, 0.0,
+           -std::sin(u) * ud * ud + std::cos(u) * udd};
   b.update_rotation();
   return b;
 }
@@ -35,8 +36,10 @@ TEST(BodyKinematics, TheGroundRests) {
 
 TEST(BodyKinematics, ATurnAboutZAndItsDerivatives) {
   const double t = 1.2, angle = t * t, rate = 2.0 * t, acceleration = 2.0;
-  const VectorMotion<double> x = direction_motion(on_a_path(t), Vector3<double>(Vector3<double>::UnitX()));
-  const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0.0), across(-std::sin(angle), std::cos(angle), 0.0);
+  const VectorMotion<double> x =
+      direction_motion(on_a_path(t), Vector3<double>(Vector3<double>::UnitX()));
+  const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0.0),
+      across(-std::sin(angle), std::cos(angle), 0.0);
   EXPECT_LT((x.x - along).norm(), 1e-15);
   EXPECT_LT((x.xd - rate * across).norm(), 1e-14);
   EXPECT_LT((x.xdd - (acceleration * across - rate * rate * along)).norm(), 1e-13);

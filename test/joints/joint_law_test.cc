@@ -19,7 +19,8 @@ TEST(JointLaw, CountsTheRowsThatPairsHave) {
 
 TEST(JointLaw, AContinuousJointMakesARevolutePair) {
   for (const RowReference<JointLaw>& joint : joint_laws())
-    EXPECT_EQ(pair_of(*joint), joint->type == JointType::kContinuous ? PairKind::kRevolute : PairKind(*joint))
+    EXPECT_EQ(pair_of(*joint),
+              joint->type == JointType::kContinuous ? PairKind::kRevolute : PairKind(*joint))
         << static_cast<int>(joint->type);
 }
 

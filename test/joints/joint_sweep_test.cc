@@ -44,12 +44,14 @@ TEST(JointSweep, ThePoseTurnsTheAxes) {
   EXPECT_LT((rotation(joint_parameters(pair, x.q)) - pose.R).cwiseAbs().maxCoeff(), 1e-15);
   PairConstants<double> hinge = pair;
   hinge.steps.resize(1);
-  const JointPose<double> turned = joint_pose(hinge, x.q), seen = joint_pose_of(parent.A, Matrix3<double>(parent.A * turned.R));
+  const JointPose<double> turned = joint_pose(hinge, x.q),
+                          seen = joint_pose_of(parent.A, Matrix3<double>(parent.A * turned.R));
   EXPECT_LT((seen.turn[0] - turned.turn[0]).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_LT((seen.R - turned.R).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-// Velocities and accelerations against differences of positions and velocities, with a parent at rest that gravity loads.
+// Velocities and accelerations against differences of positions and velocities, with a parent at
+// rest that gravity loads.
 TEST(JointSweep, MotionsAreDerivatives) {
   const PairConstants<double> pair = turn_slide_turn();
   const StepMotion x;
@@ -67,8 +69,10 @@ TEST(JointSweep, MotionsAreDerivatives) {
   const AxesMotion<double> here = at(0.0), before = at(-kStep), after = at(kStep);
   const Vector3<double> velocity = (after.r - before.r) / (2.0 * kStep);
   EXPECT_LT((here.A * here.velocity - velocity).cwiseAbs().maxCoeff(), 1e-9);
-  const Vector3<double> acceleration = (after.A * after.velocity - before.A * before.velocity) / (2.0 * kStep);
-  EXPECT_LT((here.A * here.acceleration - acceleration - ground.acceleration).cwiseAbs().maxCoeff(), 1e-8);
+  const Vector3<double> acceleration =
+      (after.A * after.velocity - before.A * before.velocity) / (2.0 * kStep);
+  EXPECT_LT((here.A * here.acceleration - acceleration - ground.acceleration).cwiseAbs().maxCoeff(),
+            1e-8);
   const Vector3<double> alpha = (after.A * after.omega - before.A * before.omega) / (2.0 * kStep);
   EXPECT_LT((here.A * here.alpha - alpha).cwiseAbs().maxCoeff(), 1e-8);
 }
@@ -81,7 +85,8 @@ TEST(JointSweep, WhatIsCarriedBackKeepsItsPower) {
   const JointPose<double> pose = joint_pose(pair, x.q);
   const AxesMotion<double> child = move_child(parent, pair, pose, x.q, x.v, x.a);
   Wrench<double> wrench{{1.0, -2.0, 3.0}, {0.5, 4.0, -1.0}};
-  wrench += inertia_wrench(2.0, Matrix3<double>(Vector3<double>(0.1, 0.2, 0.3).asDiagonal()), child);
+  wrench +=
+      inertia_wrench(2.0, Matrix3<double>(Vector3<double>(0.1, 0.2, 0.3).asDiagonal()), child);
   double rows[3];
   const Wrench<double> below = carry_back(wrench, pair, pose, x.q, rows);
   double power = wrench.force.dot(child.velocity) + wrench.moment.dot(child.omega);

@@ -16,14 +16,16 @@ PairVector<T> direction() {
 }
 template <class T>
 PairVector<T> displacement() {
-  return PairVector<T>::displacement(Vector3<T>(T(0.1), T(-0.2), T(0.3)), Vector3<T>(T(-0.3), T(0.1), T(0.2)));
+  return PairVector<T>::displacement(Vector3<T>(T(0.1), T(-0.2), T(0.3)),
+                                     Vector3<T>(T(-0.3), T(0.1), T(0.2)));
 }
 
 /// phi, phi', phi'' of direction . displacement.
 template <class T>
 VectorX<T> motion(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a) {
   const auto i = local_body(q, v, a, 0), j = local_body(q, v, a, kBodySize);
-  const ProductMotion<T> m = product_motion(motion_of(direction<T>(), i, j), motion_of(displacement<T>(), i, j));
+  const ProductMotion<T> m =
+      product_motion(motion_of(direction<T>(), i, j), motion_of(displacement<T>(), i, j));
   VectorX<T> all(3);
   all << m.phi, m.phid, m.phidd;
   return all;
@@ -32,22 +34,29 @@ VectorX<T> motion(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a)
 class ScalarProduct : public ::testing::Test {
  protected:
   const Eigen::VectorXd q = generic_local(0.2), v = generic_local(1.3), a = generic_local(2.1);
-  const BodyKinematics<double> i = local_body<double>(q, v, a, 0), j = local_body<double>(q, v, a, kBodySize);
+  const BodyKinematics<double> i = local_body<double>(q, v, a, 0),
+                               j = local_body<double>(q, v, a, kBodySize);
   const PairVector<double> X = direction<double>(), Y = displacement<double>();
   const VectorMotion<double> x = motion_of(X, i, j), y = motion_of(Y, i, j);
 };
 
 TEST_F(ScalarProduct, RatesAreTimeDerivatives) {
   constexpr double h = 1e-30;
-  const Eigen::VectorXcd along = motion<C>(q.cast<C>() + C(0, h) * v.cast<C>(), v.cast<C>() + C(0, h) * a.cast<C>(), a.cast<C>());
+  const Eigen::VectorXcd along = motion<C>(q.cast<C>() + C(0, h) * v.cast<C>(),
+                                           v.cast<C>() + C(0, h) * a.cast<C>(), a.cast<C>());
   const Eigen::VectorXd m = motion<double>(q, v, a);
   EXPECT_NEAR(along[0].imag() / h, m[1], 1e-13);
   EXPECT_NEAR(along[1].imag() / h, m[2], 1e-13);
 }
 
 TEST_F(ScalarProduct, TheGradientIsExact) {
-  const auto by_q = [&](const Eigen::VectorXcd& z) { return Eigen::VectorXcd(motion<C>(z, v.cast<C>(), a.cast<C>()).head(1)); };
-  EXPECT_LT(compare_jacobians(product_gradient(X, Y, x, y, i, j).transpose(), complex_step_jacobian(by_q, q)).largest, 1e-13);
+  const auto by_q = [&](const Eigen::VectorXcd& z) {
+    return Eigen::VectorXcd(motion<C>(z, v.cast<C>(), a.cast<C>()).head(1));
+  };
+  EXPECT_LT(compare_jacobians(product_gradient(X, Y, x, y, i, j).transpose(),
+                              complex_step_jacobian(by_q, q))
+                .largest,
+            1e-13);
 }
 
 TEST_F(ScalarProduct, LoadIsTheGradientTransposed) {
@@ -78,7 +87,9 @@ TEST(PairRows, OnlyPointsOfDisplacementsAndAxesInUseAreMarked) {
   using Rows = PairRows<double>;
   const Rows hinge = pair_rows<double>(PairKind::kRevolute, PairConstants<double>());
   EXPECT_TRUE(hinge.coincident);
-  const auto used = [&hinge](Side side, int k) { return hinge.used[static_cast<std::size_t>(Rows::shared(side, k))]; };
+  const auto used = [&hinge](Side side, int k) {
+    return hinge.used[static_cast<std::size_t>(Rows::shared(side, k))];
+  };
   EXPECT_TRUE(used(Side::kI, 0));
   EXPECT_TRUE(used(Side::kI, 1));
   EXPECT_TRUE(used(Side::kJ, 2));
@@ -112,7 +123,8 @@ TEST(PairVector, ADirectionHasOneTermAndADisplacementTwo) {
   for (const auto& term : d.term) {
     EXPECT_TRUE(term.point);
     EXPECT_EQ(term.sign, term.side == Side::kJ ? 1.0 : -1.0) << "from i to j";
-    EXPECT_EQ(term.s, (term.side == Side::kJ ? Vector3<double>(0.0, 1.0, 0.0) : Vector3<double>(1.0, 0.0, 0.0)));
+    EXPECT_EQ(term.s, (term.side == Side::kJ ? Vector3<double>(0.0, 1.0, 0.0)
+                                             : Vector3<double>(1.0, 0.0, 0.0)));
   }
 }
 
@@ -128,7 +140,9 @@ TEST(PairMotion, SharedVectorsMoveAsTheirOwn) {
   for (const ProductRow<double>& row : rows.products) {
     for (const PairVector<double>* x : {&row.X, &row.Y}) {
       const VectorMotion<double> one = shared.of(*x), other = motion_of(*x, i, j);
-      EXPECT_LT((one.x - other.x).norm() + (one.xd - other.xd).norm() + (one.xdd - other.xdd).norm(), 1e-14);
+      EXPECT_LT(
+          (one.x - other.x).norm() + (one.xd - other.xd).norm() + (one.xdd - other.xdd).norm(),
+          1e-14);
     }
   }
 }

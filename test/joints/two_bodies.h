@@ -8,16 +8,19 @@
 
 namespace codesign {
 
-/// Generic values of [r_i, p_i, r_j, p_j] or of a time derivative. |p| differs from 1, where the formulas must hold too.
+/// Generic values of [r_i, p_i, r_j, p_j] or of a time derivative. |p| differs from 1, where the
+/// formulas must hold too.
 inline Eigen::VectorXd generic_local(double phase) {
   Eigen::VectorXd x(kLocalSize);
-  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = 0.6 * std::sin(2.3 * static_cast<double>(k) + phase);
+  for (Eigen::Index k = 0; k < x.size(); ++k)
+    x[k] = 0.6 * std::sin(2.3 * static_cast<double>(k) + phase);
   return x;
 }
 
 /// One body of a pair; its coordinates begin at index `first`.
 template <class T>
-BodyKinematics<T> local_body(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a, int first) {
+BodyKinematics<T> local_body(const VectorX<T>& q, const VectorX<T>& v, const VectorX<T>& a,
+                             int first) {
   BodyKinematics<T> b;
   b.r = q.template segment<3>(first);
   b.p = q.template segment<4>(first + 3);

@@ -11,13 +11,14 @@ namespace {
 /// The covariance that the conditional distributions make together: x - m = slopes (x - m) + e.
 Eigen::MatrixXd composed(const ConditionalNormal& normal) {
   const Eigen::Index size = normal.slopes.rows();
-  const Eigen::MatrixXd root =
-      (Eigen::MatrixXd::Identity(size, size) - normal.slopes).inverse() * normal.deviations.asDiagonal().toDenseMatrix();
+  const Eigen::MatrixXd root = (Eigen::MatrixXd::Identity(size, size) - normal.slopes).inverse() *
+                               normal.deviations.asDiagonal().toDenseMatrix();
   return root * root.transpose();
 }
 
 TEST(ConditionalNormal, OfTwoNumbersByHand) {
-  // deviations 2 and 3, correlation 0.6: the slope is 0.6 * 3 / 2, the remaining deviation of the second is 3 sqrt(1 - 0.36).
+  // deviations 2 and 3, correlation 0.6: the slope is 0.6 * 3 / 2, the remaining deviation of the
+  // second is 3 sqrt(1 - 0.36).
   const auto normal = conditional_normal((Eigen::Matrix2d() << 4.0, 3.6, 3.6, 9.0).finished());
   ASSERT_TRUE(normal);
   EXPECT_DOUBLE_EQ(normal->slopes(1, 0), 0.9);
@@ -32,7 +33,8 @@ TEST(ConditionalNormal, ComposesToTheCovariance) {
   const Eigen::MatrixXd covariance = root * root.transpose();
   const auto normal = conditional_normal(covariance);
   ASSERT_TRUE(normal);
-  EXPECT_TRUE(composed(*normal).isApprox(covariance, 1e-10)) << composed(*normal) << "\n" << covariance;
+  EXPECT_TRUE(composed(*normal).isApprox(covariance, 1e-10)) << composed(*normal) << "\n"
+                                                             << covariance;
 }
 
 TEST(ConditionalNormal, ANumberThatIsKnownOrFollowsFromOthers) {
@@ -47,9 +49,11 @@ TEST(ConditionalNormal, ANumberThatIsKnownOrFollowsFromOthers) {
 }
 
 TEST(ConditionalNormal, RefusesWhatNoDistributionHas) {
-  EXPECT_FALSE(conditional_normal((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished())) << "correlation 2";
+  EXPECT_FALSE(conditional_normal((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished()))
+      << "correlation 2";
   EXPECT_FALSE(conditional_normal((Eigen::Matrix2d() << -1.0, 0.0, 0.0, 1.0).finished()));
-  EXPECT_FALSE(conditional_normal((Eigen::Matrix2d() << 0.0, 1.0, 1.0, 1.0).finished())) << "a known number correlates with nothing";
+  EXPECT_FALSE(conditional_normal((Eigen::Matrix2d() << 0.0, 1.0, 1.0, 1.0).finished()))
+      << "a known number correlates with nothing";
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace {
 Eigen::MatrixXd matrix() {
   Eigen::MatrixXd m(5, 4);
   for (int row = 0; row < 5; ++row)
-    for (int column = 0; column < 3; ++column) m(row, column) = std::sin(1.0 + 2.3 * row + 5.1 * column + 0.9 * row * column);
+    for (int column = 0; column < 3; ++column)
+      m(row, column) = std::sin(1.0 + 2.3 * row + 5.1 * column + 0.9 * row * column);
   m.col(3) = m.col(0) + m.col(1);
   return m;
 }
@@ -34,7 +35,8 @@ TEST(Dense, SingularVectorsGiveTheMatrixBack) {
   EXPECT_LT((both.U.leftCols(4) * both.values.asDiagonal() * both.V.transpose() - m).norm(), 1e-13);
   EXPECT_EQ(singular_values(m, SingularVectors::kLeft).V.size(), 0);
   EXPECT_LT((singular_values(m, SingularVectors::kLeft).U - both.U).norm(), 1e-12);
-  EXPECT_LT((singular_values(m, SingularVectors::kRight).V.leftCols(3) - both.V.leftCols(3)).norm(), 1e-12);
+  EXPECT_LT((singular_values(m, SingularVectors::kRight).V.leftCols(3) - both.V.leftCols(3)).norm(),
+            1e-12);
 }
 
 TEST(Dense, PivotsComeLargestFirst) {
@@ -54,7 +56,8 @@ TEST(Dense, ComplementIsOrthonormalAndOrthogonalToTheColumns) {
 }
 
 TEST(Dense, WithoutColumnsTheComplementIsTheWholeSpace) {
-  EXPECT_EQ(orthogonal_complement(Eigen::MatrixXd(3, 0), 1e-9), Eigen::MatrixXd(Eigen::Matrix3d::Identity()));
+  EXPECT_EQ(orthogonal_complement(Eigen::MatrixXd(3, 0), 1e-9),
+            Eigen::MatrixXd(Eigen::Matrix3d::Identity()));
 }
 
 TEST(Dense, SolutionsOfLeastNormAndEigenvaluesAreExact) {
@@ -79,8 +82,8 @@ TEST(Dense, PrincipalMomentsDoNotDependOnTheAxes) {
 }
 
 TEST(Dense, UpperFactorHasTheProductOfTheMatrix) {
-  const Eigen::MatrixXd A =
-      Eigen::MatrixXd::NullaryExpr(7, 4, [](Eigen::Index i, Eigen::Index j) { return std::sin(double(3 * i + j * j)); });
+  const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
+      7, 4, [](Eigen::Index i, Eigen::Index j) { return std::sin(double(3 * i + j * j)); });
   const Eigen::MatrixXd R = upper_factor(A);
   ASSERT_EQ(R.rows(), 4);
   EXPECT_LT((R.transpose() * R - A.transpose() * A).norm(), 1e-13);
@@ -107,7 +110,8 @@ void expect_root(const Eigen::MatrixXd& R, const Eigen::MatrixXd& A) {
 }
 
 TEST(TriangularRoot, IsARootOfAnyNumberOfRows) {
-  for (const Eigen::Index count : {0, 1, 3, 4, 5, 200}) expect_root(triangular_root(rows(count, 4)), rows(count, 4));
+  for (const Eigen::Index count : {0, 1, 3, 4, 5, 200})
+    expect_root(triangular_root(rows(count, 4)), rows(count, 4));
   EXPECT_EQ(triangular_root(Eigen::MatrixXd(3, 0)).size(), 0);
 }
 

@@ -14,14 +14,16 @@ using L = Lanes<4>;
 using C = std::complex<double>;
 constexpr double kStep = 1e-30;
 
-/// Every lane must equal the derivative by the complex step, for a generic function of two variables.
+/// Every lane must equal the derivative by the complex step, for a generic function of two
+/// variables.
 template <class F>
 void expect_derivatives(const F& f, double x, double y) {
   L lx(x), ly(y);
   lx.v[0] = 1.0;
   ly.v[2] = 1.0;
   const L value = f(lx, ly);
-  const double by_x = f(C(x, kStep), C(y)).imag() / kStep, by_y = f(C(x), C(y, kStep)).imag() / kStep;
+  const double by_x = f(C(x, kStep), C(y)).imag() / kStep,
+               by_y = f(C(x), C(y, kStep)).imag() / kStep;
   EXPECT_NEAR(value.a, f(C(x), C(y)).real(), 1e-14);
   EXPECT_NEAR(value.v[0], by_x, 1e-13 * (1.0 + std::abs(by_x)));
   EXPECT_NEAR(value.v[2], by_y, 1e-13 * (1.0 + std::abs(by_y)));

@@ -41,7 +41,8 @@ TEST(SampledFunction, AParabolaIsReproduced) {
 
 TEST(SampledFunction, TheSlopeIsContinuousAtTheSamples) {
   const SampledFunction recorded = uneven();
-  for (double t : {0.1, 0.25, 0.3}) EXPECT_NEAR(recorded.at(t - 1e-10).slope, recorded.at(t + 1e-10).slope, 1e-5);
+  for (double t : {0.1, 0.25, 0.3})
+    EXPECT_NEAR(recorded.at(t - 1e-10).slope, recorded.at(t + 1e-10).slope, 1e-5);
 }
 
 TEST(SampledFunction, OneSampleAndTwoSamples) {

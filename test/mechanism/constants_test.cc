@@ -12,20 +12,26 @@ struct Mechanism {
   RobotDescription robot;
   Topology topology;
 
-  explicit Mechanism(const std::string& content) : robot(read_urdf(robot_text(kGround + content))), topology(derive_topology(robot)) {}
-  Constants<double> at(double length) const { return evaluate_constants<double>(robot, topology, {length}); }
+  explicit Mechanism(const std::string& content)
+      : robot(read_urdf(robot_text(kGround + content))), topology(derive_topology(robot)) {}
+  Constants<double> at(double length) const {
+    return evaluate_constants<double>(robot, topology, {length});
+  }
 };
 
 std::string ball(const std::string& name, const std::string& mass, const std::string& twin = "") {
-  return link_with(name, "<inertial><mass value='" + mass + "' " + twin +
-                             "/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
+  return link_with(
+      name, "<inertial><mass value='" + mass + "' " + twin +
+                "/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
 }
 
 /// Two balls of 1 and 3 kg, fixed to each other at the distance `length` along x.
 Mechanism dumbbell() {
   return Mechanism(ball("near", "1") + ball("far", "3") +
-                   joint_with("hinge", "continuous", "ground", "near", "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
-                   joint_with("bar", "fixed", "near", "far", "<origin xyz='0.2 0 0' codesign:xyz='${length} 0 0'/>"));
+                   joint_with("hinge", "continuous", "ground", "near",
+                              "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>") +
+                   joint_with("bar", "fixed", "near", "far",
+                              "<origin xyz='0.2 0 0' codesign:xyz='${length} 0 0'/>"));
 }
 
 TEST(Constants, FixedLinksAreOneBodyAboutItsCentreOfMass) {
@@ -57,7 +63,8 @@ TEST(Constants, FollowTheDesign) {
 }
 
 std::string fault(const std::string& content, double length) {
-  const Mechanism mechanism(content + joint_with("hinge", "continuous", "ground", "arm", "<axis xyz='0 1 0'/>"));
+  const Mechanism mechanism(
+      content + joint_with("hinge", "continuous", "ground", "arm", "<axis xyz='0 1 0'/>"));
   return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(length));
 }
 
@@ -66,22 +73,26 @@ TEST(FindImpossible, ADesignMayBeImpossibleThoughTheDefaultIsNot) {
   EXPECT_EQ(fault(light, 0.1), "");
   EXPECT_NE(fault(light, -0.1).find("body 'arm': the mass is negative"), std::string::npos);
   const auto disc = [](const std::string& ixx, const std::string& twin) {
-    return link_with("arm", "<inertial><mass value='1'/><inertia ixx='" + ixx + "' codesign:ixx='" + twin +
+    return link_with("arm", "<inertial><mass value='1'/><inertia ixx='" + ixx + "' codesign:ixx='" +
+                                twin +
                                 "' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>");
   };
   EXPECT_EQ(fault(disc("0.2", "${length}"), 0.15), "");
   EXPECT_NE(fault(disc("0.2", "${length}"), 0.21).find("triangle inequality"), std::string::npos);
-  EXPECT_NE(fault(disc("0.1", "${length-0.1}"), 0.05).find("negative principal moment"), std::string::npos);
+  EXPECT_NE(fault(disc("0.1", "${length-0.1}"), 0.05).find("negative principal moment"),
+            std::string::npos);
 }
 
 TEST(FindImpossible, NamesTheJointOfABadFriction) {
   Mechanism mechanism(
       link_with("arm") +
-      joint_with(
-          "hinge", "continuous", "ground", "arm",
-          "<axis xyz='0 1 0'/><codesign:friction mu_static='0.3' mu_dynamic='0.2' codesign:mu_dynamic='${length}' joint_length='0.1' "
-          "pin_radius='0.01'/>"));
-  const auto verdict = [&](double length) { return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(length)); };
+      joint_with("hinge", "continuous", "ground", "arm",
+                 "<axis xyz='0 1 0'/><codesign:friction mu_static='0.3' mu_dynamic='0.2' "
+                 "codesign:mu_dynamic='${length}' joint_length='0.1' "
+                 "pin_radius='0.01'/>"));
+  const auto verdict = [&](double length) {
+    return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(length));
+  };
   EXPECT_EQ(verdict(0.25), "");
   EXPECT_NE(verdict(0.35).find("joint 'hinge'"), std::string::npos) << "mu_dynamic above mu_static";
 }
@@ -95,23 +106,29 @@ TEST(DefaultValues, ComeInTheOrderOfTheParameters) {
   EXPECT_EQ(default_values(robot), (std::vector<double>{0.5, -2.0}));
 }
 
-std::string inertial(const std::string& mass, const std::string& ixx, const std::string& iyy, const std::string& izz) {
-  return "<inertial><mass value=\"" + mass + "\"/><inertia ixx=\"" + ixx + "\" ixy=\"0\" ixz=\"0\" iyy=\"" + iyy + "\" iyz=\"0\" izz=\"" +
-         izz + "\"/></inertial>";
+std::string inertial(const std::string& mass, const std::string& ixx, const std::string& iyy,
+                     const std::string& izz) {
+  return "<inertial><mass value=\"" + mass + "\"/><inertia ixx=\"" + ixx +
+         "\" ixy=\"0\" ixz=\"0\" iyy=\"" + iyy + "\" iyz=\"0\" izz=\"" + izz + "\"/></inertial>";
 }
 
 /// An arm with this inertial on a hinge, and a part fixed to the arm.
 SourceText arm(const std::string& numbers, const std::string& part = "") {
-  return robot_text(kGround + link_with("arm", numbers) + joint_with("hinge", "continuous", "ground", "arm") + "\n" +
-                    (part.empty() ? "" : link_with("part", part) + joint_with("weld", "fixed", "arm", "part")));
+  return robot_text(
+      kGround + link_with("arm", numbers) + joint_with("hinge", "continuous", "ground", "arm") +
+      "\n" +
+      (part.empty() ? "" : link_with("part", part) + joint_with("weld", "fixed", "arm", "part")));
 }
 
 TEST(BodyCheck, WhatNoBodyCanHaveIsAWarning) {
   expect_warning(arm(inertial("-1", "1", "1", "1")), "negative_mass",
                  {"test.urdf:2: <link name=\"arm\"> <inertial>: the mass is negative"});
-  expect_warning(arm(inertial("1", "-1", "1", "1")), "inertia_not_positive", {"principal moments -1 1 1", "used as it is written"});
-  expect_warning(arm(inertial("1", "1", "1", "2.1")), "triangle_inequality", {"principal moments 1 1 2.1"});
-  EXPECT_EQ(read_urdf(arm(inertial("1", "1", "1", "2.1"))).links[1].inertial->inertia[5].nominal(), 2.1);
+  expect_warning(arm(inertial("1", "-1", "1", "1")), "inertia_not_positive",
+                 {"principal moments -1 1 1", "used as it is written"});
+  expect_warning(arm(inertial("1", "1", "1", "2.1")), "triangle_inequality",
+                 {"principal moments 1 1 2.1"});
+  EXPECT_EQ(read_urdf(arm(inertial("1", "1", "1", "2.1"))).links[1].inertial->inertia[5].nominal(),
+            2.1);
 }
 
 TEST(BodyCheck, IdealBodiesAreFine) {
@@ -128,13 +145,16 @@ TEST(BodyCheck, LinksThatAreWeldedTogetherAreJudgedAsOne) {
   expect_no_warning(arm(heavy, inertial("0", "0.1", "0.1", "0.1")));
   expect_no_warning(arm(heavy, inertial("0.1", "0", "0", "0.3")));
   expect_no_warning(arm(heavy, inertial("-0.1", "-0.1", "0.1", "0.1")));
-  expect_warning(arm(heavy, inertial("-2", "1", "1", "1")), "negative_mass", {"<link name=\"arm\">", "links: arm, part"});
-  expect_error(arm(heavy, inertial("-1", "1", "1", "1")), {"test.urdf:2:", "fixed to each other cancel", "value: arm, part"});
+  expect_warning(arm(heavy, inertial("-2", "1", "1", "1")), "negative_mass",
+                 {"<link name=\"arm\">", "links: arm, part"});
+  expect_error(arm(heavy, inertial("-1", "1", "1", "1")),
+               {"test.urdf:2:", "fixed to each other cancel", "value: arm, part"});
 }
 
 TEST(BodyCheck, TheRootIsNotJudged) {
   const auto on_base = [](const std::string& base) {
-    return robot_text(link_with("base", base) + link_with("arm") + joint_with("hinge", "continuous", "base", "arm"));
+    return robot_text(link_with("base", base) + link_with("arm") +
+                      joint_with("hinge", "continuous", "base", "arm"));
   };
   expect_no_warning(on_base(inertial("-1", "-1", "0", "3")));
   expect_no_warning(on_base(inertial("0", "1", "1", "1")));

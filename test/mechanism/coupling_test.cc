@@ -13,13 +13,15 @@ namespace {
 
 /// ground - shoulder - upper - elbow - lower, and ground - motor - rotor.
 std::string coupled_arm(const std::string& more, const std::string& elbow = "") {
-  return kGround + link_with("upper") + link_with("lower") + link_with("rotor") + joint_with("shoulder", "continuous", "ground", "upper") +
-         joint_with("elbow", "continuous", "upper", "lower", elbow) + joint_with("motor", "continuous", "ground", "rotor") + "\n" + more;
+  return kGround + link_with("upper") + link_with("lower") + link_with("rotor") +
+         joint_with("shoulder", "continuous", "ground", "upper") +
+         joint_with("elbow", "continuous", "upper", "lower", elbow) +
+         joint_with("motor", "continuous", "ground", "rotor") + "\n" + more;
 }
 
 std::string coupling(const std::string& predecessor, const std::string& successor) {
-  return "<coupling name=\"belt\"><predecessor link=\"" + predecessor + "\"/><successor link=\"" + successor +
-         "\"/><ratio value=\"0.4\" codesign:value=\"${2*length}\"/></coupling>";
+  return "<coupling name=\"belt\"><predecessor link=\"" + predecessor + "\"/><successor link=\"" +
+         successor + "\"/><ratio value=\"0.4\" codesign:value=\"${2*length}\"/></coupling>";
 }
 
 std::string coupling_fault(const SourceText& urdf) {
@@ -33,8 +35,10 @@ std::string coupling_fault(const SourceText& urdf) {
 }
 
 TEST(Coupling, AMimicFollowsWithItsMultiplierAndOffset) {
-  const RobotDescription robot = read_urdf(
-      robot_text(coupled_arm("", "<mimic joint=\"shoulder\" multiplier=\"-0.2\" codesign:multiplier=\"${-length}\" offset=\"0.3\"/>")));
+  const RobotDescription robot =
+      read_urdf(robot_text(coupled_arm("",
+                                       "<mimic joint=\"shoulder\" multiplier=\"-0.2\" "
+                                       "codesign:multiplier=\"${-length}\" offset=\"0.3\"/>")));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
   const Coupling& c = topology.couplings[0];
@@ -52,18 +56,22 @@ TEST(Coupling, SumsTheJointsFromTheNearestCommonAncestor) {
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
   std::vector<std::string> joints;
-  for (const CouplingTerm& term : topology.couplings[0].terms) joints.push_back(robot.joints[static_cast<std::size_t>(term.joint)].name);
+  for (const CouplingTerm& term : topology.couplings[0].terms)
+    joints.push_back(robot.joints[static_cast<std::size_t>(term.joint)].name);
   EXPECT_EQ(joints, (std::vector<std::string>{"motor", "elbow", "shoulder"}));
   // theta_motor - ratio (theta_elbow + theta_shoulder) = 0
-  EXPECT_EQ(evaluate_constants<double>(robot, topology, {0.3}).couplings.at(0).coefficients, (std::vector<double>{1.0, -0.6, -0.6}));
+  EXPECT_EQ(evaluate_constants<double>(robot, topology, {0.3}).couplings.at(0).coefficients,
+            (std::vector<double>{1.0, -0.6, -0.6}));
 }
 
 TEST(Coupling, OfALinkAndOneBelowItTakesTheJointsBetween) {
   const RobotDescription robot = read_urdf(robot_text(coupled_arm(coupling("upper", "lower"))));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
-  ASSERT_EQ(topology.couplings[0].terms.size(), 1U) << "the predecessor is the nearest common ancestor";
-  EXPECT_EQ(robot.joints[static_cast<std::size_t>(topology.couplings[0].terms[0].joint)].name, "elbow");
+  ASSERT_EQ(topology.couplings[0].terms.size(), 1U)
+      << "the predecessor is the nearest common ancestor";
+  EXPECT_EQ(robot.joints[static_cast<std::size_t>(topology.couplings[0].terms[0].joint)].name,
+            "elbow");
 }
 
 TEST(Coupling, WhatCannotBeCoupledIsNamedWithItsPlace) {
@@ -71,33 +79,44 @@ TEST(Coupling, WhatCannotBeCoupledIsNamedWithItsPlace) {
                 .find("test.urdf:3: <coupling name=\"belt\">: no joint moves the successor"),
             std::string::npos);
   const std::string floating = link_with("base") + joint_with("free", "floating", "ground", "base");
-  EXPECT_NE(coupling_fault(robot_text(coupled_arm(coupling("upper", "base") + floating))).find("more than one coordinate (value: free"),
+  EXPECT_NE(coupling_fault(robot_text(coupled_arm(coupling("upper", "base") + floating)))
+                .find("more than one coordinate (value: free"),
             std::string::npos);
 }
 
 TEST(Coupling, ALinkWithoutMassThatIsCoupledIsABody) {
-  const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame");
-  const RobotDescription robot = read_urdf(robot_text(coupled_arm(coupling("upper", "frame") + frame)));
+  const std::string frame =
+      link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame");
+  const RobotDescription robot =
+      read_urdf(robot_text(coupled_arm(coupling("upper", "frame") + frame)));
   const Topology topology = derive_topology(robot);
   EXPECT_EQ(topology.couplings.at(0).terms.size(), 2U);
   EXPECT_EQ(topology.bodies.back().name, "frame");
 }
 
 TEST(Coupling, WhatFollowsAJointWithoutMassKeepsIt) {
-  // The driving finger has no inertial, the one that mimics it has; the coupling needs both coordinates.
-  const std::string fingers = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower") +
-                              joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\" multiplier=\"-1\"/>");
+  // The driving finger has no inertial, the one that mimics it has; the coupling needs both
+  // coordinates.
+  const std::string fingers = link_with("driver", "") +
+                              joint_with("drive", "continuous", "lower", "driver") +
+                              link_with("follower") +
+                              joint_with("follow", "continuous", "lower", "follower",
+                                         "<mimic joint=\"drive\" multiplier=\"-1\"/>");
   const Topology topology = derive_topology(read_urdf(robot_text(coupled_arm(fingers))));
   ASSERT_EQ(topology.couplings.size(), 1U);
   EXPECT_EQ(topology.couplings[0].terms.size(), 2U);
-  const std::string light = link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") + link_with("follower", "") +
-                            joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\"/>");
-  EXPECT_TRUE(derive_topology(read_urdf(robot_text(coupled_arm(light)))).couplings.empty()) << "nobody has mass";
+  const std::string light =
+      link_with("driver", "") + joint_with("drive", "continuous", "lower", "driver") +
+      link_with("follower", "") +
+      joint_with("follow", "continuous", "lower", "follower", "<mimic joint=\"drive\"/>");
+  EXPECT_TRUE(derive_topology(read_urdf(robot_text(coupled_arm(light)))).couplings.empty())
+      << "nobody has mass";
 }
 
 TEST(Coupling, AMimicOfAFixedJointStandsAtItsOffset) {
-  const std::string more = link_with("plate") + joint_with("weld", "fixed", "lower", "plate") + link_with("tip") +
-                           joint_with("wrist", "continuous", "lower", "tip", "<mimic joint=\"weld\" offset=\"0.4\"/>");
+  const std::string more =
+      link_with("plate") + joint_with("weld", "fixed", "lower", "plate") + link_with("tip") +
+      joint_with("wrist", "continuous", "lower", "tip", "<mimic joint=\"weld\" offset=\"0.4\"/>");
   const RobotDescription robot = read_urdf(robot_text(coupled_arm(more)));
   const Topology topology = derive_topology(robot);
   ASSERT_EQ(topology.couplings.size(), 1U);
@@ -106,24 +125,29 @@ TEST(Coupling, AMimicOfAFixedJointStandsAtItsOffset) {
 }
 
 TEST(Coupling, AMimicThatMovesNoMassNeedsNoRow) {
-  const std::string frame = link_with("frame", "") + joint_with("sensor", "continuous", "lower", "frame", "<mimic joint=\"elbow\"/>");
+  const std::string frame =
+      link_with("frame", "") +
+      joint_with("sensor", "continuous", "lower", "frame", "<mimic joint=\"elbow\"/>");
   EXPECT_TRUE(derive_topology(read_urdf(robot_text(coupled_arm(frame)))).couplings.empty());
 }
 
 /// The driven trees of a mechanism's joints, as names of bodies.
 class Trees {
  public:
-  explicit Trees(const std::string& urdf) : robot_(read_urdf({"test.urdf", urdf})), topology_(derive_topology(robot_)) {}
+  explicit Trees(const std::string& urdf)
+      : robot_(read_urdf({"test.urdf", urdf})), topology_(derive_topology(robot_)) {}
 
   DrivenTree of(const std::string& joint, bool accelerations) const {
     for (std::size_t k = 0; k < robot_.joints.size(); ++k)
       if (robot_.joints[k].name == joint)
-        return driven_tree(topology_, topology_.joint_pair[k], accelerations, {"study.yaml", 7}, "controllers.servo.output");
+        return driven_tree(topology_, topology_.joint_pair[k], accelerations, {"study.yaml", 7},
+                           "controllers.servo.output");
     throw std::out_of_range(joint);
   }
   std::vector<std::string> names(const DrivenTree& tree) const {
     std::vector<std::string> names;
-    for (const DrivenTree::Node& node : tree.nodes) names.push_back(topology_.bodies[static_cast<std::size_t>(node.body)].name);
+    for (const DrivenTree::Node& node : tree.nodes)
+      names.push_back(topology_.bodies[static_cast<std::size_t>(node.body)].name);
     return names;
   }
   std::string fault(const std::string& joint, bool accelerations) const {
@@ -167,14 +191,18 @@ TEST(DrivenTree, AccelerationsNeedEveryBodyFromTheGroundOn) {
 
 TEST(DrivenTree, WhatTheLawsCannotWorkThroughIsRefused) {
   EXPECT_EQ(Trees(crane()).fault("wrist", true), "") << "the ball hangs elsewhere";
-  EXPECT_NE(Trees(crane()).fault("turn", true).find("cannot work through this joint"), std::string::npos);
-  EXPECT_NE(Trees(crane()).fault("ball_y", false).find("cannot work through this joint"), std::string::npos);
-  EXPECT_NE(Trees(four_bar()).fault("left_hinge", false).find("a loop connects"), std::string::npos);
+  EXPECT_NE(Trees(crane()).fault("turn", true).find("cannot work through this joint"),
+            std::string::npos);
+  EXPECT_NE(Trees(crane()).fault("ball_y", false).find("cannot work through this joint"),
+            std::string::npos);
+  EXPECT_NE(Trees(four_bar()).fault("left_hinge", false).find("a loop connects"),
+            std::string::npos);
 }
 
 TEST(DrivenTree, ALoopBelowTheJointDoesNotMatter) {
   const std::string loop =
-      "<loop name='link' type='codesign:distance'><codesign:length value='0.5'/><predecessor link='boom'/><successor "
+      "<loop name='link' type='codesign:distance'><codesign:length value='0.5'/><predecessor "
+      "link='boom'/><successor "
       "link='gripper'/></loop>";
   const Trees trees(crane(loop));
   EXPECT_EQ(trees.fault("reach", false), "");

@@ -20,10 +20,12 @@ Topology topology(const std::vector<Element>& elements, const std::string& more 
   std::string text = kGround;
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const bool last = k + 1 == elements.size();
-    const std::string parent = k == 0 ? "ground" : "m" + std::to_string(k - 1), child = last ? "arm" : "m" + std::to_string(k);
-    text += link_with(child, last ? kInertial : "") + joint_with("j" + std::to_string(k), elements[k].type, parent, child,
-                                                                 "<origin xyz='" + std::string(elements[k].xyz) + "'/><axis xyz='" +
-                                                                     elements[k].axis + "'/><limit effort='1' velocity='1'/>" + more);
+    const std::string parent = k == 0 ? "ground" : "m" + std::to_string(k - 1),
+                      child = last ? "arm" : "m" + std::to_string(k);
+    text += link_with(child, last ? kInertial : "") +
+            joint_with("j" + std::to_string(k), elements[k].type, parent, child,
+                       "<origin xyz='" + std::string(elements[k].xyz) + "'/><axis xyz='" +
+                           elements[k].axis + "'/><limit effort='1' velocity='1'/>" + more);
   }
   return derive_topology(read_urdf(robot_text(text)));
 }
@@ -31,7 +33,8 @@ Topology topology(const std::vector<Element>& elements, const std::string& more 
 /// The kind of pair that the chain is folded into.
 PairKind fold(const std::vector<Element>& elements) { return topology(elements).pairs.at(0).kind; }
 
-constexpr const char *kTurn = "continuous", *kSlide = "prismatic", *kX = "1 0 0", *kY = "0 1 0", *kZ = "0 0 1";
+constexpr const char *kTurn = "continuous", *kSlide = "prismatic", *kX = "1 0 0", *kY = "0 1 0",
+                     *kZ = "0 0 1";
 
 TEST(FoldChain, OneJointIsItself) {
   EXPECT_EQ(fold({{kTurn, kX}}), PairKind::kRevolute);
@@ -42,8 +45,10 @@ TEST(FoldChain, OneJointIsItself) {
 
 TEST(FoldChain, TurnsThroughOnePoint) {
   EXPECT_EQ(fold({{kTurn, kX}, {kTurn, kY}}), PairKind::kUniversal);
-  EXPECT_EQ(fold({{kTurn, kX}, {kTurn, "0.3 0.4 0"}}), PairKind::kUniversal) << "the axes need not be normal to each other";
-  EXPECT_EQ(fold({{kTurn, kX}, {kTurn, kY, "0.2 0 0"}}), PairKind::kUniversal) << "a joint frame may stand anywhere on the axes";
+  EXPECT_EQ(fold({{kTurn, kX}, {kTurn, "0.3 0.4 0"}}), PairKind::kUniversal)
+      << "the axes need not be normal to each other";
+  EXPECT_EQ(fold({{kTurn, kX}, {kTurn, kY, "0.2 0 0"}}), PairKind::kUniversal)
+      << "a joint frame may stand anywhere on the axes";
   EXPECT_EQ(fold({{kTurn, kX}, {kTurn, kY}, {kTurn, kZ}}), PairKind::kSpherical);
   EXPECT_EQ(fold({{kTurn, kX}, {kTurn, kY}, {kTurn, kX}}), PairKind::kSpherical);
 }
@@ -56,9 +61,11 @@ TEST(FoldChain, Slides) {
 TEST(FoldChain, TurnsAndSlides) {
   EXPECT_EQ(fold({{kTurn, kZ}, {kSlide, kZ, "0 0 2"}}), PairKind::kCylindrical);
   EXPECT_EQ(fold({{kSlide, "0 0 -1"}, {kTurn, kZ}}), PairKind::kCylindrical);
-  for (const auto& order : {std::vector<Element>{{kSlide, kX}, {kSlide, kY}, {kTurn, kZ}}, {{kTurn, kZ}, {kSlide, kX}, {kSlide, kY}}})
+  for (const auto& order : {std::vector<Element>{{kSlide, kX}, {kSlide, kY}, {kTurn, kZ}},
+                            {{kTurn, kZ}, {kSlide, kX}, {kSlide, kY}}})
     EXPECT_EQ(fold(order), PairKind::kPlanar);
-  EXPECT_EQ(fold({{kSlide, kX}, {kSlide, kY}, {kSlide, kZ}, {kTurn, kX}, {kTurn, kY}, {kTurn, kZ}}), PairKind::kFree);
+  EXPECT_EQ(fold({{kSlide, kX}, {kSlide, kY}, {kSlide, kZ}, {kTurn, kX}, {kTurn, kY}, {kTurn, kZ}}),
+            PairKind::kFree);
 }
 
 TEST(FoldChain, LinksOfWhatIsNoJointAreBodiesWithoutMass) {
@@ -74,7 +81,8 @@ TEST(FoldChain, LinksOfWhatIsNoJointAreBodiesWithoutMass) {
   };
   for (const std::vector<Element>& chain : chains) {
     const Topology t = topology(chain);
-    EXPECT_EQ(t.pairs.size(), chain.size()) << "folded a chain that ends in " << chain.back().type << " " << chain.back().axis;
+    EXPECT_EQ(t.pairs.size(), chain.size())
+        << "folded a chain that ends in " << chain.back().type << " " << chain.back().axis;
     EXPECT_EQ(t.bodies.size(), chain.size());
   }
 }
@@ -83,8 +91,12 @@ TEST(FoldChain, AJointThatCarriesALoadKeepsItsCoordinate) {
   // A ball of three hinges at other than right angles has no closed form for each hinge.
   const std::vector<Element> skew{{kTurn, kX}, {kTurn, "0.6 0.8 0"}, {kTurn, kZ}};
   EXPECT_EQ(fold(skew), PairKind::kSpherical);
-  EXPECT_EQ(topology(skew, "<dynamics damping='0.1'/>").pairs.size(), 3U) << "damped hinges are not folded";
-  EXPECT_EQ(topology({{kTurn, kX}, {kTurn, kY}, {kTurn, kZ}}, "<dynamics damping='0.1'/>").pairs.size(), 1U) << "their angles can be read";
+  EXPECT_EQ(topology(skew, "<dynamics damping='0.1'/>").pairs.size(), 3U)
+      << "damped hinges are not folded";
+  EXPECT_EQ(
+      topology({{kTurn, kX}, {kTurn, kY}, {kTurn, kZ}}, "<dynamics damping='0.1'/>").pairs.size(),
+      1U)
+      << "their angles can be read";
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ Lanes<4> lane(double value, int k) {
 
 using Kind = ShapeDescription::Kind;
 
-ShapeDescription shape(Kind kind, const std::array<Quantity, 3>& size, const QuantityVector& xyz = {}, const QuantityVector& rpy = {}) {
+ShapeDescription shape(Kind kind, const std::array<Quantity, 3>& size,
+                       const QuantityVector& xyz = {}, const QuantityVector& rpy = {}) {
   return {kind, {xyz, rpy}, size};
 }
 
@@ -35,7 +36,8 @@ void expect_diagonal(const MassProperties<double>& properties, double x, double 
 
 TEST(MassProperties, RollPitchYawAreFixedAxisAngles) {
   const Matrix3<double> R = rotation_from_rpy<double>({0.1, -0.4, 2.0});
-  const Matrix3<double> expected = (Eigen::AngleAxisd(2.0, Vector3<double>::UnitZ()) * Eigen::AngleAxisd(-0.4, Vector3<double>::UnitY()) *
+  const Matrix3<double> expected = (Eigen::AngleAxisd(2.0, Vector3<double>::UnitZ()) *
+                                    Eigen::AngleAxisd(-0.4, Vector3<double>::UnitY()) *
                                     Eigen::AngleAxisd(0.1, Vector3<double>::UnitX()))
                                        .toRotationMatrix();
   EXPECT_LT((R - expected).norm(), 1e-15);
@@ -45,24 +47,27 @@ TEST(MassProperties, SolidsAlone) {
   const MassProperties<double> box = of_shapes(10.0, {shape(Kind::kBox, {1.0, 2.0, 3.0})});
   EXPECT_DOUBLE_EQ(box.mass, 60.0);
   expect_diagonal(box, 65.0, 50.0, 25.0);
-  const MassProperties<double> cylinder = of_shapes(1.0 / M_PI, {shape(Kind::kCylinder, {2.0, 3.0})});
+  const MassProperties<double> cylinder =
+      of_shapes(1.0 / M_PI, {shape(Kind::kCylinder, {2.0, 3.0})});
   EXPECT_DOUBLE_EQ(cylinder.mass, 12.0);
   expect_diagonal(cylinder, 21.0, 21.0, 24.0);
-  const MassProperties<double> sphere = of_shapes(3.0 / (4.0 * M_PI), {shape(Kind::kSphere, {2.0})});
+  const MassProperties<double> sphere =
+      of_shapes(3.0 / (4.0 * M_PI), {shape(Kind::kSphere, {2.0})});
   EXPECT_DOUBLE_EQ(sphere.mass, 8.0);
   expect_diagonal(sphere, 12.8, 12.8, 12.8);
 }
 
 TEST(MassProperties, TurnedAndShiftedSolid) {
-  const auto turned = of_shapes(10.0, {shape(Kind::kBox, {1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, {0.0, 0.0, M_PI / 2.0})});
+  const auto turned = of_shapes(
+      10.0, {shape(Kind::kBox, {1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, {0.0, 0.0, M_PI / 2.0})});
   EXPECT_LT((turned.centre - Vector3<double>(4.0, 5.0, 6.0)).norm(), 1e-14);
   expect_diagonal(turned, 50.0, 65.0, 25.0);
 }
 
 TEST(MassProperties, ParallelAxes) {
   // Two cubes side by side are one bar.
-  const auto bar =
-      of_shapes(1.0, {shape(Kind::kBox, {1.0, 1.0, 1.0}, {0.5, 0.0, 0.0}), shape(Kind::kBox, {1.0, 1.0, 1.0}, {1.5, 0.0, 0.0})});
+  const auto bar = of_shapes(1.0, {shape(Kind::kBox, {1.0, 1.0, 1.0}, {0.5, 0.0, 0.0}),
+                                   shape(Kind::kBox, {1.0, 1.0, 1.0}, {1.5, 0.0, 0.0})});
   EXPECT_DOUBLE_EQ(bar.mass, 2.0);
   EXPECT_LT((bar.centre - Vector3<double>(1.0, 0.0, 0.0)).norm(), 1e-15);
   expect_diagonal(bar, 2.0 * 2.0 / 12.0, 2.0 * 5.0 / 12.0, 2.0 * 5.0 / 12.0);
@@ -87,11 +92,12 @@ TEST(MassProperties, DerivativesAgreeWithTheComplexStep) {
   };
   InertialDescription inertial;
   inertial.density = quantity(0.3, "a");
-  inertial.shapes = {
-      shape(Kind::kBox, {quantity(0.3, "a"), quantity(0.5, "b"), 0.2}, {quantity(0.5, "b"), 0.1, 0.0}, {0.3, quantity(0.3, "a"), 0.2}),
-      shape(Kind::kCylinder, {quantity(0.25, "b/2"), quantity(0.6, "2*a")}),
-      shape(Kind::kSphere, {quantity(0.15, "a*b")}, {0.0, 0.0, quantity(0.3, "a")})};
-  const MassProperties<Lanes<4>> lanes = mass_properties(inertial, std::vector<Lanes<4>>{lane(0.3, 0), lane(0.5, 1)});
+  inertial.shapes = {shape(Kind::kBox, {quantity(0.3, "a"), quantity(0.5, "b"), 0.2},
+                           {quantity(0.5, "b"), 0.1, 0.0}, {0.3, quantity(0.3, "a"), 0.2}),
+                     shape(Kind::kCylinder, {quantity(0.25, "b/2"), quantity(0.6, "2*a")}),
+                     shape(Kind::kSphere, {quantity(0.15, "a*b")}, {0.0, 0.0, quantity(0.3, "a")})};
+  const MassProperties<Lanes<4>> lanes =
+      mass_properties(inertial, std::vector<Lanes<4>>{lane(0.3, 0), lane(0.5, 1)});
   for (int k = 0; k < 2; ++k) {
     std::vector<std::complex<double>> at = {0.3, 0.5};
     at[static_cast<std::size_t>(k)] += std::complex<double>(0.0, 1e-30);
@@ -99,20 +105,26 @@ TEST(MassProperties, DerivativesAgreeWithTheComplexStep) {
     EXPECT_NEAR(lanes.mass.v[k], step.mass.imag() / 1e-30, 1e-15);
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(lanes.centre[i].v[k], step.centre[i].imag() / 1e-30, 1e-14);
-      for (int j = 0; j < 3; ++j) EXPECT_NEAR(lanes.inertia(i, j).v[k], step.inertia(i, j).imag() / 1e-30, 1e-15);
+      for (int j = 0; j < 3; ++j)
+        EXPECT_NEAR(lanes.inertia(i, j).v[k], step.inertia(i, j).imag() / 1e-30, 1e-15);
     }
     EXPECT_GT(std::abs(lanes.inertia(0, 1).v[k]), 1e-6) << "the test must see a derivative";
   }
 }
 
-TEST(MassProperties, AMeshHasNoMass) { EXPECT_EQ(of_shapes(1.0, {shape(Kind::kMesh, {})}).mass, 0.0); }
+TEST(MassProperties, AMeshHasNoMass) {
+  EXPECT_EQ(of_shapes(1.0, {shape(Kind::kMesh, {})}).mass, 0.0);
+}
 
-MassProperties<double> cuboid(double mass, const Vector3<double>& size, const Vector3<double>& centre) {
+MassProperties<double> cuboid(double mass, const Vector3<double>& size,
+                              const Vector3<double>& centre) {
   MassProperties<double> m;
   m.mass = mass;
   m.centre = centre;
   const Vector3<double> square = size.cwiseProduct(size);
-  m.inertia = (mass / 12.0 * Vector3<double>(square[1] + square[2], square[2] + square[0], square[0] + square[1])).asDiagonal();
+  m.inertia = (mass / 12.0 *
+               Vector3<double>(square[1] + square[2], square[2] + square[0], square[0] + square[1]))
+                  .asDiagonal();
   return m;
 }
 
@@ -129,7 +141,8 @@ TEST(LogCholesky, OfACuboidByHand) {
                              0.5,
                              -0.4,
                              0.3};
-  for (std::size_t k = 0; k < 10; ++k) EXPECT_NEAR((*numbers)[k], expected[k], 1e-14) << kLogCholeskyNames[k];
+  for (std::size_t k = 0; k < 10; ++k)
+    EXPECT_NEAR((*numbers)[k], expected[k], 1e-14) << kLogCholeskyNames[k];
 }
 
 TEST(LogCholesky, TheFactorGivesTheSecondMomentsBack) {

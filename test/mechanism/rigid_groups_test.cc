@@ -15,12 +15,15 @@ RobotDescription chain(int count) {
   std::string content;
   for (int k = count + 1; k >= 1; --k) {
     const std::string name = "link" + std::to_string(k);
-    content += "<link name='" + name + "'><inertial><mass value='0.1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>" +
-               "</inertial></link><joint name='joint" + std::to_string(k) + "' type='" + (k == 1 ? "continuous" : "fixed") +
-               "'><parent link='link" + std::to_string(k - 1) + "'/><child link='" + name +
-               "'/><origin xyz='0.01 0.02 0' rpy='0.1 0 0.2'/></joint>";
+    content += "<link name='" + name +
+               "'><inertial><mass value='0.1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+               "iyz='0'/>" +
+               "</inertial></link><joint name='joint" + std::to_string(k) + "' type='" +
+               (k == 1 ? "continuous" : "fixed") + "'><parent link='link" + std::to_string(k - 1) +
+               "'/><child link='" + name + "'/><origin xyz='0.01 0.02 0' rpy='0.1 0 0.2'/></joint>";
   }
-  return read_urdf({"chain.urdf", "<robot name='chain'>" + content + "<link name='link0'/></robot>"});
+  return read_urdf(
+      {"chain.urdf", "<robot name='chain'>" + content + "<link name='link0'/></robot>"});
 }
 
 TEST(RigidGroups, ALongChainIsOneGroup) {
@@ -38,8 +41,10 @@ TEST(LinkPoses, AreThoseOfAWalkToTheBase) {
   LinkPoses<double> poses;
   poses.start(robot.links.size());
   for (int link = 0; link < static_cast<int>(robot.links.size()); ++link) {
-    const Pose<double> walked = link_in_base<double>(robot, groups.link_base, groups.link_parent_joint, link, {});
-    const Pose<double>& pose = poses.of(robot, groups.link_base, groups.link_parent_joint, link, {});
+    const Pose<double> walked =
+        link_in_base<double>(robot, groups.link_base, groups.link_parent_joint, link, {});
+    const Pose<double>& pose =
+        poses.of(robot, groups.link_base, groups.link_parent_joint, link, {});
     const int depth = std::stoi(robot.links[static_cast<std::size_t>(link)].name.substr(4));
     if (depth <= 100) {
       EXPECT_EQ(pose.t, walked.t) << "to the last bit, " << depth;

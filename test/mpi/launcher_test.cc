@@ -10,10 +10,16 @@ namespace {
 
 const char* nothing(const char*) { return nullptr; }
 const char* open_mpi(const char* name) {
-  return std::strcmp(name, "OMPI_COMM_WORLD_RANK") == 0 ? "3" : std::strcmp(name, "OMPI_COMM_WORLD_SIZE") == 0 ? "8" : nullptr;
+  return std::strcmp(name, "OMPI_COMM_WORLD_RANK") == 0   ? "3"
+         : std::strcmp(name, "OMPI_COMM_WORLD_SIZE") == 0 ? "8"
+                                                          : nullptr;
 }
 const char* pmix(const char* name) { return std::strcmp(name, "PMIX_RANK") == 0 ? "2" : nullptr; }
-const char* pmi(const char* name) { return std::strcmp(name, "PMI_RANK") == 0 ? "0" : std::strcmp(name, "PMI_SIZE") == 0 ? "5" : nullptr; }
+const char* pmi(const char* name) {
+  return std::strcmp(name, "PMI_RANK") == 0   ? "0"
+         : std::strcmp(name, "PMI_SIZE") == 0 ? "5"
+                                              : nullptr;
+}
 
 TEST(Launcher, IsFoundByItsEnvironment) {
   EXPECT_FALSE(find_launcher(nothing).has_value());

@@ -17,9 +17,12 @@ namespace {
 class RunOnRanks : public testing::Test {
  protected:
   void SetUp() override {
-    if (mpirun_executable().empty()) GTEST_SKIP() << "there is no mpirun: install openmpi-bin and libopenmpi-dev, and build again";
-    // In a container everybody is root, and there may be fewer processors than ranks. The last one is Open MPI 5's word for that.
-    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe"})
+    if (mpirun_executable().empty())
+      GTEST_SKIP() << "there is no mpirun: install openmpi-bin and libopenmpi-dev, and build again";
+    // In a container everybody is root, and there may be fewer processors than ranks. The last one
+    // is Open MPI 5's word for that.
+    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
+                             "OMPI_MCA_rmaps_base_oversubscribe"})
       setenv(name, "1", 1);
     setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 1);
   }
@@ -28,30 +31,39 @@ class RunOnRanks : public testing::Test {
     all.insert(all.end(), words.begin(), words.end());
     return all;
   }
-  std::vector<std::string> job(const std::string& study, const std::string& option, const std::string& folder) const {
+  std::vector<std::string> job(const std::string& study, const std::string& option,
+                               const std::string& folder) const {
     return {codesign_executable(), "optimize", kModel, study, option, folder_.path(folder)};
   }
-  std::string in(const std::string& folder, const std::string& name) const { return folder_.path(folder + "/" + name); }
+  std::string in(const std::string& folder, const std::string& name) const {
+    return folder_.path(folder + "/" + name);
+  }
   bool is_open_mpi_5() const {
     ChildProcess({mpirun_executable(), "--version"}, folder_.path("version"), "/dev/null").wait();
     return read_text_file(folder_.path("version")).find("(Open MPI) 5.") != std::string::npos;
   }
   /// mpirun of Open MPI 5.0.7 crashes whenever it starts two programs, whichever they are.
   bool can_start_two_programs() const {
-    const std::vector<std::string> words = {mpirun_executable(), "-n", "1", "true", ":", "-n", "1", "true"};
+    const std::vector<std::string> words = {
+        mpirun_executable(), "-n", "1", "true", ":", "-n", "1", "true"};
     return ChildProcess(words, "/dev/null", "/dev/null").wait() == 0;
   }
-  int run_job(const std::vector<std::string>& words) const { return ChildProcess(words, folder_.path("out"), folder_.path("err")).wait(); }
+  int run_job(const std::vector<std::string>& words) const {
+    return ChildProcess(words, folder_.path("out"), folder_.path("err")).wait();
+  }
   std::string err() const { return read_text_file(folder_.path("err")); }
 
   void expect_same_results(const std::string& folder, const std::string& expected) const {
     // Not as EXPECT_EQ, which would print both.
-    EXPECT_TRUE(evaluations_of(in(folder, "journal.jsonl")) == evaluations_of(in(expected, "journal.jsonl"))) << folder;
+    EXPECT_TRUE(evaluations_of(in(folder, "journal.jsonl")) ==
+                evaluations_of(in(expected, "journal.jsonl")))
+        << folder;
     EXPECT_EQ(without_times(Json::parse(read_text_file(in(folder, "result.json")))),
               without_times(Json::parse(read_text_file(in(expected, "result.json")))))
         << folder;
     for (const char* name : {"tuned.urdf", "tuned.csv", "starts.csv", "scenarios.csv"})
-      EXPECT_EQ(read_text_file(in(folder, name)), read_text_file(in(expected, name))) << folder << " " << name;
+      EXPECT_EQ(read_text_file(in(folder, name)), read_text_file(in(expected, name)))
+          << folder << " " << name;
   }
 
   /// The process of a rank of the job that writes into a folder; 0 if it is not there (yet).
@@ -61,8 +73,11 @@ class RunOnRanks : public testing::Test {
       const std::string name = entry.path().filename();
       if (name.find_first_not_of("0123456789") != std::string::npos) continue;
       std::ifstream command(entry.path() / "cmdline"), environment(entry.path() / "environ");
-      const std::string words{std::istreambuf_iterator<char>(command), {}}, variables{std::istreambuf_iterator<char>(environment), {}};
-      if (words.find(folder) != std::string::npos && variables.find(wanted + '\0') != std::string::npos) return std::stoi(name);
+      const std::string words{std::istreambuf_iterator<char>(command), {}},
+          variables{std::istreambuf_iterator<char>(environment), {}};
+      if (words.find(folder) != std::string::npos &&
+          variables.find(wanted + '\0') != std::string::npos)
+        return std::stoi(name);
     }
     return 0;
   }
@@ -71,19 +86,26 @@ class RunOnRanks : public testing::Test {
 };
 
 TEST_F(RunOnRanks, ThreadsAndRanksGiveTheSameResults) {
-  const auto study = [this](const std::string& engine) { return resumable_study(folder_, "engine: {" + engine + "}\n"); };
+  const auto study = [this](const std::string& engine) {
+    return resumable_study(folder_, "engine: {" + engine + "}\n");
+  };
   ASSERT_EQ(run_job(job(study("type: serial"), "--output", "serial")), kDone) << err();
   for (const int threads : {1, 2}) {
     const std::string folder = std::to_string(threads) + "_threads";
-    ASSERT_EQ(run_job(job(study("type: threads, workers: " + std::to_string(threads)), "--output", folder)), kDone) << err();
+    ASSERT_EQ(run_job(job(study("type: threads, workers: " + std::to_string(threads)), "--output",
+                          folder)),
+              kDone)
+        << err();
     expect_same_results(folder, "serial");
   }
   for (const int ranks : {2, 3, 4}) {
     const std::string folder = std::to_string(ranks) + "_ranks";
-    ASSERT_EQ(run_job(on_ranks(ranks, job(study("type: mpi"), "--output", folder))), kDone) << err();
+    ASSERT_EQ(run_job(on_ranks(ranks, job(study("type: mpi"), "--output", folder))), kDone)
+        << err();
     expect_same_results(folder, "serial");
   }
-  ASSERT_EQ(run_job(job(study("type: mpi"), "--output", "alone")), kDone) << "mpi without mpirun is one process: " << err();
+  ASSERT_EQ(run_job(job(study("type: mpi"), "--output", "alone")), kDone)
+      << "mpi without mpirun is one process: " << err();
   expect_same_results("alone", "serial");
 }
 
@@ -92,23 +114,29 @@ TEST_F(RunOnRanks, OnlyRankZeroNeedsTheFiles) {
   const std::string study = resumable_study(folder_, "");
   ASSERT_EQ(run_job(job(study, "--output", "here")), kDone) << err();
   std::vector<std::string> words = on_ranks(1, job(study, "--output", "there"));
-  words.insert(words.end(), {":", "-n", "2", codesign_executable(), "optimize", "nowhere.urdf", "nothing.yaml"});
+  words.insert(words.end(),
+               {":", "-n", "2", codesign_executable(), "optimize", "nowhere.urdf", "nothing.yaml"});
   ASSERT_EQ(run_job(words), kDone) << err();
   expect_same_results("there", "here");
 }
 
 TEST_F(RunOnRanks, GradientsOfEnsemblesAreTheSame) {
   const std::string study = resumable_study(folder_, "");
-  const std::vector<std::string> words = {codesign_executable(), "gradient", kModel, study, "--json"};
+  const std::vector<std::string> words = {codesign_executable(), "gradient", kModel, study,
+                                          "--json"};
   ASSERT_EQ(run_job(words), kDone) << err();
   const Json alone = without_times(Json::parse(read_text_file(folder_.path("out"))));
-  ASSERT_EQ(ChildProcess(on_ranks(3, words), folder_.path("out_of_ranks"), folder_.path("err")).wait(), kDone) << err();
+  ASSERT_EQ(
+      ChildProcess(on_ranks(3, words), folder_.path("out_of_ranks"), folder_.path("err")).wait(),
+      kDone)
+      << err();
   EXPECT_EQ(without_times(Json::parse(read_text_file(folder_.path("out_of_ranks")))), alone);
 }
 
 TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
   if (is_open_mpi_5())
-    GTEST_SKIP() << "mpirun of Open MPI 5 kills the other ranks within half a second, before rank 0 can keep its results";
+    GTEST_SKIP() << "mpirun of Open MPI 5 kills the other ranks within half a second, before rank "
+                    "0 can keep its results";
   const std::string study = resumable_study(folder_, "");
   ASSERT_EQ(run_job(job(study, "--output", "whole")), kDone) << err();
   const std::size_t all = finished_lines(in("whole", "journal.jsonl")).size();
@@ -120,16 +148,25 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
     const int rank = kills % 3;
     {
       std::filesystem::remove(folder_.path("err"));
-      ChildProcess process(on_ranks(3, job(study, std::filesystem::exists(journal) ? "--resume" : "--output", "killed")), "/dev/null",
-                           folder_.path("err"));
+      ChildProcess process(
+          on_ranks(
+              3, job(study, std::filesystem::exists(journal) ? "--resume" : "--output", "killed")),
+          "/dev/null", folder_.path("err"));
       const std::size_t more = before.size() + 1 + random() % (all / 16);
-      ASSERT_TRUE(comes_true([&] { return finished_lines(journal).size() >= more && process_of(rank, folder_.path("killed")) > 0; }));
+      ASSERT_TRUE(comes_true([&] {
+        return finished_lines(journal).size() >= more &&
+               process_of(rank, folder_.path("killed")) > 0;
+      }));
       std::this_thread::sleep_for(std::chrono::microseconds(random() % 5000));
       const auto begin = std::chrono::steady_clock::now();
       kill(process_of(rank, folder_.path("killed")), SIGKILL);
       EXPECT_NE(process.wait(), kDone);
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "it does not hang";
-      ASSERT_TRUE(comes_true([&] { return process_of(1, folder_.path("killed")) == 0 && process_of(0, folder_.path("killed")) == 0; }));
+      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20))
+          << "it does not hang";
+      ASSERT_TRUE(comes_true([&] {
+        return process_of(1, folder_.path("killed")) == 0 &&
+               process_of(0, folder_.path("killed")) == 0;
+      }));
     }
     const std::vector<std::string> now = finished_lines(journal);
     ASSERT_GE(now.size(), before.size()) << kills;
@@ -137,7 +174,8 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
     before = now;
     if (rank == 0) continue;
     // Rank 0 misses a rank, keeps its results and reports the loss.
-    EXPECT_NE(err().find("rank " + std::to_string(rank) + " of 3 on host "), std::string::npos) << err();
+    EXPECT_NE(err().find("rank " + std::to_string(rank) + " of 3 on host "), std::string::npos)
+        << err();
     const Json result = Json::parse(read_text_file(in("killed", "result.json")));
     EXPECT_EQ(result["error"]["code"], "worker_lost");
     EXPECT_EQ(result["termination"], "worker_lost");
@@ -153,13 +191,15 @@ TEST_F(RunOnRanks, AnInterruptKeepsTheBestAndGoesOn) {
   const std::string study = resumable_study(folder_, "");
   ASSERT_EQ(run_job(job(study, "--output", "whole")), kDone) << err();
   {
-    ChildProcess process(on_ranks(3, job(study, "--output", "job")), "/dev/null", folder_.path("err"));
+    ChildProcess process(on_ranks(3, job(study, "--output", "job")), "/dev/null",
+                         folder_.path("err"));
     ASSERT_TRUE(comes_true([&] { return finished_lines(in("job", "journal.jsonl")).size() > 20; }));
     // To rank 0, as Ctrl-C does where mpirun passes it on.
     kill(process_of(0, folder_.path("job")), SIGINT);
     process.wait();
   }
-  EXPECT_EQ(Json::parse(read_text_file(in("job", "result.json")))["error"]["code"], "cancelled") << err();
+  EXPECT_EQ(Json::parse(read_text_file(in("job", "result.json")))["error"]["code"], "cancelled")
+      << err();
   ASSERT_EQ(run_job(on_ranks(3, job(study, "--resume", "job"))), kDone) << err();
   expect_same_results("job", "whole");
 }
@@ -167,7 +207,9 @@ TEST_F(RunOnRanks, AnInterruptKeepsTheBestAndGoesOn) {
 TEST_F(RunOnRanks, AnEngineOfOneProcessIsRefusedOnce) {
   const std::string study = resumable_study(folder_, "engine: {type: threads}\n");
   EXPECT_EQ(run_job(on_ranks(3, job(study, "--output", "job"))), kBadInput);
-  const std::string text = err(), sentence = "mpirun has started 3 processes, and the study asks for an engine of one";
+  const std::string text = err(),
+                    sentence =
+                        "mpirun has started 3 processes, and the study asks for an engine of one";
   EXPECT_NE(text.find("engine.type: " + sentence), std::string::npos) << text;
   EXPECT_EQ(text.find(sentence), text.rfind(sentence)) << "each rank says it: " << text;
   EXPECT_FALSE(std::filesystem::exists(folder_.path("job")));
@@ -175,7 +217,9 @@ TEST_F(RunOnRanks, AnEngineOfOneProcessIsRefusedOnce) {
 
 TEST_F(RunOnRanks, AStudyWithOneEvaluationAtATimeSaysSo) {
   EXPECT_EQ(run_job(on_ranks(2, job(short_study(folder_), "--output", "job"))), kDone) << err();
-  EXPECT_NE(err().find("of the 2 processes that mpirun has started, one computes"), std::string::npos) << err();
+  EXPECT_NE(err().find("of the 2 processes that mpirun has started, one computes"),
+            std::string::npos)
+      << err();
 }
 
 TEST(RunOnRanksAlone, AProgramWithoutMpirunIsOneProcess) {

@@ -23,7 +23,8 @@ TEST(Energy, OfABarThatSwings) {
 }
 
 TEST(Energy, GravityMayPointAnywhere) {
-  Compiled bar(pendulum(), let_go("{hinge: {position: 0.4}}", "hinge/velocity", "gravity: [2.0, 5.0, 0.0]\n"));
+  Compiled bar(pendulum(),
+               let_go("{hinge: {position: 0.4}}", "hinge/velocity", "gravity: [2.0, 5.0, 0.0]\n"));
   ASSERT_TRUE(bar.start().ok());
   bar.equations.formulas().load(bar.state);
   // A turn about y by 0.4 takes the bar's end, at -z, towards -x.

@@ -8,7 +8,8 @@
 namespace codesign {
 namespace {
 
-const char* const kNames[] = {"lbfgs", "var1", "var2", "tnewton", "mma", "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs"};
+const char* const kNames[] = {"lbfgs", "var1",  "var2",   "tnewton", "mma",
+                              "ccsaq", "slsqp", "cobyla", "bobyqa",  "auglag_lbfgs"};
 const std::set<std::string> kTakeConstraints{"mma", "ccsaq", "slsqp", "cobyla", "auglag_lbfgs"};
 
 Study study(const std::string& algorithm, bool constrained = false) {
@@ -45,9 +46,12 @@ TEST(Algorithm, EachFindsTheMinimumOfABowl) {
 TEST(Algorithm, ConstraintsAreForThoseThatTakeThem) {
   for (const char* name : kNames) {
     if (kTakeConstraints.count(name) > 0)
-      EXPECT_NO_THROW(check_algorithm(study(name, true), study(name, true).optimizer, false)) << name;
+      EXPECT_NO_THROW(check_algorithm(study(name, true), study(name, true).optimizer, false))
+          << name;
     else
-      EXPECT_THROW(check_algorithm(study(name, true), study(name, true).optimizer, false), InputError) << name;
+      EXPECT_THROW(check_algorithm(study(name, true), study(name, true).optimizer, false),
+                   InputError)
+          << name;
   }
 }
 
@@ -91,12 +95,14 @@ TEST(Algorithm, LeastSquaresAreForSumsOfSquares) {
 }
 
 TEST(Algorithm, AutoTakesWhatTheProblemAllows) {
-  const auto first = [](const Study& study, RobustMeasure measure = RobustMeasure::kMean, bool with_slack = false) {
+  const auto first = [](const Study& study, RobustMeasure measure = RobustMeasure::kMean,
+                        bool with_slack = false) {
     EXPECT_NO_THROW(check_algorithm(study, study.optimizer, with_slack));
     return algorithms_for(study, study.optimizer, measure, with_slack).front();
   };
   EXPECT_EQ(first(study("auto")), "levenberg_marquardt");
-  EXPECT_EQ(first(study("auto", true)), "levenberg_marquardt") << "a constraint among parameters may be inactive";
+  EXPECT_EQ(first(study("auto", true)), "levenberg_marquardt")
+      << "a constraint among parameters may be inactive";
   EXPECT_EQ(first(study("auto"), RobustMeasure::kWorst, true), "slsqp");
   EXPECT_EQ(first(study("auto"), RobustMeasure::kMeanPlusDeviation), "slsqp");
   Study negative = study("auto");
@@ -105,7 +111,9 @@ TEST(Algorithm, AutoTakesWhatTheProblemAllows) {
   EXPECT_EQ(first(negative), "slsqp");
   EXPECT_FALSE(is_sum_of_squares(negative));
   const Study named = study("mma", true);
-  EXPECT_EQ(algorithms_for(named, named.optimizer, RobustMeasure::kMean, false), std::vector<std::string>{"mma"}) << "a name is kept";
+  EXPECT_EQ(algorithms_for(named, named.optimizer, RobustMeasure::kMean, false),
+            std::vector<std::string>{"mma"})
+      << "a name is kept";
 }
 
 TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
@@ -117,7 +125,8 @@ TEST(Algorithm, AnUnknownNameIsAnsweredWithThoseKnown) {
     EXPECT_EQ(error.fault().element, "optimizer.algorithm");
     EXPECT_EQ(error.fault().value, "newton");
     EXPECT_EQ(error.fault().where.line, 1) << "the study does not name it";
-    for (const char* name : kNames) EXPECT_NE(error.fault().allowed.find(name), std::string::npos) << name;
+    for (const char* name : kNames)
+      EXPECT_NE(error.fault().allowed.find(name), std::string::npos) << name;
     EXPECT_NE(error.fault().allowed.find("levenberg_marquardt"), std::string::npos);
   }
 }

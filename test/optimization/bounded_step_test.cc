@@ -23,7 +23,8 @@ struct StepProblem {
 StepProblem random_problem(int size, unsigned seed) {
   std::srand(seed);
   StepProblem p;
-  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3 * size, size) + Eigen::VectorXd::Random(3 * size) * Eigen::RowVectorXd::Ones(size);
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3 * size, size) +
+                            Eigen::VectorXd::Random(3 * size) * Eigen::RowVectorXd::Ones(size);
   p.root = triangular_root(A);
   p.gradient = 10.0 * Eigen::VectorXd::Random(size);
   p.scale = p.root.colwise().norm().transpose();
@@ -34,7 +35,8 @@ StepProblem random_problem(int size, unsigned seed) {
 
 /// The gradient of the problem of damped() at p.
 Eigen::VectorXd slope(const StepProblem& problem, double mu, const Eigen::VectorXd& p) {
-  return problem.gradient + 2.0 * (problem.root.transpose() * (problem.root * p)) + 2.0 * mu * problem.scale.cwiseAbs2().cwiseProduct(p);
+  return problem.gradient + 2.0 * (problem.root.transpose() * (problem.root * p)) +
+         2.0 * mu * problem.scale.cwiseAbs2().cwiseProduct(p);
 }
 
 TEST(BoundedStep, MeetsTheConditionsOfAnOptimum) {
@@ -106,8 +108,10 @@ TEST(BoundedStep, WithEverythingHeldThereIsNone) {
 
 TEST(BoundedStep, HasNoComponentAlongDirectionsWithoutInfluence) {
   StepProblem problem = random_problem(6, 5);
-  // The third column is the sum of the first two within rounding, and the gradient belongs to residuals with that Jacobian.
-  problem.root.col(2) = problem.root.col(0) + problem.root.col(1) + 1e-13 * Eigen::VectorXd::Random(6);
+  // The third column is the sum of the first two within rounding, and the gradient belongs to
+  // residuals with that Jacobian.
+  problem.root.col(2) =
+      problem.root.col(0) + problem.root.col(1) + 1e-13 * Eigen::VectorXd::Random(6);
   const Eigen::VectorXd residuals = 1e3 * Eigen::VectorXd::Random(6);
   problem.gradient = 2.0 * problem.root.transpose() * residuals;
   problem.scale.setOnes();
@@ -116,7 +120,9 @@ TEST(BoundedStep, HasNoComponentAlongDirectionsWithoutInfluence) {
   const Eigen::VectorXd shortest = -LeastNorm(problem.root, 1e-9).solve(residuals);
   const Eigen::VectorXd p = problem.step().within(kNoBound);
   EXPECT_LE((p - shortest).norm(), 1e-8 * shortest.norm());
-  EXPECT_NEAR(p.dot(Eigen::VectorXd::Unit(6, 0) + Eigen::VectorXd::Unit(6, 1) - Eigen::VectorXd::Unit(6, 2)), 0.0, 1e-8 * p.norm());
+  EXPECT_NEAR(p.dot(Eigen::VectorXd::Unit(6, 0) + Eigen::VectorXd::Unit(6, 1) -
+                    Eigen::VectorXd::Unit(6, 2)),
+              0.0, 1e-8 * p.norm());
 
   // A bound limits one component: the other columns replace its effect.
   problem.lower[0] = problem.upper[0] = 0.0;

@@ -11,8 +11,14 @@ namespace {
 
 struct Conditions {
   explicit Conditions(const Problem& of)
-      : problem(of), ensemble(problem), scaling(problem.study()), parameters(problem.study(), ensemble.scenarios()), program(ensemble) {}
-  Optimality at(const Eigen::VectorXd& rho) { return optimality(ensemble.evaluate(rho, true), rho, scaling, parameters, &program); }
+      : problem(of),
+        ensemble(problem),
+        scaling(problem.study()),
+        parameters(problem.study(), ensemble.scenarios()),
+        program(ensemble) {}
+  Optimality at(const Eigen::VectorXd& rho) {
+    return optimality(ensemble.evaluate(rho, true), rho, scaling, parameters, &program);
+  }
 
   const Problem problem;
   const Ensemble ensemble;
@@ -23,7 +29,8 @@ struct Conditions {
 
 const std::string kTight = "{algorithm: slsqp, relative_tolerance: 1.0e-11, max_evaluations: 400}";
 const std::string kThreeRuns =
-    "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}, slow: {initial_state: {slide: {velocity: 0.2}}}}\n";
+    "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}, slow: {initial_state: {slide: "
+    "{velocity: 0.2}}}}\n";
 
 TEST(Lagrangian, HasNoGradientAtABoundedOptimum) {
   Conditions conditions(block("path: [{signal: hold/output, between: [-6, 6]}]\n", kTight));
@@ -35,7 +42,8 @@ TEST(Lagrangian, HasNoGradientAtABoundedOptimum) {
   EXPECT_LT(optimum.slope, 1e-3 * free) << "the bound holds the gradient";
   EXPECT_GT(optimum.active.cols(), 0);
   EXPECT_EQ(result.slope, optimum.slope);
-  // At the start the bound is not reached; a row may hold as much of the gradient as its distance permits.
+  // At the start the bound is not reached; a row may hold as much of the gradient as its distance
+  // permits.
   const double start = conditions.at(conditions.problem.start()).slope;
   EXPECT_LE(start, conditions.scaling.gradient_norm(result.initial_gradient));
   EXPECT_GT(start, 100.0 * optimum.slope);
@@ -54,17 +62,20 @@ TEST(Lagrangian, WorstCaseAndTailAreStationaryInTheirSmoothForm) {
   }
 }
 
-// At the tolerance of an ordinary study: SLSQP alone stops where the tail of the first smooth form is level, far from the optimum.
+// At the tolerance of an ordinary study: SLSQP alone stops where the tail of the first smooth form
+// is level, far from the optimum.
 TEST(Lagrangian, ATailAtLooseToleranceStopsWhereATightOneDoes) {
   const std::string runs = kThreeRuns + "robust: {measure: cvar, level: 0.5}\n";
   const OptimizationResult tight = optimize(block(runs, kTight));
-  const OptimizationResult loose = optimize(block(runs, "{algorithm: slsqp, relative_tolerance: 1.0e-3}"));
+  const OptimizationResult loose =
+      optimize(block(runs, "{algorithm: slsqp, relative_tolerance: 1.0e-3}"));
   ASSERT_TRUE(tight.status.ok() && loose.status.ok());
   EXPECT_LE(loose.objective, tight.objective * (1.0 + 1e-4));
   EXPECT_LT(loose.stationarity, 1e-2);
 }
 
-// Least squares come first and leave the constraint; the search ends where the constrained one does.
+// Least squares come first and leave the constraint; the search ends where the constrained one
+// does.
 TEST(Lagrangian, AutoKeepsAnActiveConstraintAmongParameters) {
   const std::string constraint = "constraints: [\"Kp + 10*Kd <= 30\"]\n";
   const OptimizationResult constrained = optimize(block(constraint, kTight));
@@ -78,7 +89,8 @@ TEST(Lagrangian, AutoKeepsAnActiveConstraintAmongParameters) {
 // Thousands of rows of signals in 24 samples: the work is that of few matrices of the variables.
 TEST(Lagrangian, ManySamplesWithBoundedSignalsTakeFewMatrices) {
   Conditions conditions(
-      block("path: [{signal: slide/effort, between: [-30, 30]}]\nuncertain: {mu: {uniform: [0.1, 0.5]}, mass: {normal: [2, 0.2]}}\n"
+      block("path: [{signal: slide/effort, between: [-30, 30]}]\nuncertain: {mu: {uniform: [0.1, "
+            "0.5]}, mass: {normal: [2, 0.2]}}\n"
             "robust: {measure: cvar, level: 0.9, samples: 24}\n"));
   const Optimality start = conditions.at(conditions.problem.start());
   EXPECT_GT(conditions.program.inequalities(), 1500);
@@ -87,11 +99,13 @@ TEST(Lagrangian, ManySamplesWithBoundedSignalsTakeFewMatrices) {
   const std::atomic<bool> cancel{true};
   const Eigen::VectorXd rho = conditions.problem.start();
   const Optimality cancelled =
-      optimality(conditions.ensemble.evaluate(rho, true), rho, conditions.scaling, conditions.parameters, &conditions.program, &cancel);
+      optimality(conditions.ensemble.evaluate(rho, true), rho, conditions.scaling,
+                 conditions.parameters, &conditions.program, &cancel);
   EXPECT_LE(cancelled.factorizations, 3);
 }
 
-// Widening by 1 % of the range is worth what the multiplier says, also where a constraint holds the optimum.
+// Widening by 1 % of the range is worth what the multiplier says, also where a constraint holds the
+// optimum.
 TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
   const auto tune = [](const std::string& constraint, double upper) {
     const Problem problem = block(constraint, kTight);
@@ -117,10 +131,10 @@ TEST(ViolatedBounds, AreThoseBeyondTheTolerance) {
   violated.smallest = -3.0;
   violated.largest = 2.0;
   violated.violation = 1.5;
-  EXPECT_EQ(
-      describe_violated({met, violated}),
-      "no point was found that keeps the bounds of all signals: constraints[1] (slide/effort) goes from -3 to 2, beyond its bounds by 1.5 "
-      "(tolerance: 1e-08)");
+  EXPECT_EQ(describe_violated({met, violated}),
+            "no point was found that keeps the bounds of all signals: constraints[1] "
+            "(slide/effort) goes from -3 to 2, beyond its bounds by 1.5 "
+            "(tolerance: 1e-08)");
 }
 
 TEST(ViolatedBounds, TheToleranceFollowsTheRangeOfSignalAndBounds) {

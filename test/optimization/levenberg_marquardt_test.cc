@@ -18,7 +18,8 @@ using Outcome = LeastSquaresModel::Outcome;
 /// Residuals with their Jacobian; the points tried are counted.
 class Residuals final : public LeastSquaresModel {
  public:
-  using Function = std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J)>;
+  using Function =
+      std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J)>;
   explicit Residuals(Function function) : function_(std::move(function)) {}
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
@@ -42,15 +43,16 @@ struct Answer {
   LeastSquaresPoint best;
 };
 
-Answer minimize(Residuals* residuals, const Eigen::VectorXd& start, double lower = -kUnbounded, double upper = kUnbounded,
-                double tolerance = 1e-12, int most = 200) {
+Answer minimize(Residuals* residuals, const Eigen::VectorXd& start, double lower = -kUnbounded,
+                double upper = kUnbounded, double tolerance = 1e-12, int most = 200) {
   LevenbergMarquardtOptions options;
   options.relative_tolerance = tolerance;
   options.max_evaluations = most;
   options.largest_first_step = kUnbounded;
   Answer answer{LevenbergMarquardtEnd::kStopped, start, {}};
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(start.size());
-  answer.end = minimize_squares(options, lower * ones, upper * ones, residuals, &answer.x, &answer.best);
+  answer.end =
+      minimize_squares(options, lower * ones, upper * ones, residuals, &answer.x, &answer.best);
   return answer;
 }
 
@@ -62,19 +64,21 @@ bool rosenbrock_valley(const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::Matr
 }
 
 Residuals linear(double scale_of_second = 1.0) {
-  return Residuals([scale_of_second](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
-    Eigen::Matrix<double, 4, 3> A;
-    A << 1.0, 0.9, 0.2, 0.3, 1.0, 0.5, 0.1, 0.8, 1.0, 0.7, 0.2, 0.4;
-    A.col(1) *= scale_of_second;
-    *J = A;
-    *r = A * x - Eigen::Vector4d(1.0, -2.0, 3.0, 0.5);
-    return true;
-  });
+  return Residuals(
+      [scale_of_second](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+        Eigen::Matrix<double, 4, 3> A;
+        A << 1.0, 0.9, 0.2, 0.3, 1.0, 0.5, 0.1, 0.8, 1.0, 0.7, 0.2, 0.4;
+        A.col(1) *= scale_of_second;
+        *J = A;
+        *r = A * x - Eigen::Vector4d(1.0, -2.0, 3.0, 0.5);
+        return true;
+      });
 }
 
 TEST(LevenbergMarquardt, OneStepSolvesALinearProblem) {
   Residuals residuals = linear();
-  const Answer answer = minimize(&residuals, Eigen::Vector3d(5.0, -7.0, 11.0), -kUnbounded, kUnbounded, 1e-10, 2);
+  const Answer answer =
+      minimize(&residuals, Eigen::Vector3d(5.0, -7.0, 11.0), -kUnbounded, kUnbounded, 1e-10, 2);
   EXPECT_EQ(residuals.evaluations, 2);
   EXPECT_LE(answer.best.gradient.norm(), 1e-12);
 }
@@ -94,13 +98,16 @@ TEST(LevenbergMarquardt, OneStepSolvesALinearProblemWithinBounds) {
 
 // The unit of a variable does not matter: D measures a step by the change of the residuals.
 TEST(LevenbergMarquardt, TakesTheSameStepsInOtherUnits) {
-  Residuals plain([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) { return rosenbrock_valley(x, r, J); });
+  Residuals plain([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+    return rosenbrock_valley(x, r, J);
+  });
   Residuals scaled([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
     rosenbrock_valley(Eigen::Vector2d(x[0], x[1] * 0x1p-20), r, J);
     J->col(1) *= 0x1p-20;
     return true;
   });
-  const Answer a = minimize(&plain, Eigen::Vector2d(-1.2, 1.0)), b = minimize(&scaled, Eigen::Vector2d(-1.2, 0x1p20));
+  const Answer a = minimize(&plain, Eigen::Vector2d(-1.2, 1.0)),
+               b = minimize(&scaled, Eigen::Vector2d(-1.2, 0x1p20));
   EXPECT_EQ(plain.evaluations, scaled.evaluations);
   EXPECT_NEAR(a.x[1], b.x[1] * 0x1p-20, 1e-12);
 }
@@ -130,7 +137,8 @@ TEST(LevenbergMarquardt, EndsWithAReason) {
   EXPECT_EQ(kept.end, LevenbergMarquardtEnd::kStopped);
   EXPECT_LT(kept.best.value, 24.2) << "the best point is kept";
   Residuals few(rosenbrock_valley);
-  EXPECT_EQ(minimize(&few, Eigen::Vector2d(-1.2, 1.0), -kUnbounded, kUnbounded, 1e-12, 4).end, LevenbergMarquardtEnd::kMaxEvaluations);
+  EXPECT_EQ(minimize(&few, Eigen::Vector2d(-1.2, 1.0), -kUnbounded, kUnbounded, 1e-12, 4).end,
+            LevenbergMarquardtEnd::kMaxEvaluations);
   EXPECT_EQ(few.evaluations, 4);
   Residuals at_optimum = linear();
   const Answer optimum = minimize(&at_optimum, Eigen::Vector3d::Zero());
@@ -139,9 +147,11 @@ TEST(LevenbergMarquardt, EndsWithAReason) {
   EXPECT_EQ(still.end, LevenbergMarquardtEnd::kOptimum);
   EXPECT_EQ(again.evaluations, 1);
   // A point in the middle of points without values.
-  Residuals lonely(
-      [](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) { return x[0] == -1.2 && rosenbrock_valley(x, r, J); });
-  EXPECT_EQ(minimize(&lonely, Eigen::Vector2d(-1.2, 1.0)).end, LevenbergMarquardtEnd::kVariableTolerance);
+  Residuals lonely([](const Eigen::VectorXd& x, Eigen::VectorXd* r, Eigen::MatrixXd* J) {
+    return x[0] == -1.2 && rosenbrock_valley(x, r, J);
+  });
+  EXPECT_EQ(minimize(&lonely, Eigen::Vector2d(-1.2, 1.0)).end,
+            LevenbergMarquardtEnd::kVariableTolerance);
 }
 
 TEST(LevenbergMarquardt, AVariableWithoutInfluenceStaysWhereItIs) {
@@ -163,7 +173,8 @@ TEST(LevenbergMarquardt, EndsHaveTheNamesOfResults) {
   EXPECT_STREQ(name_of(LevenbergMarquardtEnd::kStopped), "cancelled");
 }
 
-/// Residuals (10 (x - 1), y - 3 x, 0.1): y is an unknown of the model's own and takes a step of Gauss and Newton with each step of x.
+/// Residuals (10 (x - 1), y - 3 x, 0.1): y is an unknown of the model's own and takes a step of
+/// Gauss and Newton with each step of x.
 class OwnUnknown final : public LeastSquaresModel {
  public:
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
@@ -198,7 +209,8 @@ TEST(LevenbergMarquardt, UnknownsOfTheModelsOwnArePartOfThePromise) {
     const Eigen::VectorXd open = Eigen::VectorXd::Constant(1, kUnbounded);
     LevenbergMarquardtOptions options;
     options.largest_first_step = kUnbounded;
-    EXPECT_EQ(minimize_squares(options, -open, open, &model, &x, &best), LevenbergMarquardtEnd::kOptimum);
+    EXPECT_EQ(minimize_squares(options, -open, open, &model, &x, &best),
+              LevenbergMarquardtEnd::kOptimum);
     EXPECT_NEAR(x[0], 1.0, 1e-12);
     EXPECT_NEAR(model.y(), 3.0, 1e-12);
     EXPECT_NEAR(best.value, 0.01, 1e-14);
@@ -220,11 +232,13 @@ const char* const kSquares = "{algorithm: levenberg_marquardt, relative_toleranc
 const char* const kSlsqp = "{algorithm: slsqp, relative_tolerance: 1.0e-11}";
 
 TEST(LeastSquaresSearch, FindsTheOptimumOfOtherAlgorithms) {
-  const OptimizationResult squares = optimize(block("", kSquares)), slsqp = optimize(block("", kSlsqp));
+  const OptimizationResult squares = optimize(block("", kSquares)),
+                           slsqp = optimize(block("", kSlsqp));
   ASSERT_TRUE(squares.status.ok()) << squares.status.cause;
   EXPECT_EQ(squares.termination, "objective_tolerance_reached");
   EXPECT_NEAR(squares.objective, slsqp.objective, 1e-7 * slsqp.objective);
-  EXPECT_EQ(squares.initial_objective, slsqp.initial_objective) << "the same bits of the same evaluation";
+  EXPECT_EQ(squares.initial_objective, slsqp.initial_objective)
+      << "the same bits of the same evaluation";
   EXPECT_EQ(squares.initial_gradient, slsqp.initial_gradient);
   EXPECT_EQ(squares.influences, std::vector<bool>(2, true));
   EXPECT_LT(squares.evaluations, 40);
@@ -232,18 +246,22 @@ TEST(LeastSquaresSearch, FindsTheOptimumOfOtherAlgorithms) {
 
 TEST(LeastSquaresSearch, TakesTheMeanOfRunsAndSamples) {
   const std::string blocks =
-      "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}, weight: 2.0}}\nuncertain: {mu: {uniform: [0.2, 0.4]}}\n"
+      "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}, weight: 2.0}}\nuncertain: {mu: "
+      "{uniform: [0.2, 0.4]}}\n"
       "robust: {measure: mean, samples: 4}\n";
-  const OptimizationResult squares = optimize(block(blocks, kSquares)), slsqp = optimize(block(blocks, kSlsqp));
+  const OptimizationResult squares = optimize(block(blocks, kSquares)),
+                           slsqp = optimize(block(blocks, kSlsqp));
   ASSERT_TRUE(squares.status.ok()) << squares.status.cause;
   EXPECT_NEAR(squares.objective, slsqp.objective, 1e-6 * slsqp.objective);
   EXPECT_EQ(squares.values.size(), 8);
 }
 
 TEST(LeastSquaresSearch, ResultsDoNotDependOnTheNumberOfWorkers) {
-  const std::string uncertain = "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: mean, samples: 4}\n";
+  const std::string uncertain =
+      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: mean, samples: 4}\n";
   const OptimizationResult one = optimize(block(uncertain + "engine: {type: serial}\n", kSquares));
-  const OptimizationResult two = optimize(block(uncertain + "engine: {type: threads, workers: 2}\n", kSquares));
+  const OptimizationResult two =
+      optimize(block(uncertain + "engine: {type: threads, workers: 2}\n", kSquares));
   EXPECT_EQ(one.rho, two.rho);
   EXPECT_EQ(one.evaluations, two.evaluations);
 }
@@ -255,7 +273,8 @@ TEST(LeastSquaresSearch, StartsFromManyPoints) {
   EXPECT_LE(many.objective, optimize(block("", kSquares)).objective * (1.0 + 1e-8));
 }
 
-/// A sentence about the fault of a study; empty if it has none. @param trials receives the number of trial points.
+/// A sentence about the fault of a study; empty if it has none. @param trials receives the number
+/// of trial points.
 InputFault refusal(const std::string& blocks, int* trials) {
   try {
     optimize(block(blocks, kSquares), [trials](const Trial&) { return ++*trials > 0; });
@@ -268,9 +287,12 @@ InputFault refusal(const std::string& blocks, int* trials) {
 TEST(LeastSquaresSearch, RefusesWhatIsNoSumOfSquaresBeforeAnythingIsComputed) {
   const std::string runs = "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}}\n";
   for (const std::string& blocks :
-       {runs + "robust: {measure: worst}\n", runs + "robust: {measure: cvar}\n", runs + "robust: {measure: mean_plus_deviation}\n",
-        std::string("constraints: [\"Kp >= Kd\"]\n"), std::string("multistart: {starts: 2, screen: 4}\nconstraints: [\"Kp >= Kd\"]\n"),
-        std::string("path: [{signal: slide/position, between: [-1.0, 2.0]}]\n"), std::string("solver: {gradient: adjoint}\n")}) {
+       {runs + "robust: {measure: worst}\n", runs + "robust: {measure: cvar}\n",
+        runs + "robust: {measure: mean_plus_deviation}\n",
+        std::string("constraints: [\"Kp >= Kd\"]\n"),
+        std::string("multistart: {starts: 2, screen: 4}\nconstraints: [\"Kp >= Kd\"]\n"),
+        std::string("path: [{signal: slide/position, between: [-1.0, 2.0]}]\n"),
+        std::string("solver: {gradient: adjoint}\n")}) {
     int trials = 0;
     const InputFault fault = refusal(blocks, &trials);
     EXPECT_EQ(fault.element, "optimizer.algorithm") << blocks;
@@ -282,7 +304,8 @@ TEST(LeastSquaresSearch, RefusesWhatIsNoSumOfSquaresBeforeAnythingIsComputed) {
 }
 
 TEST(LeastSquaresSearch, CancelKeepsTheBestPoint) {
-  const OptimizationResult result = optimize(block("", kSquares), [](const Trial& trial) { return trial.evaluation < 3; });
+  const OptimizationResult result =
+      optimize(block("", kSquares), [](const Trial& trial) { return trial.evaluation < 3; });
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.termination, "cancelled");
   EXPECT_EQ(result.evaluations, 3);
@@ -291,8 +314,8 @@ TEST(LeastSquaresSearch, CancelKeepsTheBestPoint) {
 }
 
 TEST(LeastSquaresSearch, EndsAtTheLimitOfEvaluations) {
-  const OptimizationResult result =
-      optimize(block("", "{algorithm: levenberg_marquardt, max_evaluations: 3, relative_tolerance: 1.0e-12}"));
+  const OptimizationResult result = optimize(block(
+      "", "{algorithm: levenberg_marquardt, max_evaluations: 3, relative_tolerance: 1.0e-12}"));
   EXPECT_EQ(result.termination, "max_evaluations_reached");
   EXPECT_EQ(result.evaluations, 3);
   ASSERT_FALSE(result.warnings.empty());

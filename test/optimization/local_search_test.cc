@@ -12,7 +12,8 @@ namespace codesign {
 namespace {
 
 const std::string kRuns =
-    "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}, slow: {initial_state: {slide: {velocity: 0.2}}}}\n";
+    "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}, slow: {initial_state: {slide: "
+    "{velocity: 0.2}}}}\n";
 
 OptimizationResult tune(const std::string& robust, const std::string& optimizer) {
   return optimize(block(kRuns + "robust: {" + robust + "}\n", optimizer));
@@ -20,18 +21,23 @@ OptimizationResult tune(const std::string& robust, const std::string& optimizer)
 
 TEST(LocalSearch, TheWorstCaseIsLowerThanThatOfTheMean) {
   const std::string slsqp = "{algorithm: slsqp, relative_tolerance: 1.0e-9}";
-  const OptimizationResult mean = tune("measure: mean", slsqp), worst = tune("measure: worst", slsqp);
+  const OptimizationResult mean = tune("measure: mean", slsqp),
+                           worst = tune("measure: worst", slsqp);
   ASSERT_TRUE(mean.status.ok()) << mean.status.cause;
   ASSERT_TRUE(worst.status.ok()) << worst.status.cause;
   EXPECT_EQ(worst.objective, worst.values.maxCoeff());
   EXPECT_LE(worst.objective, mean.values.maxCoeff() * (1.0 + 1e-9));
-  EXPECT_LE(mean.objective, worst.values.mean() * (1.0 + 1e-9)) << "and the mean is lowest where the mean was minimized";
+  EXPECT_LE(mean.objective, worst.values.mean() * (1.0 + 1e-9))
+      << "and the mean is lowest where the mean was minimized";
   EXPECT_LT(worst.objective, worst.initial_objective);
 }
 
 TEST(LocalSearch, AlgorithmsWithConstraintsAgreeOnTheTail) {
-  const OptimizationResult slsqp = tune("measure: cvar, level: 0.5", "{algorithm: slsqp, relative_tolerance: 1.0e-9}");
-  const OptimizationResult mma = tune("measure: cvar, level: 0.5", "{algorithm: mma, relative_tolerance: 1.0e-9, max_evaluations: 400}");
+  const OptimizationResult slsqp =
+      tune("measure: cvar, level: 0.5", "{algorithm: slsqp, relative_tolerance: 1.0e-9}");
+  const OptimizationResult mma =
+      tune("measure: cvar, level: 0.5",
+           "{algorithm: mma, relative_tolerance: 1.0e-9, max_evaluations: 400}");
   ASSERT_TRUE(slsqp.status.ok()) << slsqp.status.cause;
   ASSERT_TRUE(mma.status.ok()) << mma.status.cause;
   EXPECT_NEAR(mma.objective, slsqp.objective, 1e-4 * slsqp.objective);
@@ -46,7 +52,8 @@ TEST(LocalSearch, MeasuresWithConstraintsRefuseOtherAlgorithms) {
 class LosingEngine final : public EvaluationEngine {
  public:
   explicit LosingEngine(int calls) : calls_(calls) {}
-  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks, const std::atomic<bool>* cancel) override {
+  std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks,
+                                   const std::atomic<bool>* cancel) override {
     std::vector<Evaluation> results = serial_.evaluate(tasks, cancel);
     if (calls_-- <= 0) results.back().status = {StatusCode::kWorkerLost, 0.0, "rank 1 is gone"};
     return results;
@@ -62,7 +69,8 @@ TEST(LocalSearch, ALostWorkerEndsTheSearchWithTheBestPoint) {
   const Problem problem = block(kRuns);
   for (const int calls : {0, 4}) {
     const Ensemble ensemble(make_scenarios(problem), {}, std::make_shared<LosingEngine>(calls));
-    const OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(), problem.start(), ensemble, {}, nullptr);
+    const OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(),
+                                                     problem.start(), ensemble, {}, nullptr);
     EXPECT_EQ(result.status.code, StatusCode::kWorkerLost);
     EXPECT_EQ(result.status.cause, "rank 1 is gone; the best point so far is kept");
     EXPECT_EQ(result.termination, "worker_lost");

@@ -12,8 +12,9 @@ namespace codesign {
 namespace {
 
 OptimizationResult search(const std::string& engine) {
-  return optimize(block("multistart: {starts: 4, screen: 12, seed: 3, cluster: 1.0e-3}\nengine: {" + engine + "}\n",
-                        "{algorithm: lbfgs, relative_tolerance: 1.0e-9}"));
+  return optimize(block(
+      "multistart: {starts: 4, screen: 12, seed: 3, cluster: 1.0e-3}\nengine: {" + engine + "}\n",
+      "{algorithm: lbfgs, relative_tolerance: 1.0e-9}"));
 }
 
 TEST(Multistart, SearchesFromTheBestPointsAndListsTheOptima) {
@@ -21,7 +22,8 @@ TEST(Multistart, SearchesFromTheBestPointsAndListsTheOptima) {
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_EQ(result.screened, 12);
   ASSERT_EQ(result.starts.size(), 4u);
-  for (std::size_t k = 1; k < 4; ++k) EXPECT_LE(result.starts[k - 1].start_objective, result.starts[k].start_objective);
+  for (std::size_t k = 1; k < 4; ++k)
+    EXPECT_LE(result.starts[k - 1].start_objective, result.starts[k].start_objective);
   ASSERT_FALSE(result.optima.empty());
   EXPECT_EQ(result.objective, result.optima[0].objective);
   EXPECT_EQ(result.rho, result.optima[0].rho);
@@ -33,11 +35,13 @@ TEST(Multistart, SearchesFromTheBestPointsAndListsTheOptima) {
   }
   EXPECT_EQ(found, 4);
   EXPECT_EQ(result.evaluations, evaluations);
-  EXPECT_EQ(result.initial_rho, Eigen::Vector2d(20.0, 5.0)) << "compared with the study's own start";
+  EXPECT_EQ(result.initial_rho, Eigen::Vector2d(20.0, 5.0))
+      << "compared with the study's own start";
 }
 
 TEST(Multistart, AnyNumberOfWorkersGivesTheSameBits) {
-  const OptimizationResult one = search("type: serial"), two = search("workers: 2"), five = search("workers: 5");
+  const OptimizationResult one = search("type: serial"), two = search("workers: 2"),
+                           five = search("workers: 5");
   for (const OptimizationResult* other : {&two, &five}) {
     EXPECT_EQ(one.rho, other->rho);
     EXPECT_EQ(one.objective, other->objective);
@@ -53,7 +57,9 @@ TEST(Multistart, AnyNumberOfWorkersGivesTheSameBits) {
 // A part has 1024 points, or 16 per worker: here two parts, and one.
 TEST(Multistart, PartsOfTheScreeningMakeNoDifference) {
   const auto screen = [](const std::string& engine) {
-    const std::string ensemble = "multistart: {starts: 3, screen: 1200, seed: 3, sampler: latin_hypercube}\nengine: {" + engine + "}\n";
+    const std::string ensemble =
+        "multistart: {starts: 3, screen: 1200, seed: 3, sampler: latin_hypercube}\nengine: {" +
+        engine + "}\n";
     return optimize(block(ensemble, "{algorithm: lbfgs, max_evaluations: 1}"));
   };
   const OptimizationResult two = screen("type: serial"), one = screen("workers: 80");
@@ -65,7 +71,8 @@ TEST(Multistart, PartsOfTheScreeningMakeNoDifference) {
 }
 
 TEST(Multistart, TheObserverSeesOneSequenceAndCanEndIt) {
-  const Problem problem = block("multistart: {starts: 3, screen: 6}\nengine: {workers: 3}\n", "{algorithm: lbfgs}");
+  const Problem problem =
+      block("multistart: {starts: 3, screen: 6}\nengine: {workers: 3}\n", "{algorithm: lbfgs}");
   int expected = 0;
   double best = std::numeric_limits<double>::infinity();
   const OptimizationResult result = optimize(problem, [&](const Trial& trial) {
@@ -78,11 +85,13 @@ TEST(Multistart, TheObserverSeesOneSequenceAndCanEndIt) {
   });
   EXPECT_EQ(expected, 5);
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
-  EXPECT_LE(result.objective, best) << "the trials of other searches that were under way count, too";
+  EXPECT_LE(result.objective, best)
+      << "the trials of other searches that were under way count, too";
 }
 
 TEST(Multistart, SearchesThatDidNotBeginHaveFoundNothing) {
-  const Problem problem = block("multistart: {starts: 5, screen: 6}\nengine: {type: serial}\n", "{algorithm: lbfgs}");
+  const Problem problem =
+      block("multistart: {starts: 5, screen: 6}\nengine: {type: serial}\n", "{algorithm: lbfgs}");
   const OptimizationResult result = optimize(problem, [](const Trial&) { return false; });
   ASSERT_EQ(result.starts.size(), 5u);
   EXPECT_EQ(result.starts[4].termination, "not_started");
@@ -93,7 +102,8 @@ TEST(Multistart, SearchesThatDidNotBeginHaveFoundNothing) {
 }
 
 TEST(Multistart, NearResultsAreOneOptimum) {
-  const std::vector<std::vector<double>> scaled = {{0.1, 0.1}, {0.9, 0.1}, {0.1005, 0.1}, {0.5, 0.5}};
+  const std::vector<std::vector<double>> scaled = {
+      {0.1, 0.1}, {0.9, 0.1}, {0.1005, 0.1}, {0.5, 0.5}};
   std::vector<StartResult> starts(4);
   for (std::size_t k = 0; k < 4; ++k) {
     starts[k].rho = Eigen::Map<const Eigen::Vector2d>(scaled[k].data());

@@ -12,7 +12,8 @@ using Eigen::Index;
 
 constexpr double kDigits = 1e-6;  // of |g|: where many rows are near, rounding leaves that
 
-/// Random rows by the first variables and some others, with distances from `nearest` on, bounds and one equality.
+/// Random rows by the first variables and some others, with distances from `nearest` on, bounds and
+/// one equality.
 class Rows {
  public:
   Rows(Index leading, Index slacks, int count, double nearest, unsigned seed) : random_(seed) {
@@ -57,7 +58,8 @@ class Rows {
   std::normal_distribution<double> normal_;
 };
 
-/// The conditions of the minimum: c_k >= 0, and the slope along c_k is zero, or positive where c_k = 0.
+/// The conditions of the minimum: c_k >= 0, and the slope along c_k is zero, or positive where c_k
+/// = 0.
 void expect_least(const Rows& rows, const Multipliers& found, double tolerance) {
   const double size = rows.gradient.norm();
   Eigen::VectorXd rest = rows.gradient;
@@ -92,7 +94,8 @@ TEST(Multipliers, MeetTheConditionsOfTheMinimum) {
     }
 }
 
-// The work of Lawson and Hanson alone, one multiplier after the other, would be some thousand matrices with a column for each.
+// The work of Lawson and Hanson alone, one multiplier after the other, would be some thousand
+// matrices with a column for each.
 TEST(Multipliers, OfManyRowsTakeFewMatricesOfTheVariables) {
   const Rows rows(4, 33, 20000, 0.1, 1);
   const Multipliers found = least_multipliers(rows.gradient, rows.holders, nullptr);

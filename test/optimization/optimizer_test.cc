@@ -16,7 +16,8 @@ struct Case {
   Study study;
 };
 
-/// A shipped study at tolerances loose enough for a short test and tight enough for the digits that are compared.
+/// A shipped study at tolerances loose enough for a short test and tight enough for the digits that
+/// are compared.
 Case shipped(const std::string& name) {
   const std::string root = source_dir();
   Case c;
@@ -53,7 +54,8 @@ TEST(Optimizer, RefusesConstraintsWhereTheyAreNotTaken) {
 TEST(Optimizer, CancelKeepsTheBestPoint) {
   const Case c = shipped("slider_crank");
   const OptimizationResult result =
-      optimize(make_system(c.robot, c.study), c.study.optimizer, [](const Trial& trial) { return trial.evaluation < 2; });
+      optimize(make_system(c.robot, c.study), c.study.optimizer,
+               [](const Trial& trial) { return trial.evaluation < 2; });
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.evaluations, 2);
   EXPECT_LE(result.objective, result.initial_objective);
@@ -61,7 +63,8 @@ TEST(Optimizer, CancelKeepsTheBestPoint) {
 }
 
 TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
-  // A rod this short cannot turn round with most cranks; the constraint that keeps it away is dropped.
+  // A rod this short cannot turn round with most cranks; the constraint that keeps it away is
+  // dropped.
   Case c = shipped("slider_crank_haug");
   c.study.constraints.clear();
   c.study.optimizer.algorithm = "lbfgs";
@@ -72,7 +75,8 @@ TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
       parameter.lower = 0.05;
     }
   }
-  // The objective rewards a short rod, so that the search enters the region where the mechanism cannot be assembled.
+  // The objective rewards a short rod, so that the search enters the region where the mechanism
+  // cannot be assembled.
   c.study.integral.front().signal = parse_signal("slider_joint/position", {}, "signal");
   c.study.integral.front().reference = Quantity(0.0);
   c.study.integral.resize(1);

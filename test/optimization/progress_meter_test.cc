@@ -56,7 +56,8 @@ TEST(ProgressMeter, SearchesThatEndedTellHowLongTheOthersTake) {
   EXPECT_EQ(progress.of, 10);
   EXPECT_EQ(progress.starts, 10);
   EXPECT_FALSE(progress.is_bound);
-  EXPECT_NEAR(*progress.seconds_left * progress.runs_per_second, 75.0, 1e-6) << "ten searches of ten trials";
+  EXPECT_NEAR(*progress.seconds_left * progress.runs_per_second, 75.0, 1e-6)
+      << "ten searches of ten trials";
 }
 
 TEST(ProgressMeter, RememberedRunsCountButAreNoMeasureOfSpeed) {

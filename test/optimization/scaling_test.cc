@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Tuned, in this order: a gain bounded from below only, a length between bounds, an offset that starts at zero. Mass stays.
+/// Tuned, in this order: a gain bounded from below only, a length between bounds, an offset that
+/// starts at zero. Mass stays.
 Study study() {
   Study study;
   study.parameters = {{"length", 0.08, 0.06, 0.1, "m", {}},
@@ -51,13 +52,16 @@ TEST(Scaling, BackIsTheInverseAndNeverLeavesTheBounds) {
 TEST(Scaling, GradientFollowsTheChainRule) {
   const Study s = study();
   const Scaling scaling(s);
-  // psi = 2 gain + 3 length - offset, linear: its change along a scaled step is the scaled gradient's.
+  // psi = 2 gain + 3 length - offset, linear: its change along a scaled step is the scaled
+  // gradient's.
   const Eigen::Vector3d gradient(2.0, 3.0, -1.0);
-  const std::vector<double> scaled = scaling.scale_gradient(gradient), x{0.1, 0.2, 0.3}, y{0.2, 0.7, -1.0};
+  const std::vector<double> scaled = scaling.scale_gradient(gradient), x{0.1, 0.2, 0.3},
+                            y{0.2, 0.7, -1.0};
   double change = 0.0;
   for (std::size_t k = 0; k < 3; ++k) change += scaled[k] * (y[k] - x[k]);
   EXPECT_NEAR(change, gradient.dot(scaling.from_scaled(y) - scaling.from_scaled(x)), 1e-12);
-  EXPECT_NEAR(scaling.gradient_norm(gradient), std::sqrt(1000.0 * 1000.0 + 0.12 * 0.12 + 1.0), 1e-9);
+  EXPECT_NEAR(scaling.gradient_norm(gradient), std::sqrt(1000.0 * 1000.0 + 0.12 * 0.12 + 1.0),
+              1e-9);
 }
 
 }  // namespace

@@ -36,15 +36,17 @@ class Notebook final : public EvaluationMemory {
 };
 
 Problem nested(const std::string& measure = "worst", const std::string& algorithm = "slsqp") {
-  return block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: " + measure +
-                   ", samples: 3, validate: 4}\nmultistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n",
-               "{algorithm: " + algorithm + "}");
+  return block(
+      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: " + measure +
+          ", samples: 3, validate: 4}\nmultistart: {starts: 3, screen: 6}\nengine: {workers: 2}\n",
+      "{algorithm: " + algorithm + "}");
 }
 
 void expect_to_go_on(const Problem& problem) {
   const OptimizerOptions options = problem.optimizer_options();
   const auto whole = std::make_shared<Notebook>();
-  const OptimizationResult expected = run_search(problem, options, {nullptr, nullptr, whole}, nullptr);
+  const OptimizationResult expected =
+      run_search(problem, options, {nullptr, nullptr, whole}, nullptr);
   ASSERT_TRUE(expected.status.ok()) << expected.status.cause;
   for (const double part : {0.02, 0.3, 0.7, 0.98}) {
     const auto memory = std::make_shared<Notebook>();
@@ -52,7 +54,8 @@ void expect_to_go_on(const Problem& problem) {
     run_search(problem, options, {nullptr, nullptr, memory}, &memory->cancel);
     EXPECT_LT(memory->kept, whole->kept);
     memory->cancel_at = -1;
-    const OptimizationResult result = run_search(problem, options, {nullptr, nullptr, memory}, nullptr);
+    const OptimizationResult result =
+        run_search(problem, options, {nullptr, nullptr, memory}, nullptr);
     EXPECT_EQ(memory->kept, whole->kept) << "nothing is computed twice";
     EXPECT_EQ(result.rho, expected.rho);
     EXPECT_EQ(result.objective, expected.objective);
@@ -64,13 +67,16 @@ void expect_to_go_on(const Problem& problem) {
 
 TEST(SearchHooks, AnInterruptedSearchGoesOnFromItsMemory) { expect_to_go_on(nested()); }
 
-TEST(SearchHooks, SoDoesOneThatNeedsTheJacobianOfTheResiduals) { expect_to_go_on(nested("mean", "levenberg_marquardt")); }
+TEST(SearchHooks, SoDoesOneThatNeedsTheJacobianOfTheResiduals) {
+  expect_to_go_on(nested("mean", "levenberg_marquardt"));
+}
 
 TEST(SearchHooks, EveryStageIsTold) {
   const Problem problem = nested();
   std::vector<Progress> told;
   const auto keep = [&told](const Progress& progress) { told.push_back(progress); };
-  const OptimizationResult result = run_search(problem, problem.optimizer_options(), {nullptr, keep, nullptr}, nullptr);
+  const OptimizationResult result =
+      run_search(problem, problem.optimizer_options(), {nullptr, keep, nullptr}, nullptr);
   ASSERT_TRUE(result.status.ok());
   ASSERT_FALSE(told.empty());
   EXPECT_EQ(told.front().stage, SearchStage::kScreening);
@@ -82,9 +88,11 @@ TEST(SearchHooks, ACallersMeterCountsTheWholeJob) {
   for (const Problem& problem : {nested(), block("engine: {workers: 2}\n")}) {
     const auto memory = std::make_shared<Notebook>();
     ProgressMeter first(1, nullptr), again(1, nullptr);
-    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, nullptr, &first}, nullptr);
+    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, nullptr, &first},
+               nullptr);
     EXPECT_EQ(first.now().runs - first.now().remembered, memory->kept);
-    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, nullptr, &again}, nullptr);
+    run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory, nullptr, &again},
+               nullptr);
     EXPECT_EQ(again.now().runs, first.now().runs);
     EXPECT_EQ(again.now().remembered, first.now().runs) << "nothing is computed twice";
   }
@@ -94,7 +102,8 @@ TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPoint) {
   const Problem problem = block("multistart: {starts: 2, screen: 4000}\nengine: {workers: 2}\n");
   const auto memory = std::make_shared<Notebook>();
   memory->cancel_at = 20;
-  const OptimizationResult result = run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory}, &memory->cancel);
+  const OptimizationResult result =
+      run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory}, &memory->cancel);
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.termination, "cancelled");
   EXPECT_GE(result.screened, 20);

@@ -33,19 +33,24 @@ robust: {samples: 4, validate: 10}
   EXPECT_EQ(result.validation->failed, 0);
   EXPECT_EQ(result.validation->promised, result.objective);
   EXPECT_NEAR(result.validation->objective, result.objective, 0.1 * result.objective);
-  EXPECT_NEAR(result.validation->mean, result.validation->objective, 1e-14) << "the measure is the mean";
+  EXPECT_NEAR(result.validation->mean, result.validation->objective, 1e-14)
+      << "the measure is the mean";
   EXPECT_GT(result.validation->worst, result.validation->mean);
 }
 
 TEST(ScenarioResults, TellTheValueAtRisk) {
-  const Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.75, samples: 8, validate: 64}\n");
+  const Problem problem = block(
+      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: cvar, level: 0.75, samples: 8, "
+      "validate: 64}\n");
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   ASSERT_TRUE(result.value_at_risk);
   int beyond = 0;
-  for (const ScenarioResult& scenario : result.scenarios) beyond += scenario.objective > *result.value_at_risk ? 1 : 0;
+  for (const ScenarioResult& scenario : result.scenarios)
+    beyond += scenario.objective > *result.value_at_risk ? 1 : 0;
   EXPECT_EQ(beyond, 2) << "a quarter of the samples";
-  EXPECT_LE(*result.value_at_risk, result.objective) << "the mean of the worst quarter is beyond its edge";
+  EXPECT_LE(*result.value_at_risk, result.objective)
+      << "the mean of the worst quarter is beyond its edge";
   ASSERT_TRUE(result.validation);
   EXPECT_NEAR(result.validation->value_at_risk, *result.value_at_risk, 0.2 * result.objective);
   EXPECT_NEAR(result.validation->within, 0.75, 0.15);
@@ -53,8 +58,10 @@ TEST(ScenarioResults, TellTheValueAtRisk) {
 
 // With one sample there is no deviation; among the fresh samples its square overflows.
 TEST(ScenarioResults, AValidationThatIsNotFiniteIsAFailure) {
-  Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: mean_plus_deviation, samples: 1, validate: 4}\n",
-                          "{algorithm: slsqp, max_evaluations: 2}");
+  Problem problem = block(
+      "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: mean_plus_deviation, samples: 1, "
+      "validate: 4}\n",
+      "{algorithm: slsqp, max_evaluations: 2}");
   Study study = problem.study();
   study.terminal.at(0).weight = 1e200;
   problem = with_study(problem, study);
@@ -65,7 +72,8 @@ TEST(ScenarioResults, AValidationThatIsNotFiniteIsAFailure) {
 }
 
 TEST(ScenarioResults, OtherMeasuresHaveNoValueAtRisk) {
-  EXPECT_FALSE(optimize(block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 4}\n")).value_at_risk);
+  EXPECT_FALSE(optimize(block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 4}\n"))
+                   .value_at_risk);
 }
 
 TEST(ScenarioResults, StudiesWithOneRunHaveNone) {
@@ -76,15 +84,20 @@ TEST(ScenarioResults, StudiesWithOneRunHaveNone) {
 }
 
 TEST(ScenarioResults, AnInterruptedValidationIsNone) {
-  const Problem problem = block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 2, validate: 500}\n");
+  const Problem problem =
+      block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 2, validate: 500}\n");
   std::atomic<bool> cancel{false};
   // Half a validation is none: the samples left would count as failed.
-  const auto progress = [&cancel](const Progress& so_far) { cancel = cancel || so_far.stage == SearchStage::kValidating; };
+  const auto progress = [&cancel](const Progress& so_far) {
+    cancel = cancel || so_far.stage == SearchStage::kValidating;
+  };
   const Ensemble ensemble(problem);
   ProgressMeter meter(100, progress, std::chrono::milliseconds(1));
-  OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(), problem.start(), ensemble, {}, &cancel);
+  OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(),
+                                             problem.start(), ensemble, {}, &cancel);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  const Ensemble counted(problem, 1, {nullptr, [&meter](bool computed) { meter.count_run(computed); }, nullptr});
+  const Ensemble counted(
+      problem, 1, {nullptr, [&meter](bool computed) { meter.count_run(computed); }, nullptr});
   describe_scenarios(problem, counted, &cancel, &meter, &result);
   EXPECT_TRUE(cancel);
   EXPECT_FALSE(result.validation);
@@ -102,7 +115,8 @@ TEST(FlatDirections, AProductLeavesTwoOfThree) {
   ASSERT_EQ(flat.cols(), 2);
   EXPECT_LT((root * flat).norm(), 1e-14);
   for (int d = 0; d < 2; ++d) EXPECT_EQ(flat.col(d).cwiseAbs().maxCoeff(), 1.0);
-  EXPECT_EQ((flat.array() == 1.0).rowwise().any().count(), 2) << "each direction has a parameter of its own";
+  EXPECT_EQ((flat.array() == 1.0).rowwise().any().count(), 2)
+      << "each direction has a parameter of its own";
 }
 
 TEST(FlatDirections, CurvatureAboveTheLimitIsNone) {
@@ -111,7 +125,8 @@ TEST(FlatDirections, CurvatureAboveTheLimitIsNone) {
   root(2, 2) = 0.5e-4;
   EXPECT_EQ(flat_directions(root, kNoRows, {false, false, false}), Eigen::Vector3d(0.0, 0.0, 1.0));
   EXPECT_EQ(flat_directions(root, kNoRows, {false, false, true}).cols(), 0) << "held";
-  EXPECT_EQ(flat_directions(root, Eigen::Vector3d(0.0, 0.0, 1e-6), {false, false, false}).cols(), 0) << "an active constraint";
+  EXPECT_EQ(flat_directions(root, Eigen::Vector3d(0.0, 0.0, 1e-6), {false, false, false}).cols(), 0)
+      << "an active constraint";
 }
 
 }  // namespace

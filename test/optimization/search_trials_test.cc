@@ -31,7 +31,8 @@ TEST_F(SearchTrialsTest, TheBestPointIsKept) {
   trials.start(Eigen::Vector2d(20.0, 5.0));
   EXPECT_FALSE(trials.have_best());
   const Eigen::Vector2d better(60.0, 10.0), worse(1.0, 0.0);
-  for (const Eigen::Vector2d& rho : {Eigen::Vector2d(20.0, 5.0), better, worse}) ASSERT_TRUE(trials.evaluate(rho, Derivatives::kGradient));
+  for (const Eigen::Vector2d& rho : {Eigen::Vector2d(20.0, 5.0), better, worse})
+    ASSERT_TRUE(trials.evaluate(rho, Derivatives::kGradient));
   ASSERT_EQ(told.size(), 3u);
   ASSERT_LT(told[1].objective, told[0].objective);
   ASSERT_GT(told[2].objective, told[0].objective);
@@ -90,8 +91,10 @@ TEST(SearchTrials, OutsideTheConstraintsItDoesNotMatterHowTheAlgorithmEnded) {
     trials.result().termination = has_failed ? "algorithm_failed" : "objective_tolerance_reached";
     trials.conclude("its matrix is singular");
     EXPECT_EQ(trials.result().status.code, StatusCode::kInfeasible);
-    EXPECT_NE(trials.result().status.cause.find("final[0] (slide/position)"), std::string::npos) << trials.result().status.cause;
-    EXPECT_EQ(trials.result().status.cause.find("its matrix is singular") != std::string::npos, has_failed);
+    EXPECT_NE(trials.result().status.cause.find("final[0] (slide/position)"), std::string::npos)
+        << trials.result().status.cause;
+    EXPECT_EQ(trials.result().status.cause.find("its matrix is singular") != std::string::npos,
+              has_failed);
   }
   SmoothProgram program(ensemble);
   SearchTrials trials(problem.study(), options, ensemble, none, nullptr, scaling, &program);
@@ -99,7 +102,8 @@ TEST(SearchTrials, OutsideTheConstraintsItDoesNotMatterHowTheAlgorithmEnded) {
   ASSERT_TRUE(trials.evaluate(problem.start(), Derivatives::kGradient));
   trials.result().termination = "algorithm_failed";
   trials.conclude("its matrix is singular");
-  EXPECT_EQ(trials.result().status.code, StatusCode::kAlgorithmFailed) << "it tried nothing but the start";
+  EXPECT_EQ(trials.result().status.code, StatusCode::kAlgorithmFailed)
+      << "it tried nothing but the start";
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST(SlackForm, DerivativesAreThoseOfTheValues) {
     const Eigen::VectorXd moved = y + Eigen::VectorXd::Unit(y.size(), k);
     EXPECT_NEAR(form.objective(moved) - form.objective(y), form.gradient()[k], 1e-14);
     for (int i = 0; i < form.constraints(); ++i)
-      EXPECT_NEAR(form.constraint(i, kPsi[i], moved) - form.constraint(i, kPsi[i], y), form.by_slack(i, k), 1e-14);
+      EXPECT_NEAR(form.constraint(i, kPsi[i], moved) - form.constraint(i, kPsi[i], y),
+                  form.by_slack(i, k), 1e-14);
   }
 }
 
@@ -68,7 +69,8 @@ Study rows_study() {
 TEST(SignalRows, AreThoseOfEveryInstantAndWindow) {
   const Study study = rows_study();
   const SignalRows rows(study);
-  const std::size_t instants = rows.layout().entries()[0].instants.size(), per_bound = 2 * instants - 1;
+  const std::size_t instants = rows.layout().entries()[0].instants.size(),
+                    per_bound = 2 * instants - 1;
   EXPECT_EQ(rows.inequalities().size(), 4 * per_bound);
   EXPECT_EQ(rows.equalities().size(), 1U);
   EXPECT_EQ(rows.peaks(), std::vector<std::size_t>{2});

@@ -11,16 +11,19 @@ namespace codesign {
 namespace {
 
 const std::string kTwoRuns = "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}}\n";
-const std::string kPath = "path: [{signal: slide/velocity, between: [-1.5, 1.5]}, {signal: hold/output, at_most: \"${Kp}\"}]\n";
+const std::string kPath =
+    "path: [{signal: slide/velocity, between: [-1.5, 1.5]}, {signal: hold/output, at_most: "
+    "\"${Kp}\"}]\n";
 
 OptimizationResult tune_with(const std::string& blocks, const std::string& algorithm = "slsqp") {
-  return optimize(block(blocks, "{algorithm: " + algorithm + ", relative_tolerance: 1.0e-9, max_evaluations: 400}"));
+  return optimize(block(
+      blocks, "{algorithm: " + algorithm + ", relative_tolerance: 1.0e-9, max_evaluations: 400}"));
 }
 
 /// Each derivative of a row against central differences of the row.
 template <class Row>
-void expect_derivatives(const Ensemble& ensemble, SmoothProgram* program, const Eigen::VectorXd& rho, const Eigen::VectorXd& slack,
-                        const Row& row) {
+void expect_derivatives(const Ensemble& ensemble, SmoothProgram* program,
+                        const Eigen::VectorXd& rho, const Eigen::VectorXd& slack, const Row& row) {
   const auto at = [&](const Eigen::VectorXd& design, const Eigen::VectorXd& y) {
     const EnsembleEvaluation all = ensemble.evaluate(design, true);
     program->take(all, design);
@@ -30,36 +33,46 @@ void expect_derivatives(const Ensemble& ensemble, SmoothProgram* program, const 
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const double h = 1e-4 * rho[k];
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(rho.size(), k);
-    const double difference = (at(rho + step, slack).value - at(rho - step, slack).value) / (2.0 * h);
-    EXPECT_NEAR(value.by_rho[k], difference, 1e-5 * (std::abs(difference) + 1e-3)) << "parameter " << k;
+    const double difference =
+        (at(rho + step, slack).value - at(rho - step, slack).value) / (2.0 * h);
+    EXPECT_NEAR(value.by_rho[k], difference, 1e-5 * (std::abs(difference) + 1e-3))
+        << "parameter " << k;
   }
   for (Eigen::Index k = 0; k < slack.size(); ++k) {
     const Eigen::VectorXd step = 1e-3 * Eigen::VectorXd::Unit(slack.size(), k);
-    EXPECT_NEAR(value.by_slack[k], (at(rho, slack + step).value - at(rho, slack - step).value) / 2e-3, 1e-9) << "slack " << k;
+    EXPECT_NEAR(value.by_slack[k],
+                (at(rho, slack + step).value - at(rho, slack - step).value) / 2e-3, 1e-9)
+        << "slack " << k;
   }
 }
 
 TEST(SmoothProgram, DerivativesOfObjectiveAndRowsAreRight) {
-  const Problem problem =
-      block(kTwoRuns + kPath + "robust: {measure: worst}\nsolver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n");
+  const Problem problem = block(kTwoRuns + kPath +
+                                "robust: {measure: worst}\nsolver: {relative_tolerance: 1.0e-10, "
+                                "absolute_tolerance: 1.0e-11}\n");
   const Ensemble ensemble(problem);
   SmoothProgram program(ensemble);
   const EnsembleEvaluation all = ensemble.evaluate(problem.start(), true);
   const Eigen::VectorXd slack = program.start(all, 2.0);
   ASSERT_EQ(slack.size(), 1);
-  expect_derivatives(ensemble, &program, problem.start(), slack, [&](const auto& y) { return program.objective(y); });
+  expect_derivatives(ensemble, &program, problem.start(), slack,
+                     [&](const auto& y) { return program.objective(y); });
   for (int row : {0, 1, 2 + 7, 2 + 60, program.inequalities() - 3})
-    expect_derivatives(ensemble, &program, problem.start(), slack, [&](const auto& y) { return program.inequality(row, y); });
+    expect_derivatives(ensemble, &program, problem.start(), slack,
+                       [&](const auto& y) { return program.inequality(row, y); });
 }
 
 TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
-  const OptimizationResult free = tune_with(kTwoRuns), bounded = tune_with(kTwoRuns + "path: [{signal: hold/output, between: [-6, 6]}]\n");
+  const OptimizationResult free = tune_with(kTwoRuns),
+                           bounded = tune_with(kTwoRuns +
+                                               "path: [{signal: hold/output, between: [-6, 6]}]\n");
   ASSERT_TRUE(free.status.ok()) << free.status.cause;
   ASSERT_TRUE(bounded.status.ok()) << bounded.status.cause;
   ASSERT_EQ(bounded.watched.size(), 1U);
   EXPECT_LE(bounded.watched[0].violation, 1e-8);
   EXPECT_GT(bounded.objective, free.objective);
-  EXPECT_NEAR(std::max(bounded.watched[0].largest, -bounded.watched[0].smallest), 6.0, 1e-6) << "the bound is active";
+  EXPECT_NEAR(std::max(bounded.watched[0].largest, -bounded.watched[0].smallest), 6.0, 1e-6)
+      << "the bound is active";
   EXPECT_EQ(bounded.watched[0].lower, -6.0);
   EXPECT_EQ(bounded.watched[0].upper, 6.0);
   EXPECT_EQ(bounded.watched[0].before, 0.8);
@@ -68,7 +81,8 @@ TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
 
 TEST(SmoothProgram, TellsInWhichRunASignalWasExtreme) {
   // The set-point of the second run is farther away, so the controller pushes harder there.
-  const OptimizationResult result = tune_with(kTwoRuns + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
+  const OptimizationResult result =
+      tune_with(kTwoRuns + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
   ASSERT_EQ(result.watched.size(), 1U);
   EXPECT_EQ(result.watched[0].largest_scenario, 1);
   EXPECT_DOUBLE_EQ(result.watched[0].lower, -result.rho[0]);
@@ -84,13 +98,15 @@ TEST(SmoothProgram, AlgorithmsAgreeOnABoundedDesign) {
 TEST(SmoothProgram, AnImpossibleBoundIsInfeasible) {
   const OptimizationResult result = tune_with("final: [{signal: slide/position, at_least: 4.0}]\n");
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
-  EXPECT_NE(result.status.cause.find("final[0] (slide/position)"), std::string::npos) << result.status.cause;
+  EXPECT_NE(result.status.cause.find("final[0] (slide/position)"), std::string::npos)
+      << result.status.cause;
   EXPECT_GT(result.watched.at(0).violation, 1.0);
 }
 
 TEST(SmoothProgram, DependentConstraintsAreNoSuccess) {
   const std::string one = "{signal: slide/velocity, between: [0.0, 0.0]}";
-  const OptimizationResult once = tune_with("final: [" + one + "]\n"), twice = tune_with("final: [" + one + ", " + one + "]\n");
+  const OptimizationResult once = tune_with("final: [" + one + "]\n"),
+                           twice = tune_with("final: [" + one + ", " + one + "]\n");
   ASSERT_TRUE(once.status.ok()) << once.status.cause;
   if (twice.status.ok()) {
     EXPECT_NEAR(twice.objective, once.objective, 1e-4 * once.objective);
@@ -123,7 +139,8 @@ TEST(SmoothProgram, AConstraintOnParametersHoldsInEveryRun) {
 TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
   const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
   EXPECT_THROW(tune_with(bound, "lbfgs"), InputError);
-  EXPECT_THROW(tune_with("final: [{signal: slide/position, between: [0.5, 0.5]}]\n", "mma"), InputError);
+  EXPECT_THROW(tune_with("final: [{signal: slide/position, between: [0.5, 0.5]}]\n", "mma"),
+               InputError);
 }
 
 const SourceText kCart{"cart.urdf", R"(<robot name="cart"><link name="world"/>
@@ -132,8 +149,9 @@ const SourceText kCart{"cart.urdf", R"(<robot name="cart"><link name="world"/>
     <limit lower="-5" upper="5" effort="100" velocity="10"/></joint></robot>)"};
 
 TEST(SmoothProgram, MovesTheCartByTheBangBangPeak) {
-  // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients reverse within one span h = 1/39, so that
-  // the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric reversal, instead of 4.
+  // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients
+  // reverse within one span h = 1/39, so that the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric
+  // reversal, instead of 4.
   const SourceText study{"cart.yaml", R"(
 duration: 1.0
 controllers: {push: {type: basis, shape: linear, output: slide, coefficients: {count: 40, initial: 0.0, lower: -20.0, upper: 20.0}}}
@@ -149,8 +167,8 @@ optimizer: {algorithm: slsqp, relative_tolerance: 1.0e-10}
   for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, 1e-8);
 }
 
-// r int u^2 + a (x - 1/2)^2 + b v^2 at the end of 1 s is least for a force c0 + c1 t, which piecewise linear forces contain; then it is
-// quadratic in c0 and c1.
+// r int u^2 + a (x - 1/2)^2 + b v^2 at the end of 1 s is least for a force c0 + c1 t, which
+// piecewise linear forces contain; then it is quadratic in c0 and c1.
 TEST(SmoothProgram, ShapeCoefficientsReachTheLinearForceOfAQuadraticObjective) {
   const double r = 1e-2, a = 1000.0, b = 100.0;
   const Eigen::Vector2d x(1.0 / 2.0, 1.0 / 6.0), v(1.0, 1.0 / 2.0);
@@ -170,11 +188,13 @@ optimizer: {max_evaluations: 400, algorithm: )" +
     const OptimizationResult result = optimize(load_problem(kCart, {}, study));
     ASSERT_TRUE(result.status.ok()) << algorithm << ": " << result.status.cause;
     EXPECT_NE(result.termination, "stopped_early") << algorithm;
-    EXPECT_NEAR(result.objective, optimum, 1e-4 * optimum) << algorithm << ": " << result.evaluations << " evaluations";
+    EXPECT_NEAR(result.objective, optimum, 1e-4 * optimum)
+        << algorithm << ": " << result.evaluations << " evaluations";
   }
 }
 
-// A speed that has to end at zero tells nothing of its range at the end: the default tolerance counts the speed of the whole run.
+// A speed that has to end at zero tells nothing of its range at the end: the default tolerance
+// counts the speed of the whole run.
 TEST(SmoothProgram, SwingsUpToRestWithinTheDefaultTolerance) {
   const SourceText urdf{"swing.urdf", R"(<robot name="swing"><link name="base"/>
   <link name="bar"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
@@ -193,7 +213,8 @@ optimizer: {max_evaluations: 200}
   ASSERT_EQ(result.watched.size(), 2U);
   EXPECT_NEAR(result.watched[0].tolerance, 3.14e-5, 1e-6);
   EXPECT_NEAR(result.watched[1].tolerance, 6.1e-5, 1e-5) << "of 6.1 rad/s on the way";
-  for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, watched.tolerance);
+  for (const WatchedResult& watched : result.watched)
+    EXPECT_LE(watched.violation, watched.tolerance);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace {
 
 Problem slider_crank(const ParameterSettings& settings = {}) {
   const std::string source = source_dir();
-  return load_problem(read_source(source + "/urdf/slider_crank_haug.urdf"), {}, read_source(source + "/config/slider_crank_haug.yaml"),
-                      settings);
+  return load_problem(read_source(source + "/urdf/slider_crank_haug.urdf"), {},
+                      read_source(source + "/config/slider_crank_haug.yaml"), settings);
 }
 
 TEST(Problem, CopiesShareWhatTheyHold) {
@@ -59,7 +59,8 @@ TEST(Problem, AnotherStudyOfTheSameModelIsCompiledAnew) {
 
 TEST(Problem, SignalsOfASimulationAreSpelledAsInStudies) {
   const Problem problem = slider_crank();
-  Simulation simulation(problem, problem.parameters(), {"slider_joint/position", "crank_joint/velocity"});
+  Simulation simulation(problem, problem.parameters(),
+                        {"slider_joint/position", "crank_joint/velocity"});
   ASSERT_TRUE(simulation.start().ok());
   Frame frame;
   simulation.sample(0.0, &frame);
@@ -79,7 +80,8 @@ TEST(Problem, OptionsOfASearchComeInPlaceOfTheStudys) {
 }
 
 void expect_same_gradient(const Problem& a, const Problem& b) {
-  const Evaluation of_a = Evaluator(a).evaluate(a.start(), true), of_b = Evaluator(b).evaluate(b.start(), true);
+  const Evaluation of_a = Evaluator(a).evaluate(a.start(), true),
+                   of_b = Evaluator(b).evaluate(b.start(), true);
   ASSERT_TRUE(of_a.status.ok()) << of_a.status.cause;
   EXPECT_EQ(of_a.objective, of_b.objective);
   EXPECT_EQ(of_a.gradient, of_b.gradient);
@@ -107,7 +109,8 @@ TEST(PortableProblem, CarriesValuesAndTheChoiceOfParameters) {
 
 TEST(PortableProblem, CarriesTrajectories) {
   SourceText study = block("").study_text();
-  study.text.replace(study.text.find("setpoint: 0.5"), 13, "setpoint: {type: trajectory, bag: recorded.bag, topic: /path, joint: slide}");
+  study.text.replace(study.text.find("setpoint: 0.5"), 13,
+                     "setpoint: {type: trajectory, bag: recorded.bag, topic: /path, joint: slide}");
   int reads = 0;
   const TrajectoryLoader loader = [&reads](const TrajectoryAddress& address) {
     ++reads;
@@ -127,8 +130,9 @@ TEST(PortableProblem, CarriesTheFilesThatTheStudyNames) {
   int reads = 0;
   const FileLoader files = [&reads](const FileAddress& address) {
     ++reads;
-    return SourceText{"far/" + address.file,
-                      R"({"names": ["mu"], "covariance": [[1e-4]], "identified": {"mu": {"value": 0.3, "determined": true}}})"};
+    return SourceText{
+        "far/" + address.file,
+        R"({"names": ["mu"], "covariance": [[1e-4]], "identified": {"mu": {"value": 0.3, "determined": true}}})"};
   };
   const Problem plain = block("");
   const SourceText study{"block.yaml", plain.study_text().text + "uncertain: {from: i.json}\n"};
@@ -137,7 +141,8 @@ TEST(PortableProblem, CarriesTheFilesThatTheStudyNames) {
   EXPECT_EQ(reads, 1) << "the file is read once, by the process that has it";
   ASSERT_EQ(copy.study().ensemble.uncertain.size(), 1U);
   EXPECT_EQ(copy.study().ensemble.uncertain[0].distribution.deviation, 0.01);
-  EXPECT_EQ(load_portable(make_portable(copy)).study().ensemble.uncertain.size(), 1U) << "a copy of a copy";
+  EXPECT_EQ(load_portable(make_portable(copy)).study().ensemble.uncertain.size(), 1U)
+      << "a copy of a copy";
   EXPECT_EQ(make_portable(with_settings(problem, {{"mass", 2.5}})).files.size(), 1U);
   PortableProblem without = make_portable(problem);
   without.files.clear();

@@ -8,16 +8,22 @@
 namespace codesign {
 namespace {
 
-Warnings warnings_of(const std::string& constraint, const std::string& more = "", const std::string& parameters = "") {
-  return unsatisfiable_constraints(block("constraints: [" + constraint + "]\n" + more, "{algorithm: slsqp}", parameters).study());
+Warnings warnings_of(const std::string& constraint, const std::string& more = "",
+                     const std::string& parameters = "") {
+  return unsatisfiable_constraints(
+      block("constraints: [" + constraint + "]\n" + more, "{algorithm: slsqp}", parameters)
+          .study());
 }
 
 void expect_warning(const std::string& constraint) {
   const Warnings warnings = warnings_of(constraint);
   ASSERT_EQ(warnings.size(), 1U) << constraint;
   EXPECT_EQ(warnings[0].code, "unsatisfiable_constraint");
-  EXPECT_NE(warnings[0].message.find("constraints[0]: no design within the parameters' bounds"), std::string::npos) << warnings[0].message;
-  EXPECT_NE(warnings[0].message.find("the margin is at most"), std::string::npos) << warnings[0].message;
+  EXPECT_NE(warnings[0].message.find("constraints[0]: no design within the parameters' bounds"),
+            std::string::npos)
+      << warnings[0].message;
+  EXPECT_NE(warnings[0].message.find("the margin is at most"), std::string::npos)
+      << warnings[0].message;
 }
 
 // Kp lies within 0 and 200, Kd within 0 and 50; mass is 2 unless it is tuned, within 0.1 and 10.
@@ -27,20 +33,25 @@ TEST(Margins, AConstraintThatNoDesignMeetsIsDoubted) {
   expect_warning("{expression: \"${(Kp + 1)/(Kd + 1)}\", at_least: 202}");
   expect_warning("\"Kp*mass >= 500\"");
   expect_warning("\"mass >= 3\"");
-  EXPECT_TRUE(warnings_of("\"Kp + Kd >= 250\", {expression: \"${Kp - 2*Kd}\", at_most: -100}").empty());
+  EXPECT_TRUE(
+      warnings_of("\"Kp + Kd >= 250\", {expression: \"${Kp - 2*Kd}\", at_most: -100}").empty());
   EXPECT_TRUE(warnings_of("\"Kp*mass >= 500\"", "", ", mass: {}").empty());
-  EXPECT_TRUE(warnings_of("\"mass >= 3\"", "runs: {a: {set: {mass: 4}}}\n").empty()) << "a run has another value";
+  EXPECT_TRUE(warnings_of("\"mass >= 3\"", "runs: {a: {set: {mass: 4}}}\n").empty())
+      << "a run has another value";
   EXPECT_TRUE(warnings_of("\"sqrt(Kp) >= 15\"").empty()) << "not known cheaply";
 }
 
 TEST(Margins, BoundsThatSettingsPutOutOfOrderAreRefused) {
-  const Problem problem = block("constraints: [{expression: \"${Kp}\", between: [\"${10*mass}\", 30]}]\n");
+  const Problem problem =
+      block("constraints: [{expression: \"${Kp}\", between: [\"${10*mass}\", 30]}]\n");
   EXPECT_NO_THROW(with_settings(problem, {{"mass", 2.5}}));
   try {
     with_settings(problem, {{"mass", 4.0}});
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("the lower bound must be less than the upper one"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("the lower bound must be less than the upper one"),
+              std::string::npos)
+        << error.what();
   }
 }
 

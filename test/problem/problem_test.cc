@@ -10,7 +10,8 @@
 namespace codesign {
 namespace {
 
-const SourceText kPendulum{"pendulum.urdf", R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+const SourceText kPendulum{"pendulum.urdf",
+                           R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="length" value="1" lower="0.5" upper="2" unit="m"/>
   <codesign:parameter name="weight" value="3"/>
   <link name="ground"/>
@@ -42,7 +43,8 @@ TEST(Problem, HoldsAllParametersAndTheStart) {
 }
 
 TEST(Problem, SettingsReplaceStartsAndDefaults) {
-  const Problem problem = load_problem(kPendulum, {}, kStudy, {{"Kp", 4.0}, {"weight", 5.0}, {"Kp", 6.0}});
+  const Problem problem =
+      load_problem(kPendulum, {}, kStudy, {{"Kp", 4.0}, {"weight", 5.0}, {"Kp", 6.0}});
   EXPECT_EQ(problem.parameters(), (std::vector<double>{1.0, 5.0, 6.0}));
   EXPECT_EQ(problem.start(), Eigen::Vector2d(6.0, 1.0));
 }
@@ -55,12 +57,14 @@ TEST(Problem, AMechanismAloneTunesNothing) {
 }
 
 TEST(Problem, OverlaysAreMerged) {
-  const SourceText overlay{"overlay.urdf", R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+  const SourceText overlay{"overlay.urdf",
+                           R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
     <joint name="hinge"><codesign:friction model="brown_mcphee" mu_static="0.4" mu_dynamic="0.3" joint_length="0.02" pin_radius="0.01"/></joint></robot>)"};
   EXPECT_TRUE(load_mechanism(kPendulum, {overlay}).robot().joints.at(0).friction.has_value());
 }
 
-void expect_refused(const ParameterSettings& settings, const std::string& message, const std::string& allowed) {
+void expect_refused(const ParameterSettings& settings, const std::string& message,
+                    const std::string& allowed) {
   try {
     load_problem(kPendulum, {}, kStudy, settings);
     ADD_FAILURE() << message;

@@ -26,7 +26,8 @@ uncertain: {friction_law: {choice: [gonthier, lugre]}}
   EXPECT_EQ(variant_of(problem, 0, -1), problem.system());
   EXPECT_EQ(variant_of(problem, 0, 0)->robot().joints[0].friction->model, FrictionModel::kGonthier);
   EXPECT_EQ(variant_of(problem, 1, 1)->robot().joints[0].friction->model, FrictionModel::kLuGre);
-  EXPECT_EQ(variant_of(problem, 1, -1)->robot().joints[0].friction->model, FrictionModel::kBrownMcPhee);
+  EXPECT_EQ(variant_of(problem, 1, -1)->robot().joints[0].friction->model,
+            FrictionModel::kBrownMcPhee);
   EXPECT_EQ(variant_of(problem, 1, 1)->study().controllers[0].setpoint.constant.nominal(), 0.9);
   EXPECT_EQ(variant_of(problem, 0, 1)->study().controllers[0].setpoint.constant.nominal(), 0.5);
 }
@@ -39,7 +40,8 @@ uncertain: {friction_law: {choice: [gonthier, lugre]}}
 )");
   const auto systems = distinct_systems(problem);
   EXPECT_EQ(systems.front(), problem.system());
-  // Two systems with the model's own law, since one run only sets a value, and three runs with two laws each.
+  // Two systems with the model's own law, since one run only sets a value, and three runs with two
+  // laws each.
   EXPECT_EQ(systems.size(), 8U);
   EXPECT_EQ(systems.back(), variant_of(problem, 2, 1));
 }
@@ -86,20 +88,24 @@ TEST(Variants, SobolSamplesHaveALargestDimension) {
   EXPECT_EQ(fault.element, "robust.sampler");
   EXPECT_EQ(fault.value, "3668 uncertain parameters");
   EXPECT_NE(fault.allowed.find("at most 3667"), std::string::npos) << fault.allowed;
-  EXPECT_EQ(fault_of(uncertain + "}\nrobust: {samples: 2, sampler: random}\n", parameters).message, "");
+  EXPECT_EQ(fault_of(uncertain + "}\nrobust: {samples: 2, sampler: random}\n", parameters).message,
+            "");
 }
 
 TEST(Variants, ManySobolStartsHaveALargestDimension) {
   std::string parameters;
-  for (int k = 0; k < 3667; ++k) parameters += ", a" + std::to_string(k) + ": {initial: 0.5, lower: 0, upper: 1}";
+  for (int k = 0; k < 3667; ++k)
+    parameters += ", a" + std::to_string(k) + ": {initial: 0.5, lower: 0, upper: 1}";
   const InputFault fault = fault_of("multistart: {starts: 1}\n", parameters);
   EXPECT_EQ(fault.element, "multistart.sampler");
   EXPECT_EQ(fault.value, "3669 tuned parameters");
-  EXPECT_EQ(fault_of("multistart: {starts: 1, sampler: latin_hypercube}\n", parameters).message, "");
+  EXPECT_EQ(fault_of("multistart: {starts: 1, sampler: latin_hypercube}\n", parameters).message,
+            "");
 }
 
 TEST(Variants, SettingsReachTheRuns) {
-  const Problem problem = with_settings(block("runs: {far: {controllers: {hold: {setpoint: 0.9}}}}\n"), {{"mass", 3.0}, {"Kp", 7.0}});
+  const Problem problem = with_settings(
+      block("runs: {far: {controllers: {hold: {setpoint: 0.9}}}}\n"), {{"mass", 3.0}, {"Kp", 7.0}});
   EXPECT_EQ(variant_of(problem, 0, -1)->study().parameters[1].value, 3.0);
   EXPECT_EQ(variant_of(problem, 0, -1)->study().parameters[2].value, 7.0);
 }

@@ -42,7 +42,9 @@ inline std::vector<PageRow> page_rows(const std::string& page, std::size_t cells
     if (all.size() != cells + 2) continue;
     PageRow row{{}, {all.begin() + 2, all.end()}};
     for (const std::string& key : quoted_in(all[1]))
-      row.keys.push_back(key[0] == '.' && !row.keys.empty() ? row.keys[0].substr(0, row.keys[0].rfind('.')) + key : key);
+      row.keys.push_back(key[0] == '.' && !row.keys.empty()
+                             ? row.keys[0].substr(0, row.keys[0].rfind('.')) + key
+                             : key);
     if (!row.keys.empty()) rows.push_back(row);
   }
   return rows;

@@ -9,7 +9,9 @@ namespace codesign {
 namespace {
 
 TEST(ParameterTable, KnowsWhatItsExpressionsUse) {
-  const ParameterTable table({{"a", 2.0, 0.0, 9.0, "", {}}, {"b", 3.0, 0.0, 9.0, "", {}}, {"sine", 4.0, 0.0, 9.0, "", {}}});
+  const ParameterTable table({{"a", 2.0, 0.0, 9.0, "", {}},
+                              {"b", 3.0, 0.0, 9.0, "", {}},
+                              {"sine", 4.0, 0.0, 9.0, "", {}}});
   EXPECT_TRUE(table.used.empty());
   EXPECT_EQ(table.parse("sin(0)")->value(table.values), 0.0);
   EXPECT_TRUE(table.used.empty()) << "a function is no parameter";

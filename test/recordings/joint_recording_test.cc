@@ -39,7 +39,8 @@ class LoadRecordings : public testing::Test {
     const JointRecording recording = swing(100);
     file << "time,hinge/position,hinge/effort\n";
     for (std::size_t k = 0; k < 100; ++k)
-      file << recording.times[k] << "," << recording.joints[0].position[k] << "," << recording.joints[0].effort[k] << "\n";
+      file << recording.times[k] << "," << recording.joints[0].position[k] << ","
+           << recording.joints[0].effort[k] << "\n";
     file.close();
     identification_.data = {entry("swing.csv", "identify.data[0]")};
   }
@@ -61,7 +62,8 @@ class LoadRecordings : public testing::Test {
 };
 
 TEST_F(LoadRecordings, ReadsDataAndHoldout) {
-  identification_.holdout = {entry((directory_.path() / "swing.csv").string(), "identify.holdout[0]")};
+  identification_.holdout = {
+      entry((directory_.path() / "swing.csv").string(), "identify.holdout[0]")};
   identification_.holdout[0].from = 0.5;
   const StudyRecordings recordings = load();
   ASSERT_EQ(recordings.data.size(), 1U);
@@ -81,7 +83,8 @@ TEST_F(LoadRecordings, SamplesThatAreUsedTwiceAreTold) {
   load();
   ASSERT_EQ(warnings_.size(), 1U);
   EXPECT_EQ(warnings_[0].code, "recording_repeated");
-  expect_word(warnings_[0].message, "identify.holdout[0]: some of its samples are fitted as identify.data[0]");
+  expect_word(warnings_[0].message,
+              "identify.holdout[0]: some of its samples are fitted as identify.data[0]");
   identification_.holdout.clear();
   identification_.data.push_back(entry("swing.csv", "identify.data[1]"));
   load();
@@ -127,8 +130,8 @@ TEST_F(LoadRecordings, BagsAreReadByTheCaller) {
   EXPECT_EQ(fault.element, "identify.data[0].bag");
   expect_word(fault.message, "built without ROS");
   std::string asked;
-  const BagReader reader = [&asked](const RecordingDescription&, const std::string& path, const std::vector<std::string>& joints,
-                                    Warnings*) {
+  const BagReader reader = [&asked](const RecordingDescription&, const std::string& path,
+                                    const std::vector<std::string>& joints, Warnings*) {
     asked = path + " " + std::to_string(joints.size());
     return swing(50);
   };
@@ -153,7 +156,8 @@ class RecordedSpeed : public LoadRecordings {
     const JointRecording recording = swing(100);
     file << "time,hinge/velocity,slider/position\n";
     for (std::size_t k = 0; k < 100; ++k)
-      file << recording.times[k] + (k < 50 ? 0.0 : gap) << "," << recording.joints[0].velocity[k] << ",0\n";
+      file << recording.times[k] + (k < 50 ? 0.0 : gap) << "," << recording.joints[0].velocity[k]
+           << ",0\n";
   }
 };
 
@@ -176,8 +180,9 @@ TEST_F(RecordedSpeed, OnlyWhereAVelocityIsAllThatIsKnown) {
   expect_word(fault.message, "unknown joint in");
   expect_word(fault.allowed, "hinge");
   identification_.data[0].starts[0].joint = "hinge";
-  std::ofstream(directory_.path() / "speed.csv") << "time,hinge/effort\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n"
-                                                    "10,1\n11,1\n12,1\n13,1\n14,1\n15,1\n16,1\n17,1\n18,1\n19,1\n20,1\n";
+  std::ofstream(directory_.path() / "speed.csv")
+      << "time,hinge/effort\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n"
+         "10,1\n11,1\n12,1\n13,1\n14,1\n15,1\n16,1\n17,1\n18,1\n19,1\n20,1\n";
   expect_word(refusal_of([this] { load(); }).message, "no velocity of this joint was recorded");
 }
 
@@ -197,7 +202,8 @@ TEST_F(LoadRecordings, APieceTooShortForTheFilterIsLeftOut) {
   file << "time,hinge/position,hinge/effort\n";
   for (std::size_t k = 0; k < 400; ++k)
     if (k < 350 || k >= 370)
-      file << recording.times[k] << "," << recording.joints[0].position[k] << "," << recording.joints[0].effort[k] << "\n";
+      file << recording.times[k] << "," << recording.joints[0].position[k] << ","
+           << recording.joints[0].effort[k] << "\n";
   file.close();
   identification_.data = {entry("gap.csv", "identify.data[0]")};
   identification_.data[0].gaps = GapRule::kSplit;
@@ -217,8 +223,10 @@ double jitter(std::size_t k) { return 1e-3 * std::sin(7.0 * static_cast<double>(
 JointRecording stamped(std::size_t count, bool samples_jitter, bool stamps_jitter) {
   JointRecording recording = swing(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const double even = recording.times[k], jittered = even + jitter(k), taken = samples_jitter ? jittered : even;
-    recording.joints[0].position[k] = 0.5 * std::sin(2.0 * taken) + 1e-5 * std::sin(11.0 * static_cast<double>(k * k));
+    const double even = recording.times[k], jittered = even + jitter(k),
+                 taken = samples_jitter ? jittered : even;
+    recording.joints[0].position[k] =
+        0.5 * std::sin(2.0 * taken) + 1e-5 * std::sin(11.0 * static_cast<double>(k * k));
     if (stamps_jitter) recording.times[k] = jittered;
   }
   return recording;
@@ -230,7 +238,8 @@ TEST(EvenStamps, MovesStampsThatJitterAlone) {
   even_stamps(&recording, &warnings);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].code, "recording_even_stamps");
-  for (std::size_t k = 0; k < 400; ++k) ASSERT_NEAR(recording.times[k], 0.01 * static_cast<double>(k), 1.5e-4) << k;
+  for (std::size_t k = 0; k < 400; ++k)
+    ASSERT_NEAR(recording.times[k], 0.01 * static_cast<double>(k), 1.5e-4) << k;
 }
 
 TEST(EvenStamps, LeavesStampsOfSamplesThatJitter) {
@@ -257,7 +266,9 @@ TEST(EvenStamps, LeavesWhatIsEvenAndWhatTellsNothing) {
 
 TEST(EvenStamps, CountsMissingSamples) {
   JointRecording recording = stamped(400, false, true);
-  const auto drop = [](auto* values) { values->erase(values->begin() + 100, values->begin() + 102); };
+  const auto drop = [](auto* values) {
+    values->erase(values->begin() + 100, values->begin() + 102);
+  };
   drop(&recording.times);
   drop(&recording.places);
   drop(&recording.joints[0].position);
@@ -274,13 +285,15 @@ TEST(EvenStamps, CountsMissingSamples) {
 TEST(EvenStamps, StampsThatAreLateAreNoMissingSamples) {
   JointRecording recording = stamped(400, false, false);
   for (std::size_t k = 0; k < 400; ++k)
-    recording.times[k] += k % 57 == 20 ? 0.0098 : 1e-3 * std::abs(std::sin(7.0 * static_cast<double>(k * k)));
+    recording.times[k] +=
+        k % 57 == 20 ? 0.0098 : 1e-3 * std::abs(std::sin(7.0 * static_cast<double>(k * k)));
   recording.times[100] += 0.006;
   recording.times[101] += 0.0062;
   Warnings warnings;
   even_stamps(&recording, &warnings);
   EXPECT_EQ(warnings.size(), 1U);
-  for (std::size_t k = 1; k < 400; ++k) ASSERT_NEAR(recording.times[k] - recording.times[k - 1], 0.01, 1e-5) << k;
+  for (std::size_t k = 1; k < 400; ++k)
+    ASSERT_NEAR(recording.times[k] - recording.times[k - 1], 0.01, 1e-5) << k;
 }
 
 // 300 Hz with stamps in whole milliseconds: 3, 7, 10, ... ms.
@@ -294,7 +307,8 @@ TEST(EvenStamps, UndoesTheRoundingOfStamps) {
   Warnings warnings;
   even_stamps(&recording, &warnings);
   EXPECT_EQ(warnings.size(), 1U);
-  for (std::size_t k = 0; k < 600; ++k) ASSERT_NEAR(recording.times[k], static_cast<double>(k) / 300.0, 2e-5) << k;
+  for (std::size_t k = 0; k < 600; ++k)
+    ASSERT_NEAR(recording.times[k], static_cast<double>(k) / 300.0, 2e-5) << k;
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ TEST(Resample, CubicsAreExactForParabolasAndLinesForLines) {
   const std::vector<double> times = {0.0, 0.9, 2.1, 3.0, 4.2, 4.9, 6.0};
   const UniformTimes uniform = uniform_times(times);
   ASSERT_FALSE(uniform.exact);
-  const Eigen::VectorXd cubic = resample(times, values_at(times, parabola), uniform, Between::kCubic);
+  const Eigen::VectorXd cubic =
+      resample(times, values_at(times, parabola), uniform, Between::kCubic);
   const Eigen::VectorXd linear = resample(times, values_at(times, line), uniform, Between::kLinear);
   for (Eigen::Index k = 0; k < uniform.count; ++k) {
     EXPECT_NEAR(cubic[k], parabola(uniform.at(k)), 1e-12);
@@ -54,7 +55,8 @@ TEST(Resample, LinesDoNotOvershootAtAJump) {
   const std::vector<double> times = {0.0, 1.0, 2.1, 3.0, 3.9, 5.0};
   const std::vector<double> jump = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
   const UniformTimes uniform = uniform_times(times);
-  const Eigen::VectorXd linear = resample(times, jump, uniform, Between::kLinear), cubic = resample(times, jump, uniform, Between::kCubic);
+  const Eigen::VectorXd linear = resample(times, jump, uniform, Between::kLinear),
+                        cubic = resample(times, jump, uniform, Between::kCubic);
   EXPECT_GE(linear.minCoeff(), 0.0);
   EXPECT_LE(linear.maxCoeff(), 1.0);
   EXPECT_GT(cubic.maxCoeff() - cubic.minCoeff(), 1.0);
@@ -63,9 +65,12 @@ TEST(Resample, LinesDoNotOvershootAtAJump) {
 TEST(Derivative, IsExactForPolynomialsOfItsOrder) {
   const double step = 0.1;
   const auto power = [step](int degree) {
-    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(21, [=](Eigen::Index k) { return std::pow(step * double(k - 10), degree); }));
+    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(
+        21, [=](Eigen::Index k) { return std::pow(step * double(k - 10), degree); }));
   };
-  const auto expected = [step](int degree, Eigen::Index k) { return degree * std::pow(step * double(k - 10), degree - 1); };
+  const auto expected = [step](int degree, Eigen::Index k) {
+    return degree * std::pow(step * double(k - 10), degree - 1);
+  };
   const Eigen::VectorXd eighth = derivative(power(8), step), second = derivative(power(2), step);
   for (Eigen::Index k = 4; k < 17; ++k) EXPECT_NEAR(eighth[k], expected(8, k), 1e-12) << k;
   EXPECT_GT(std::abs(eighth[3] - expected(8, 3)), 1e-6);
@@ -75,31 +80,37 @@ TEST(Derivative, IsExactForPolynomialsOfItsOrder) {
 // At 100 Hz, a motion of 20 Hz: differences of order two would lose a quarter of its velocity.
 TEST(Derivative, HoldsUpToAFifthOfTheRate) {
   const double step = 0.01, w = 2.0 * 3.14159265358979323846 * 20.0;
-  const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(101, [=](Eigen::Index k) { return std::sin(w * step * double(k)); });
+  const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(
+      101, [=](Eigen::Index k) { return std::sin(w * step * double(k)); });
   EXPECT_NEAR(derivative(wave, step)[50], w * std::cos(w * step * 50.0), 0.01 * w);
 }
 
 TEST(Integral, IsExactForPolynomialsOfItsOrder) {
   const double step = 0.1;
   const auto power = [step](int degree) {
-    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(21, [=](Eigen::Index k) { return std::pow(step * double(k - 10), degree); }));
+    return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(
+        21, [=](Eigen::Index k) { return std::pow(step * double(k - 10), degree); }));
   };
   const auto expected = [step](int degree, Eigen::Index k) {
-    return (std::pow(step * double(k - 10), degree + 1) - std::pow(-10.0 * step, degree + 1)) / (degree + 1);
+    return (std::pow(step * double(k - 10), degree + 1) - std::pow(-10.0 * step, degree + 1)) /
+           (degree + 1);
   };
   const Eigen::VectorXd third = integral(power(3), step), fifth = integral(power(5), step);
   EXPECT_EQ(third[0], 0.0);
   for (Eigen::Index k = 0; k < 21; ++k) EXPECT_NEAR(third[k], expected(3, k), 1e-13) << k;
-  for (Eigen::Index k = 2; k < 19; ++k) EXPECT_NEAR(fifth[k] - fifth[2], expected(5, k) - expected(5, 2), 1e-13) << k;
+  for (Eigen::Index k = 2; k < 19; ++k)
+    EXPECT_NEAR(fifth[k] - fifth[2], expected(5, k) - expected(5, 2), 1e-13) << k;
   EXPECT_GT(std::abs(fifth[1] - expected(5, 1)), 1e-6);
 }
 
 // At 100 Hz, a motion of 10 Hz: the trapezoidal rule would lose 3 % of its amplitude.
 TEST(Integral, UndoesTheDerivative) {
   const double step = 0.01, w = 2.0 * 3.14159265358979323846 * 10.0;
-  const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(201, [=](Eigen::Index k) { return std::sin(w * step * double(k) + 0.3); });
+  const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(
+      201, [=](Eigen::Index k) { return std::sin(w * step * double(k) + 0.3); });
   const Eigen::VectorXd again = integral(derivative(wave, step), step);
-  for (Eigen::Index k = 10; k < 191; ++k) EXPECT_NEAR(again[k] - again[10], wave[k] - wave[10], 3e-3) << k;
+  for (Eigen::Index k = 10; k < 191; ++k)
+    EXPECT_NEAR(again[k] - again[10], wave[k] - wave[10], 3e-3) << k;
 }
 
 FilterOptions filter_of(double cutoff, int decimate = 1) {
@@ -187,16 +198,19 @@ TEST(MeasuredMotion, WarnsOfNoiseThatGetsThrough) {
 
 TEST(MeasuredMotion, RefusesCutoffsAndLengthsThatCannotBe) {
   Warnings warnings;
-  const InputFault cutoff = refusal_of([&] { measured_motion(swing(400), filter_of(50.0), &warnings); });
+  const InputFault cutoff =
+      refusal_of([&] { measured_motion(swing(400), filter_of(50.0), &warnings); });
   EXPECT_EQ(cutoff.element, "identify.filter.cutoff");
   EXPECT_EQ(cutoff.where.line, 6);
   expect_word(cutoff.message, "a recording of 100 samples per second");
   EXPECT_EQ(cutoff.allowed, "less than 50 Hz, or 0 for no filter");
-  const InputFault length = refusal_of([&] { measured_motion(swing(60), filter_of(10.0), &warnings); });
+  const InputFault length =
+      refusal_of([&] { measured_motion(swing(60), filter_of(10.0), &warnings); });
   EXPECT_EQ(length.element, "identify.data[0]");
   expect_word(length.message, "60 samples leave 0 to fit");
   for (const double low : {1e-9, 1e-300}) {
-    const InputFault none = refusal_of([&] { measured_motion(swing(400), filter_of(low), &warnings); });
+    const InputFault none =
+        refusal_of([&] { measured_motion(swing(400), filter_of(low), &warnings); });
     expect_word(none.message, "400 samples leave 0 to fit");
   }
 }
@@ -216,7 +230,8 @@ TEST(MeasuredMotion, APositionThatWasNotMeasuredIsTheIntegralOfTheVelocity) {
   EXPECT_FALSE(motion.joints[0].position_measured);
   EXPECT_EQ(motion.joints[0].position[0], 0.25);
   // The filter knows one side only at the beginning, which leaves a constant.
-  const double off = motion.joints[0].position[motion.first] - truth[static_cast<std::size_t>(motion.first)];
+  const double off =
+      motion.joints[0].position[motion.first] - truth[static_cast<std::size_t>(motion.first)];
   EXPECT_NEAR(off, 0.25, 2e-4);
   for (Eigen::Index k = motion.first; k < motion.end; ++k)
     EXPECT_NEAR(motion.joints[0].position[k], truth[static_cast<std::size_t>(k)] + off, 1e-6) << k;

@@ -12,7 +12,9 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-NumberTable table_of(const std::string& text, CellDelimiter delimiter = CellDelimiter::kAuto) { return {"log.csv", text, delimiter}; }
+NumberTable table_of(const std::string& text, CellDelimiter delimiter = CellDelimiter::kAuto) {
+  return {"log.csv", text, delimiter};
+}
 
 InputFault table_fault(const std::string& text, const std::vector<int>& indices) {
   const InputFault fault = refusal_of([&] { table_of(text).read(indices); });
@@ -39,7 +41,8 @@ TEST(NumberTable, FindsTheDelimiter) {
 }
 
 TEST(NumberTable, TakesFilesAsTheyAreFound) {
-  const NumberTable windows = table_of("\xEF\xBB\xBF\"time\",\"q, raw\"\r\n0,1\r\n\r\n# paused\r\n1,2");
+  const NumberTable windows =
+      table_of("\xEF\xBB\xBF\"time\",\"q, raw\"\r\n0,1\r\n\r\n# paused\r\n1,2");
   EXPECT_EQ(windows.names(), (Names{"time", "q, raw"}));
   EXPECT_EQ(windows.read({1}).values[0], (std::vector<double>{1.0, 2.0}));
   EXPECT_EQ(windows.read({1}).lines, (std::vector<std::size_t>{2, 5}));
@@ -76,7 +79,8 @@ TEST(NumberTable, ReadsARecordingOf30SecondsAt1kHzInATenthOfASecond) {
   std::string text = "time,a,b,c,d,e,f\n";
   for (int k = 0; k < 30000; ++k) {
     text += std::to_string(0.001 * k);
-    for (int column = 0; column < 6; ++column) text += "," + std::to_string(std::sin(0.01 * k + column)) + "12345678";
+    for (int column = 0; column < 6; ++column)
+      text += "," + std::to_string(std::sin(0.01 * k + column)) + "12345678";
     text += "\n";
   }
   const CpuTimer timer;
@@ -96,11 +100,14 @@ class TableRecording : public testing::Test {
   }
   void write(const std::string& text) const { std::ofstream(path()) << text; }
   std::string path() const { return (directory_.path() / "log.csv").string(); }
-  JointRecording read() const { return read_table_recording(description_, path(), {"hinge", "arm/slider"}); }
+  JointRecording read() const {
+    return read_table_recording(description_, path(), {"hinge", "arm/slider"});
+  }
   InputFault fault() const {
     return refusal_of([this] { read(); });
   }
-  static ColumnDescription column(const std::string& name, int number = 0, double scale = 1.0, double offset = 0.0) {
+  static ColumnDescription column(const std::string& name, int number = 0, double scale = 1.0,
+                                  double offset = 0.0) {
     return {name, number, scale, offset, {"study.yaml", 5}, "identify.data[0].columns.x"};
   }
 

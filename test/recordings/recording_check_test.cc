@@ -37,7 +37,8 @@ TEST(CheckedPart, NamesTheNumberThatIsNone) {
 TEST(CheckedPart, NamesTheClockThatJumps) {
   JointRecording recording = swing(100);
   recording.times[60] = recording.times[59];
-  expect_word(part_fault(recording).message, "the time equals the time of the previous sample (line 62");
+  expect_word(part_fault(recording).message,
+              "the time equals the time of the previous sample (line 62");
   for (std::size_t k = 60; k < 100; ++k) recording.times[k] = 0.01 * static_cast<double>(k) - 0.3;
   expect_word(part_fault(recording).message, "the time jumps back by 0.29 s");
   expect_word(part_fault(recording).message, "line 62");
@@ -45,7 +46,8 @@ TEST(CheckedPart, NamesTheClockThatJumps) {
 
 TEST(CheckedPart, SaysWhatTheRecordingHolds) {
   const InputFault fault = part_fault(swing(100), 7.0, 37.0);
-  expect_word(fault.message, "0 samples from 7 s to 37 s; the recording reaches from 0 s to 0.99 s");
+  expect_word(fault.message,
+              "0 samples from 7 s to 37 s; the recording reaches from 0 s to 0.99 s");
   EXPECT_EQ(fault.where.line, 4);
   expect_word(part_fault(swing(100), 0.5, 0.6).message, "11 samples");
   expect_word(part_fault(JointRecording()).message, "the recording is empty");
@@ -60,7 +62,8 @@ JointRecording paused(double seconds) {
 
 TEST(WithoutGaps, RefusesAGapAndNamesItsPlace) {
   Warnings warnings;
-  const InputFault fault = refusal_of([&] { without_gaps(paused(3.0), GapRule::kRefuse, &warnings); });
+  const InputFault fault =
+      refusal_of([&] { without_gaps(paused(3.0), GapRule::kRefuse, &warnings); });
   expect_word(fault.message, "a gap of 3.01 s, where the period is 0.01 s");
   expect_word(fault.message, "line 42");
   expect_word(fault.allowed, "gaps: split");
@@ -106,14 +109,17 @@ TEST(UnwrapTurns, AddsWholeTurnsToTurningJoints) {
   Warnings warnings;
   const std::vector<double> slider = wrapped.joints[1].position;
   unwrap_turns(recorded_robot(), &wrapped, &warnings);
-  for (std::size_t k = 0; k < 100; ++k) ASSERT_NEAR(wrapped.joints[0].position[k], straight.joints[0].position[k], 1e-12) << k;
+  for (std::size_t k = 0; k < 100; ++k)
+    ASSERT_NEAR(wrapped.joints[0].position[k], straight.joints[0].position[k], 1e-12) << k;
   EXPECT_EQ(wrapped.joints[1].position, slider);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].code, "recording_unwrapped");
   expect_word(warnings[0].message, "2 times, first at line 34");
 }
 
-TEST(MedianPeriod, IgnoresAPause) { EXPECT_DOUBLE_EQ(median_period({0.0, 1.0, 2.0, 9.0, 10.0}), 1.0); }
+TEST(MedianPeriod, IgnoresAPause) {
+  EXPECT_DOUBLE_EQ(median_period({0.0, 1.0, 2.0, 9.0, 10.0}), 1.0);
+}
 
 Warnings spikes_in(const JointRecording& recording) {
   Warnings warnings;
@@ -129,7 +135,8 @@ TEST(SpikeCheck, ASpikeIsNamedByFileRowAndJoint) {
   EXPECT_EQ(warnings[0].code, "recording_spike");
   EXPECT_EQ(warnings[0].where.file, "swing.csv");
   EXPECT_EQ(warnings[0].where.line, 79);
-  expect_word(warnings[0].message, "the effort of hinge jumps to 5000 and back (line 79, t = 0.77 s)");
+  expect_word(warnings[0].message,
+              "the effort of hinge jumps to 5000 and back (line 79, t = 0.77 s)");
   recording.joints[0].effort[200] = -400.0;
   expect_word(spikes_in(recording).at(0).message, "one of 2 such samples");
 }
@@ -191,10 +198,13 @@ TEST(UnitCheck, NoticesExchangedColumns) {
   expect_word(exchanged[0].message, "the two columns are exchanged");
   recording = two_waves();
   recording.joints.push_back({"wheel", {}, recording.joints[0].velocity, {}});
-  for (std::size_t k = 0; k < 300; ++k) recording.joints[0].velocity[k] = std::sin(3.3 * recording.times[k]);
-  expect_word(warnings_of(recording).at(0).message, "the velocity of wheel is: columns are exchanged");
+  for (std::size_t k = 0; k < 300; ++k)
+    recording.joints[0].velocity[k] = std::sin(3.3 * recording.times[k]);
+  expect_word(warnings_of(recording).at(0).message,
+              "the velocity of wheel is: columns are exchanged");
   recording.joints.pop_back();
-  expect_word(warnings_of(recording).at(0).message, "is not the derivative of its position (correlation");
+  expect_word(warnings_of(recording).at(0).message,
+              "is not the derivative of its position (correlation");
 }
 
 TEST(UnitCheck, AVelocityOfNoiseTellsNothingAboutUnits) {

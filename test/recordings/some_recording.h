@@ -30,7 +30,8 @@ inline RobotDescription recorded_robot() {
   return robot;
 }
 
-/// The hinge swings with amplitude 0.5 and 2 rad/s, `count` samples at 100 Hz, all quantities measured.
+/// The hinge swings with amplitude 0.5 and 2 rad/s, `count` samples at 100 Hz, all quantities
+/// measured.
 inline JointRecording swing(std::size_t count) {
   JointRecording recording;
   recording.file = "swing.csv";

@@ -16,8 +16,8 @@ Eigen::VectorXd filtered(const ZeroPhaseFilter& filter, Eigen::VectorXd samples)
   return samples;
 }
 
-// scipy 1.10.1: b, a = butter(order, cutoff / (rate / 2)); filtfilt(b, a, x) with x[k] = sin(0.3 k) + 0.25 (k % 3 - 1) + 0.01 k^2 for k =
-// 0 ... 39, at k = 0, 1, 7, 20, 38, 39.
+// scipy 1.10.1: b, a = butter(order, cutoff / (rate / 2)); filtfilt(b, a, x) with x[k] = sin(0.3 k)
+// + 0.25 (k % 3 - 1) + 0.01 k^2 for k = 0 ... 39, at k = 0, 1, 7, 20, 38, 39.
 struct ScipyCase {
   int order;
   double cutoff;  // at a rate of 2 Hz
@@ -29,37 +29,45 @@ class AgainstScipy : public testing::TestWithParam<ScipyCase> {};
 TEST_P(AgainstScipy, GivesTheNumbersOfFiltfilt) {
   Eigen::VectorXd samples(40);
   for (int k = 0; k < 40; ++k) samples[k] = std::sin(0.3 * k) + 0.25 * (k % 3 - 1) + 0.01 * k * k;
-  const Eigen::VectorXd result = filtered(ZeroPhaseFilter(GetParam().order, GetParam().cutoff, 2.0), samples);
+  const Eigen::VectorXd result =
+      filtered(ZeroPhaseFilter(GetParam().order, GetParam().cutoff, 2.0), samples);
   const std::array<int, 6> places = {0, 1, 7, 20, 38, 39};
-  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(result[places[i]], GetParam().values[i], 1e-12) << places[i];
+  for (std::size_t i = 0; i < places.size(); ++i)
+    EXPECT_NEAR(result[places[i]], GetParam().values[i], 1e-12) << places[i];
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Orders, AgainstScipy,
-    testing::Values(
-        ScipyCase{
-            4,
-            0.2,
-            {-0.2538471020794801, 0.16931379811248304, 1.3608506724312512, 3.718482485610147, 13.447409120748162, 14.200916342451647}},
-        ScipyCase{
-            3,
-            0.35,
-            {-0.2497949541239231, 0.24785700664962448, 1.3505490937070033, 3.7211364852208493, 13.479273763754936, 14.196995286568008}},
-        ScipyCase{1, 0.5, {-0.25, 0.30392072167942863, 1.3389323861817735, 3.794324340372215, 13.608701694136906, 14.198016416080968}},
-        ScipyCase{
-            2, 0.02, {0.8557094934180653, 1.0129528781513428, 2.036980583268774, 4.494217713052, 6.861256368057647, 6.91428728909751}}));
+    testing::Values(ScipyCase{4,
+                              0.2,
+                              {-0.2538471020794801, 0.16931379811248304, 1.3608506724312512,
+                               3.718482485610147, 13.447409120748162, 14.200916342451647}},
+                    ScipyCase{3,
+                              0.35,
+                              {-0.2497949541239231, 0.24785700664962448, 1.3505490937070033,
+                               3.7211364852208493, 13.479273763754936, 14.196995286568008}},
+                    ScipyCase{1,
+                              0.5,
+                              {-0.25, 0.30392072167942863, 1.3389323861817735, 3.794324340372215,
+                               13.608701694136906, 14.198016416080968}},
+                    ScipyCase{2,
+                              0.02,
+                              {0.8557094934180653, 1.0129528781513428, 2.036980583268774,
+                               4.494217713052, 6.861256368057647, 6.91428728909751}}));
 
 TEST(ZeroPhaseFilter, HasHalfTheAmplitudeAtTheCutoffAndNoDelay) {
   const double rate = 1000.0, cutoff = 20.0;
   const ZeroPhaseFilter filter(4, cutoff, rate);
   for (const double frequency : {2.0, 20.0, 60.0}) {
     Eigen::VectorXd samples(4001);
-    for (int k = 0; k <= 4000; ++k) samples[k] = std::cos(2.0 * kPi * frequency * (k - 2000) / rate);
+    for (int k = 0; k <= 4000; ++k)
+      samples[k] = std::cos(2.0 * kPi * frequency * (k - 2000) / rate);
     const Eigen::VectorXd result = filtered(filter, samples);
     // |H|^2 of the bilinear transform: 1 / (1 + (tan(pi f / rate) / tan(pi fc / rate))^(2 n)).
     const double ratio = std::tan(kPi * frequency / rate) / std::tan(kPi * cutoff / rate);
     const double gain = 1.0 / (1.0 + std::pow(ratio, 8.0));
-    for (int k = 1950; k <= 2050; ++k) ASSERT_NEAR(result[k], gain * samples[k], 1e-9) << frequency << " Hz";
+    for (int k = 1950; k <= 2050; ++k)
+      ASSERT_NEAR(result[k], gain * samples[k], 1e-9) << frequency << " Hz";
   }
 }
 
@@ -73,8 +81,8 @@ TEST(ZeroPhaseFilter, PassesLinesUnchanged) {
 
 TEST(ZeroPhaseFilter, IsLinearAndTreatsColumnsAlike) {
   const ZeroPhaseFilter filter(4, 5.0, 100.0);
-  Eigen::MatrixXd columns =
-      Eigen::MatrixXd::NullaryExpr(200, 3, [](Eigen::Index i, Eigen::Index j) { return std::sin(0.1 * double(i * (j + 1))); });
+  Eigen::MatrixXd columns = Eigen::MatrixXd::NullaryExpr(
+      200, 3, [](Eigen::Index i, Eigen::Index j) { return std::sin(0.1 * double(i * (j + 1))); });
   columns.col(2) = 2.0 * columns.col(0) - columns.col(1);
   const Eigen::VectorXd first = filtered(filter, columns.col(0));
   ZeroPhaseFilter::Workspace workspace;

@@ -7,8 +7,10 @@
 
 namespace codesign {
 
-/// A pendulum with a spring-like controller, to be swung at one radian per second: two parameters to tune, a third that could be.
-inline const std::string kPendulumUrdf = R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+/// A pendulum with a spring-like controller, to be swung at one radian per second: two parameters
+/// to tune, a third that could be.
+inline const std::string kPendulumUrdf =
+    R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
   <codesign:parameter name="mass" value="1" lower="0.5" upper="2" unit="kg"/>
   <link name="ground"/>
@@ -40,6 +42,8 @@ solver: {relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}
 optimizer: {algorithm: lbfgs, max_evaluations: 30}
 )";
 
-inline Problem pendulum() { return load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", kPendulumStudy}); }
+inline Problem pendulum() {
+  return load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", kPendulumStudy});
+}
 
 }  // namespace codesign

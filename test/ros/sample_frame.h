@@ -36,10 +36,12 @@ inline Frame sample_frame(double time) {
   frame.loop_errors = {1e-9};
   frame.signals = {1.0, 20.0};
   frame.links.resize(3);
-  // The cart stands at x = 1, turned by 90 degrees about z; the plate two metres along the world's y from it, turned by 180 degrees about
-  // z.
-  frame.links[1] = {{1.0, 0.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ()))};
-  frame.links[2] = {{1.0, 2.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()))};
+  // The cart stands at x = 1, turned by 90 degrees about z; the plate two metres along the world's
+  // y from it, turned by 180 degrees about z.
+  frame.links[1] = {{1.0, 0.0, 0.0},
+                    Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ()))};
+  frame.links[2] = {{1.0, 2.0, 0.0},
+                    Eigen::Quaterniond(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()))};
   return frame;
 }
 

@@ -28,14 +28,18 @@ VectorXd vector(std::initializer_list<double> numbers) {
 }
 VectorXd equal(Index size) { return VectorXd::Constant(size, 1.0 / static_cast<double>(size)); }
 
-// The function that Rockafellar and Uryasev minimize; for finitely many values, one of the values is a minimum.
+// The function that Rockafellar and Uryasev minimize; for finitely many values, one of the values
+// is a minimum.
 double minimum_over_threshold(double level, const VectorXd& values, const VectorXd& weights) {
   double least = std::numeric_limits<double>::infinity();
-  for (const double t : values) least = std::min(least, t + weights.dot((values.array() - t).max(0.0).matrix()) / (1.0 - level));
+  for (const double t : values)
+    least =
+        std::min(least, t + weights.dot((values.array() - t).max(0.0).matrix()) / (1.0 - level));
   return least;
 }
 
-void expect_derivative(const RobustOptions& measured, const VectorXd& values, const VectorXd& weights) {
+void expect_derivative(const RobustOptions& measured, const VectorXd& values,
+                       const VectorXd& weights) {
   const Measured result = measure(measured, values, weights);
   EXPECT_NEAR(result.by_value.sum(), 1.0, 1e-15);
   for (Index i = 0; i < values.size(); ++i) {
@@ -59,7 +63,8 @@ TEST(Measure, MeanIsTheWeightedSum) {
 }
 
 TEST(Measure, WorstIsTheFirstOfTheLargest) {
-  const Measured worst = measure(options(RobustMeasure::kWorst), vector({1.0, 4.0, 2.0, 4.0}), equal(4));
+  const Measured worst =
+      measure(options(RobustMeasure::kWorst), vector({1.0, 4.0, 2.0, 4.0}), equal(4));
   EXPECT_EQ(worst.value, 4.0);
   EXPECT_EQ(worst.threshold, 4.0);
   EXPECT_EQ(worst.by_value, vector({0.0, 1.0, 0.0, 0.0}));
@@ -68,7 +73,8 @@ TEST(Measure, WorstIsTheFirstOfTheLargest) {
 TEST(Measure, CvarOfEqualWeights) {
   VectorXd values(10);
   values << 4, 9, 1, 0, 8, 3, 7, 2, 6, 5;
-  const Measured tenth = measure(cvar(0.9), values, equal(10)), half = measure(cvar(0.5), values, equal(10));
+  const Measured tenth = measure(cvar(0.9), values, equal(10)),
+                 half = measure(cvar(0.5), values, equal(10));
   EXPECT_EQ(tenth.value, 9.0);
   EXPECT_EQ(tenth.by_value, VectorXd::Unit(10, 1));
   EXPECT_EQ(tenth.threshold, 8.0);
@@ -88,7 +94,9 @@ TEST(Measure, CvarBetweenTwoAtomsTakesAPartOfOne) {
 
 TEST(Measure, CvarIsTheMinimumOverTheThreshold) {
   for (double level = 0.02; level < 1.0; level += 0.03) {
-    EXPECT_NEAR(measure(cvar(level), kValues, kWeights).value, minimum_over_threshold(level, kValues, kWeights), 1e-13) << level;
+    EXPECT_NEAR(measure(cvar(level), kValues, kWeights).value,
+                minimum_over_threshold(level, kValues, kWeights), 1e-13)
+        << level;
   }
 }
 
@@ -106,40 +114,48 @@ TEST(Measure, CvarWithTiesGivesASubgradient) {
 
 // Mean 2.65; sum of w psi^2: 0.9 + 0.3 + 9.8 + 1 + 3.75 = 15.75; variance 15.75 - 2.65^2 = 8.7275.
 TEST(Measure, MeanPlusDeviation) {
-  EXPECT_NEAR(measure(options(RobustMeasure::kMeanPlusDeviation, 2.0), kValues, kWeights).value, 2.65 + 2.0 * std::sqrt(8.7275), 1e-14);
+  EXPECT_NEAR(measure(options(RobustMeasure::kMeanPlusDeviation, 2.0), kValues, kWeights).value,
+              2.65 + 2.0 * std::sqrt(8.7275), 1e-14);
 }
 
 TEST(Measure, WithoutDeviationTheDerivativeIsThatOfTheMean) {
-  const Measured result = measure(options(RobustMeasure::kMeanPlusDeviation, 3.0), VectorXd::Constant(7, 0.1), equal(7));
+  const Measured result = measure(options(RobustMeasure::kMeanPlusDeviation, 3.0),
+                                  VectorXd::Constant(7, 0.1), equal(7));
   EXPECT_EQ(result.value, 0.1);
   EXPECT_EQ(result.by_value, equal(7));
 }
 
 TEST(Measure, DerivativesAreThoseOfRidders) {
-  for (const auto kind : {RobustMeasure::kMean, RobustMeasure::kWorst, RobustMeasure::kMeanPlusDeviation, RobustMeasure::kCvar}) {
+  for (const auto kind : {RobustMeasure::kMean, RobustMeasure::kWorst,
+                          RobustMeasure::kMeanPlusDeviation, RobustMeasure::kCvar}) {
     expect_derivative(options(kind, 0.66), kValues, kWeights);
   }
   expect_derivative(options(RobustMeasure::kMeanPlusDeviation, 0.0), kValues, kWeights);
 }
 
 TEST(Measure, OfOneValueIsThatValue) {
-  for (const auto kind : {RobustMeasure::kMean, RobustMeasure::kWorst, RobustMeasure::kMeanPlusDeviation, RobustMeasure::kCvar}) {
+  for (const auto kind : {RobustMeasure::kMean, RobustMeasure::kWorst,
+                          RobustMeasure::kMeanPlusDeviation, RobustMeasure::kCvar}) {
     const Measured result = measure(options(kind, 0.9), vector({0.3}), vector({1.0}));
     EXPECT_EQ(result.value, 0.3);
     EXPECT_EQ(result.by_value, vector({1.0}));
   }
 }
 
-// Distance to a stop from 1 m/s under friction, psi = 1 / (2 mu g), with mu uniform in [0.2, 0.4]: the mean is ln(2) / (0.4 g), CVaR(0.9)
-// ln(1.1) / (0.04 g), the supremum 1 / (0.4 g).
+// Distance to a stop from 1 m/s under friction, psi = 1 / (2 mu g), with mu uniform in [0.2, 0.4]:
+// the mean is ln(2) / (0.4 g), CVaR(0.9) ln(1.1) / (0.04 g), the supremum 1 / (0.4 g).
 TEST(Measure, OfABrakingDistanceWithUncertainFriction) {
   constexpr int kCount = 4096;
   constexpr double kGravity = 9.81;
-  const UncertainQuantity friction{"mu", 0, {DistributionKind::kUniform, 0.0, 0.0, 0.2, 0.4, {}}, {}, {}};
+  const UncertainQuantity friction{
+      "mu", 0, {DistributionKind::kUniform, 0.0, 0.0, 0.2, 0.4, {}}, {}, {}};
   const auto samples = draw({friction}, SamplerKind::kSobol, kCount, 1);
   VectorXd distance(kCount);
-  for (Index i = 0; i < kCount; ++i) distance[i] = 1.0 / (2.0 * samples[static_cast<std::size_t>(i)][0] * kGravity);
-  const auto measured = [&](RobustMeasure kind) { return measure(options(kind, 0.9), distance, equal(kCount)).value; };
+  for (Index i = 0; i < kCount; ++i)
+    distance[i] = 1.0 / (2.0 * samples[static_cast<std::size_t>(i)][0] * kGravity);
+  const auto measured = [&](RobustMeasure kind) {
+    return measure(options(kind, 0.9), distance, equal(kCount)).value;
+  };
   EXPECT_NEAR(measured(RobustMeasure::kMean) / (std::log(2.0) / (0.4 * kGravity)), 1.0, 1e-5);
   EXPECT_NEAR(measured(RobustMeasure::kCvar) / (std::log(1.1) / (0.04 * kGravity)), 1.0, 1e-3);
   EXPECT_NEAR(measured(RobustMeasure::kWorst) / (1.0 / (0.4 * kGravity)), 1.0, 1e-3);

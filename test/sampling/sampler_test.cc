@@ -13,7 +13,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr SamplerKind kAll[] = {SamplerKind::kSobol, SamplerKind::kLatinHypercube, SamplerKind::kRandom};
+constexpr SamplerKind kAll[] = {SamplerKind::kSobol, SamplerKind::kLatinHypercube,
+                                SamplerKind::kRandom};
 
 TEST(UnitPoints, LieInsideTheCubeAndFollowTheSeed) {
   for (const SamplerKind kind : kAll) {
@@ -47,17 +48,23 @@ TEST(UnitPoints, ComeInPartsAsTheSameNumbers) {
   }
 }
 
-TEST(UnitPoints, SobolIsTheScrambledSequence) { EXPECT_EQ(unit_points(SamplerKind::kSobol, 9, 4, 3), sobol_points(9, 4, 3)); }
+TEST(UnitPoints, SobolIsTheScrambledSequence) {
+  EXPECT_EQ(unit_points(SamplerKind::kSobol, 9, 4, 3), sobol_points(9, 4, 3));
+}
 
-// The first raw numbers of mt19937 with its default seed 5489 are 3499211612, 581869302, 3890346734 and 3586334585.
+// The first raw numbers of mt19937 with its default seed 5489 are 3499211612, 581869302, 3890346734
+// and 3586334585.
 TEST(UnitPoints, RandomNumbersAreThoseOfMersenneTwister) {
   const MatrixXd points = unit_points(SamplerKind::kRandom, 1, 2, 5489);
-  EXPECT_EQ(points(0, 0), ((3499211612u >> 6) * 67108864.0 + (581869302u >> 6) + 0.5) / 4503599627370496.0);
-  EXPECT_EQ(points(0, 1), ((3890346734u >> 6) * 67108864.0 + (3586334585u >> 6) + 0.5) / 4503599627370496.0);
+  EXPECT_EQ(points(0, 0),
+            ((3499211612u >> 6) * 67108864.0 + (581869302u >> 6) + 0.5) / 4503599627370496.0);
+  EXPECT_EQ(points(0, 1),
+            ((3890346734u >> 6) * 67108864.0 + (3586334585u >> 6) + 0.5) / 4503599627370496.0);
 }
 
 TEST(UnitPoints, MoreRandomPointsBeginWithTheSame) {
-  EXPECT_EQ(unit_points(SamplerKind::kRandom, 30, 3, 4).topRows(10), unit_points(SamplerKind::kRandom, 10, 3, 4));
+  EXPECT_EQ(unit_points(SamplerKind::kRandom, 30, 3, 4).topRows(10),
+            unit_points(SamplerKind::kRandom, 10, 3, 4));
 }
 
 TEST(UnitPoints, RandomNumbersAreUniformAndIndependent) {
@@ -83,14 +90,16 @@ TEST(UnitPoints, LatinHypercubeHasOnePointInEachInterval) {
 TEST(UnitPoints, ColumnsOfALatinHypercubeAreUncorrelated) {
   const MatrixXd x = unit_points(SamplerKind::kLatinHypercube, 4000, 3, 1).array() - 0.5;
   const MatrixXd correlation = 12.0 * x.transpose() * x / 4000.0;
-  EXPECT_LT((correlation - MatrixXd::Identity(3, 3)).cwiseAbs().maxCoeff(), 4.0 / std::sqrt(4000.0));
+  EXPECT_LT((correlation - MatrixXd::Identity(3, 3)).cwiseAbs().maxCoeff(),
+            4.0 / std::sqrt(4000.0));
 }
 
 // The bits behind the numbers, from another program: 2 of the interval, 32 of the place in it.
 TEST(UnitPoints, LatinHypercubeIsTheSameEverywhere) {
   const MatrixXd points = unit_points(SamplerKind::kLatinHypercube, 4, 2, 1);
   MatrixXd expected(4, 2);
-  expected << 4005303368, 4691558544, 12885393151, 10293235841, 9140224905, 799981516, 5593475787, 14550965831;
+  expected << 4005303368, 4691558544, 12885393151, 10293235841, 9140224905, 799981516, 5593475787,
+      14550965831;
   EXPECT_EQ(points, ((expected.array() + 0.5) * 0x1p-34).matrix());
 }
 
@@ -101,7 +110,8 @@ using Eigen::MatrixXd;
 std::vector<int> count_in_boxes(const MatrixXd& points, Index j, int a, Index k, int b) {
   std::vector<int> counts(std::size_t{1} << (a + b), 0);
   for (Index i = 0; i < points.rows(); ++i) {
-    const double row = std::floor(std::ldexp(points(i, j), a)), column = std::floor(std::ldexp(points(i, k), b));
+    const double row = std::floor(std::ldexp(points(i, j), a)),
+                 column = std::floor(std::ldexp(points(i, k), b));
     ++counts[static_cast<std::size_t>(std::ldexp(row, b) + column)];
   }
   return counts;
@@ -114,14 +124,15 @@ double error_of_mean(int count) {
   for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
     const MatrixXd u = sobol_points(count, 4, seed);
     double mean = 0.0;
-    for (Index i = 0; i < count; ++i) mean += (u.row(i).array() * u.row(i).array() + 2.0 / 3.0).prod() / count;
+    for (Index i = 0; i < count; ++i)
+      mean += (u.row(i).array() * u.row(i).array() + 2.0 / 3.0).prod() / count;
     sum += (mean - 1.0) * (mean - 1.0) / kSeeds;
   }
   return std::sqrt(sum);
 }
 
-// The bits of the first points, from another program: direction numbers of Joe and Kuo's file, in the order of Gray's code, scrambled with
-// the first raw numbers of mt19937.
+// The bits of the first points, from another program: direction numbers of Joe and Kuo's file, in
+// the order of Gray's code, scrambled with the first raw numbers of mt19937.
 TEST(Sobol, NumbersAreTheSameEverywhere) {
   const MatrixXd points = sobol_points(4, 3, 1);
   MatrixXd expected(4, 3);
@@ -136,7 +147,8 @@ TEST(Sobol, ProjectionsOnOneColumnAreStratified) {
   for (const int k : {0, 1, 5, 10}) {
     const MatrixXd points = sobol_points(1 << k, 40, 7);
     for (Index j = 0; j < points.cols(); ++j) {
-      for (const int n : count_in_boxes(points, j, k, j, 0)) EXPECT_EQ(n, 1) << "column " << j << " of 2^" << k;
+      for (const int n : count_in_boxes(points, j, k, j, 0))
+        EXPECT_EQ(n, 1) << "column " << j << " of 2^" << k;
     }
   }
 }
@@ -149,7 +161,8 @@ TEST(Sobol, FirstTwoColumnsAreANet) {
   }
 }
 
-// Joe and Kuo chose their numbers so that pairs of columns are spread well early: 64 points over 4 x 4 boxes.
+// Joe and Kuo chose their numbers so that pairs of columns are spread well early: 64 points over 4
+// x 4 boxes.
 TEST(Sobol, LaterColumnsAreSpreadToo) {
   const MatrixXd points = sobol_points(64, 6, 11);
   for (Index j = 0; j < 6; ++j) {
@@ -172,7 +185,8 @@ TEST(Sobol, SeedsGiveOtherPointsInsideTheCube) {
   EXPECT_LT(a.maxCoeff(), 1.0);
 }
 
-// Scrambled points are uniformly distributed: the mean over seeds of any one point is 1/2, within four standard errors.
+// Scrambled points are uniformly distributed: the mean over seeds of any one point is 1/2, within
+// four standard errors.
 TEST(Sobol, EachPointIsUniformOverSeeds) {
   constexpr int kSeeds = 2000;
   MatrixXd mean = MatrixXd::Zero(4, 2), square = mean;
@@ -185,7 +199,8 @@ TEST(Sobol, EachPointIsUniformOverSeeds) {
   EXPECT_LT((square.array() - 1.0 / 3.0).abs().maxCoeff(), 4.0 * std::sqrt(4.0 / 45.0 / kSeeds));
 }
 
-// With 16 times as many points the error of random ones is a fourth, here a thirtieth; it begins smaller, too: 0.005 instead of 0.075.
+// With 16 times as many points the error of random ones is a fourth, here a thirtieth; it begins
+// smaller, too: 0.005 instead of 0.075.
 TEST(Sobol, MeansOfSmoothFunctionsConvergeFast) {
   const double coarse = error_of_mean(64), fine = error_of_mean(1024);
   EXPECT_LT(fine, coarse / 16.0);

@@ -10,10 +10,13 @@
 namespace codesign {
 namespace {
 
-UncertainQuantity quantity(const Distribution& distribution) { return {"quantity", 0, distribution, {}, {}}; }
+UncertainQuantity quantity(const Distribution& distribution) {
+  return {"quantity", 0, distribution, {}, {}};
+}
 
 std::vector<UncertainQuantity> quantities() {
-  return {quantity({DistributionKind::kUniform, 0.0, 0.0, 0.2, 0.4, {}}), quantity({DistributionKind::kNormal, 1.0, 0.1, 0.7, 1.3, {}}),
+  return {quantity({DistributionKind::kUniform, 0.0, 0.0, 0.2, 0.4, {}}),
+          quantity({DistributionKind::kNormal, 1.0, 0.1, 0.7, 1.3, {}}),
           quantity({DistributionKind::kChoice, 0.0, 0.0, 0.0, 0.0, {0.0, 1.0, 2.0, 3.0}})};
 }
 
@@ -24,7 +27,9 @@ TEST(Samples, AreQuantilesOfUnitPoints) {
   for (std::size_t i = 0; i < 6; ++i) {
     ASSERT_EQ(samples[i].size(), 3u);
     for (std::size_t j = 0; j < 3; ++j) {
-      EXPECT_EQ(samples[i][j], quantile(quantities()[j].distribution, points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+      EXPECT_EQ(samples[i][j],
+                quantile(quantities()[j].distribution,
+                         points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
     }
   }
 }
@@ -43,23 +48,28 @@ TEST(Samples, HaveTheMeansOfTheirDistributions) {
 }
 
 TEST(Samples, OneIsDrawnLikeTheFirstOfMany) {
-  const auto one = draw(quantities(), SamplerKind::kSobol, 1, 4), many = draw(quantities(), SamplerKind::kSobol, 8, 4);
+  const auto one = draw(quantities(), SamplerKind::kSobol, 1, 4),
+             many = draw(quantities(), SamplerKind::kSobol, 8, 4);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0], many[0]);
 }
 
-TEST(Samples, OfNothingAreEmptyRows) { EXPECT_EQ(draw({}, SamplerKind::kSobol, 3, 1), std::vector<std::vector<double>>(3)); }
+TEST(Samples, OfNothingAreEmptyRows) {
+  EXPECT_EQ(draw({}, SamplerKind::kSobol, 3, 1), std::vector<std::vector<double>>(3));
+}
 
 /// Two correlated numbers, doc/theory.md (24h): deviations 0.1 and 0.2, correlation 0.8.
 std::vector<UncertainQuantity> correlated(double lower, double upper) {
   UncertainQuantity first = quantity({DistributionKind::kNormal, 1.0, 0.1, lower, upper, {}});
-  UncertainQuantity second = quantity({DistributionKind::kNormal, -3.0, 0.2 * 0.6, -10.0, 10.0, {}});
+  UncertainQuantity second =
+      quantity({DistributionKind::kNormal, -3.0, 0.2 * 0.6, -10.0, 10.0, {}});
   second.slopes = {{0, 0.8 * 2.0}};
   return {first, second};
 }
 
 TEST(Samples, HaveTheCovarianceOfCorrelatedNumbers) {
-  for (const SamplerKind sampler : {SamplerKind::kSobol, SamplerKind::kLatinHypercube, SamplerKind::kRandom}) {
+  for (const SamplerKind sampler :
+       {SamplerKind::kSobol, SamplerKind::kLatinHypercube, SamplerKind::kRandom}) {
     constexpr int kCount = 4096;
     const double tolerance = sampler == SamplerKind::kRandom ? 0.05 : 0.02;
     double mean[2] = {}, square[3] = {};
@@ -85,7 +95,8 @@ TEST(Samples, OfATruncatedNumberMoveTheOthersWithIt) {
     EXPECT_GE(sample[0], 1.0);
     second += sample[1] / 4096.0;
   }
-  // The mean of the upper half of a normal distribution is sqrt(2 / pi) deviations above its middle.
+  // The mean of the upper half of a normal distribution is sqrt(2 / pi) deviations above its
+  // middle.
   EXPECT_NEAR(second, -3.0 + 1.6 * 0.1 * std::sqrt(2.0 / M_PI), 1e-3);
 }
 
@@ -96,7 +107,8 @@ TEST(Samples, ANumberWithoutDeviationIsItsMean) {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Distribution normal(double mean, double deviation, double lower = -kInfinity, double upper = kInfinity) {
+Distribution normal(double mean, double deviation, double lower = -kInfinity,
+                    double upper = kInfinity) {
   return {DistributionKind::kNormal, mean, deviation, lower, upper, {}};
 }
 
@@ -122,7 +134,8 @@ TEST(Quantile, OfTheNormalDistributionIsThatOfTables) {
 }
 
 TEST(Quantile, GoesBackToTheProbability) {
-  for (double u = 1e-300; u < 0.5; u *= 3.0) EXPECT_NEAR(exceedance(-quantile(normal(0, 1), u)) / u, 1.0, 1e-12) << u;
+  for (double u = 1e-300; u < 0.5; u *= 3.0)
+    EXPECT_NEAR(exceedance(-quantile(normal(0, 1), u)) / u, 1.0, 1e-12) << u;
   for (double rest = 0.4; rest > 1e-15; rest *= 0.5) {
     const double u = 1.0 - rest;
     EXPECT_NEAR(exceedance(quantile(normal(0, 1), u)) / (1.0 - u), 1.0, 1e-13) << u;
@@ -132,10 +145,12 @@ TEST(Quantile, GoesBackToTheProbability) {
 TEST(Quantile, OfTruncatedTailsKeepsItsDigits) {
   const double above = exceedance(5.0), beyond = exceedance(8.0);
   for (const double u : {1e-9, 0.1, 0.5, 0.9, 1.0 - 1e-9}) {
-    const double x = quantile(normal(0, 1, 5.0, 8.0), u), mirrored = quantile(normal(0, 1, -8.0, -5.0), 1.0 - u);
+    const double x = quantile(normal(0, 1, 5.0, 8.0), u),
+                 mirrored = quantile(normal(0, 1, -8.0, -5.0), 1.0 - u);
     EXPECT_GE(x, 5.0);
     EXPECT_LE(x, 8.0);
-    EXPECT_NEAR((exceedance(x) - beyond) / ((1.0 - u) * (above - beyond)), 1.0, 1e-12 / (1.0 - u)) << u;
+    EXPECT_NEAR((exceedance(x) - beyond) / ((1.0 - u) * (above - beyond)), 1.0, 1e-12 / (1.0 - u))
+        << u;
     EXPECT_NEAR(mirrored, -x, 1e-14 * x) << u;
   }
 }
@@ -152,7 +167,8 @@ TEST(Quantile, OfATruncatedNormalDistributionStaysBetweenItsBounds) {
 }
 
 TEST(Quantile, NeverFalls) {
-  for (const Distribution& d : {normal(0, 1), normal(0, 1, -0.5, 3.0), normal(0, 1, 6.0, 7.0), normal(2, 0.1, -kInfinity, 2.0)}) {
+  for (const Distribution& d : {normal(0, 1), normal(0, 1, -0.5, 3.0), normal(0, 1, 6.0, 7.0),
+                                normal(2, 0.1, -kInfinity, 2.0)}) {
     double last = -kInfinity;
     for (int i = 1; i < 4096; ++i) {
       const double x = quantile(d, i / 4096.0);
@@ -176,7 +192,8 @@ TEST(Quantile, WithoutProbabilityBetweenTheBoundsIsTheNearestBound) {
 }
 
 TEST(Quantile, OfAChoiceDividesTheIntervalEvenly) {
-  const Distribution choice{DistributionKind::kChoice, 0.0, 0.0, -kInfinity, kInfinity, {7.0, 5.0, 6.0}};
+  const Distribution choice{
+      DistributionKind::kChoice, 0.0, 0.0, -kInfinity, kInfinity, {7.0, 5.0, 6.0}};
   EXPECT_EQ(quantile(choice, 0.0), 7.0);
   EXPECT_EQ(quantile(choice, 0.333), 7.0);
   EXPECT_EQ(quantile(choice, 0.334), 5.0);

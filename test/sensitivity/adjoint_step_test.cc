@@ -30,7 +30,8 @@ TEST(MatrixWeights, AreTheSumOfTheOuterProducts) {
     for (int row = 0; row < pattern.rows; ++row)
       for (int e = pattern.first(row); e < pattern.first(row + 1); ++e) {
         double sum = 0.0;
-        for (std::size_t k = 0; k < kPairs; ++k) sum += mu[k][row] * u[k][first + pattern.column(e)];
+        for (std::size_t k = 0; k < kPairs; ++k)
+          sum += mu[k][row] * u[k][first + pattern.column(e)];
         EXPECT_NEAR(found[static_cast<std::size_t>(e)], sum, 1e-15 * kPairs);
       }
   };
@@ -48,16 +49,19 @@ class AdjointStepTest : public ::testing::TestWithParam<const char*> {};
 // psi_y y_rho is the same at either end of the steps.
 TEST_P(AdjointStepTest, IsTheTransposedTangent) {
   ServoSteps run(GetParam());
-  const VectorX<double> begin = run.begin.row(kStart).transpose(), end = run.end.row(kStart).transpose();
+  const VectorX<double> begin = run.begin.row(kStart).transpose(),
+                        end = run.end.row(kStart).transpose();
   EXPECT_GT(end.norm(), 0.1);
   for (Eigen::Index component = 0; component < end.size(); ++component) {
-    const VectorX<double>& first = run.back(VectorX<double>::Unit(end.size(), component), [](std::size_t) {});
+    const VectorX<double>& first =
+        run.back(VectorX<double>::Unit(end.size(), component), [](std::size_t) {});
     const double scale = first.cwiseAbs().dot(begin.cwiseAbs());
     EXPECT_NEAR(first.dot(begin), end[component], 1e-12 * (1.0 + scale)) << component;
   }
 }
 
-// psi_rho = psi_y y_rho at the start + the products by parameters of all evaluations, for the gains and the weight.
+// psi_rho = psi_y y_rho at the start + the products by parameters of all evaluations, for the gains
+// and the weight.
 TEST_P(AdjointStepTest, TheParametersExplainWhatTheStartDoesNot) {
   ServoSteps run(GetParam());
   const Eigen::Index size = run.end.cols(), psi = size - 1;
@@ -74,7 +78,8 @@ TEST_P(AdjointStepTest, TheParametersExplainWhatTheStartDoesNot) {
   EXPECT_EQ(gradient[3], 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest, ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"),
+INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest,
+                         ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

@@ -20,7 +20,8 @@ struct GradientCase {
   RobotDescription robot;
   Study study;
 
-  std::shared_ptr<const CompiledSystem> compile(const std::string& method, const std::string& gradient) const {
+  std::shared_ptr<const CompiledSystem> compile(const std::string& method,
+                                                const std::string& gradient) const {
     Study changed = study;
     changed.solver.method = method_named(method);
     changed.solver.gradient = gradient_named(gradient);
@@ -28,7 +29,8 @@ struct GradientCase {
   }
 };
 
-inline GradientCase from_texts(const std::string& name, const std::string& urdf, const std::string& study) {
+inline GradientCase from_texts(const std::string& name, const std::string& urdf,
+                               const std::string& study) {
   const RobotDescription robot = read_urdf({name + ".urdf", urdf});
   return {name, robot, read_study({name + ".yaml", study}, robot)};
 }
@@ -44,19 +46,23 @@ inline GradientCase shipped_case(const std::string& name, double duration) {
   return result;
 }
 
-/// A parallelogram with three redundant constraints, whose multipliers are determined by compliance.
+/// A parallelogram with three redundant constraints, whose multipliers are determined by
+/// compliance.
 inline GradientCase four_bar_case() {
   std::string urdf = four_bar(pin_friction());
   const std::string plain = "<mass value='1'/>";
   urdf.replace(urdf.find(plain), plain.size(), "<mass value='1' codesign:value='${mass}'/>");
-  urdf.insert(urdf.find("<link name='ground'/>"), "<codesign:parameter name='mass' value='1' lower='0.5' upper='2'/>");
-  return from_texts(
-      "four_bar", urdf,
-      "duration: 0.4\ninitial_state: {left_hinge: {position: 0.4}, right_hinge: {guess: 0.4}}\nparameters: {mass: {}, torque: {initial: "
-      "2.0}}\n"
-      "controllers: {motor: {type: pid, input: left_hinge/velocity, setpoint: \"${torque}\", output: left_hinge, gains: {p: 0.7}}}\n"
-      "objective: {integral: [{signal: left_hinge/velocity}, {signal: left_hinge/friction, weight: 0.1}],\n"
-      "  terminal: [{signal: coupler/position/z, weight: \"${mass}\"}]}\n");
+  urdf.insert(urdf.find("<link name='ground'/>"),
+              "<codesign:parameter name='mass' value='1' lower='0.5' upper='2'/>");
+  return from_texts("four_bar", urdf,
+                    "duration: 0.4\ninitial_state: {left_hinge: {position: 0.4}, right_hinge: "
+                    "{guess: 0.4}}\nparameters: {mass: {}, torque: {initial: "
+                    "2.0}}\n"
+                    "controllers: {motor: {type: pid, input: left_hinge/velocity, setpoint: "
+                    "\"${torque}\", output: left_hinge, gains: {p: 0.7}}}\n"
+                    "objective: {integral: [{signal: left_hinge/velocity}, {signal: "
+                    "left_hinge/friction, weight: 0.1}],\n"
+                    "  terminal: [{signal: coupler/position/z, weight: \"${mass}\"}]}\n");
 }
 
 inline std::vector<GradientCase> gradient_cases() {
@@ -81,11 +87,12 @@ struct GradientRun {
   std::int64_t steps = 0;
 };
 
-inline GradientRun run_gradient(GradientEngine* engine, const CompiledSystem& system, const std::vector<double>& parameters,
-                                bool with_gradient = true) {
+inline GradientRun run_gradient(GradientEngine* engine, const CompiledSystem& system,
+                                const std::vector<double>& parameters, bool with_gradient = true) {
   GradientRun run;
   run.status = engine->start(parameters, gradient_if(with_gradient));
-  while (run.status.ok() && engine->time() < system.study().duration) run.status = engine->advance(system.study().duration);
+  while (run.status.ok() && engine->time() < system.study().duration)
+    run.status = engine->advance(system.study().duration);
   if (!run.status.ok()) return run;
   run.objective = engine->objective();
   if (with_gradient) engine->gradient(&run.gradient);

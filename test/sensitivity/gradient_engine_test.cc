@@ -29,25 +29,35 @@ TEST(GradientCost, TheAdjointHasToEarnItsWayBack) {
   EXPECT_LT(kAdjointCost, direct_cost(16));
 }
 
-const char* const kEngineRosenbrock = "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}";
+const char* const kEngineRosenbrock =
+    "{integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: "
+    "1.0e-10}";
 
 std::string idas(const std::string& tolerance) {
-  return "{integrator: idas, relative_tolerance: " + tolerance + ", absolute_tolerance: " + tolerance + "}";
+  return "{integrator: idas, relative_tolerance: " + tolerance +
+         ", absolute_tolerance: " + tolerance + "}";
 }
 
 TEST(GradientEngine, TheStudyChooses) {
   EXPECT_NE(dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{}")).get()), nullptr);
-  EXPECT_NE(dynamic_cast<IdasGradient*>(make_gradient_engine(*servo("{integrator: idas}")).get()), nullptr);
+  EXPECT_NE(dynamic_cast<IdasGradient*>(make_gradient_engine(*servo("{integrator: idas}")).get()),
+            nullptr);
 }
 
-// An extra state, terminal terms with accelerations, friction, a parameter in the initial state and one in the objective alone.
+// An extra state, terminal terms with accelerations, friction, a parameter in the initial state and
+// one in the objective alone.
 TEST(GradientEngine, TheStudyChoosesTheDirection) {
-  EXPECT_NE(dynamic_cast<AdjointGradient*>(make_gradient_engine(*servo("{gradient: adjoint}")).get()), nullptr);
-  EXPECT_NE(dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{gradient: direct}")).get()), nullptr);
+  EXPECT_NE(
+      dynamic_cast<AdjointGradient*>(make_gradient_engine(*servo("{gradient: adjoint}")).get()),
+      nullptr);
+  EXPECT_NE(
+      dynamic_cast<RosenbrockGradient*>(make_gradient_engine(*servo("{gradient: direct}")).get()),
+      nullptr);
   EXPECT_FALSE(prefers_adjoint(*servo("{integrator: idas}")));
 }
 
-// gradient: auto chooses direct sensitivities for few parameters and the adjoint for many local ones, except with a sensitivity tolerance.
+// gradient: auto chooses direct sensitivities for few parameters and the adjoint for many local
+// ones, except with a sensitivity tolerance.
 TEST(GradientEngine, ManyLocalParametersGoBackwards) {
   const auto prefers = [](int tuned, double sensitivity_tolerance) {
     const GeneratedCase chain = parametric_chain(12, tuned);
@@ -62,15 +72,19 @@ TEST(GradientEngine, ManyLocalParametersGoBackwards) {
 
 TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {
   const auto exact = servo(kEngineRosenbrock);
-  const GradientRun reference = run_gradient(make_gradient_engine(*exact).get(), *exact, exact->parameters());
+  const GradientRun reference =
+      run_gradient(make_gradient_engine(*exact).get(), *exact, exact->parameters());
   ASSERT_TRUE(reference.status.ok()) << reference.status.cause;
   const double scale = reference.gradient.cwiseAbs().maxCoeff();
-  for (const auto& [tolerance, bound] : {std::pair{"1.0e-5", 2e-3}, std::pair{"1.0e-7", 5e-5}, std::pair{"1.0e-9", 1e-6}}) {
+  for (const auto& [tolerance, bound] :
+       {std::pair{"1.0e-5", 2e-3}, std::pair{"1.0e-7", 5e-5}, std::pair{"1.0e-9", 1e-6}}) {
     const auto system = servo(idas(tolerance));
-    const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, system->parameters());
+    const GradientRun result =
+        run_gradient(make_gradient_engine(*system).get(), *system, system->parameters());
     ASSERT_TRUE(result.status.ok()) << result.status.cause;
     EXPECT_NEAR(result.objective, reference.objective, bound * reference.objective) << tolerance;
-    EXPECT_LT((result.gradient - reference.gradient).cwiseAbs().maxCoeff(), bound * scale) << tolerance;
+    EXPECT_LT((result.gradient - reference.gradient).cwiseAbs().maxCoeff(), bound * scale)
+        << tolerance;
   }
 }
 
@@ -91,8 +105,9 @@ TEST(GradientEngine, IdasStartsAnewToTheLastBitWithAndWithoutGradient) {
 }
 
 TEST(GradientEngine, NothingTunedIsNoGradient) {
-  const auto system =
-      compile(pendulum(), "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: hinge/velocity}]}\nsolver: {integrator: idas}\n");
+  const auto system = compile(pendulum(),
+                              "duration: 0.1\nparameters: {}\nobjective: {integral: [{signal: "
+                              "hinge/velocity}]}\nsolver: {integrator: idas}\n");
   const GradientRun result = run_gradient(make_gradient_engine(*system).get(), *system, {});
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.gradient.size(), 0);
@@ -104,7 +119,8 @@ TEST(GradientEngine, ACancelledEvaluationCanBeRepeated) {
   Evaluator evaluator(system);
   Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
   for (Eigen::Index k = 0; k < rho.size(); ++k)
-    rho[k] = system->parameters()[static_cast<std::size_t>(system->study().tuned[static_cast<std::size_t>(k)])];
+    rho[k] = system->parameters()[static_cast<std::size_t>(
+        system->study().tuned[static_cast<std::size_t>(k)])];
   EXPECT_EQ(evaluator.evaluate(rho, true, &cancel).status.code, StatusCode::kCancelled);
   EXPECT_TRUE(evaluator.evaluate(rho, true).status.ok());
 }
@@ -122,12 +138,15 @@ Case shipped(const std::string& name) {
   c.study = read_study(read_source(root + "/config/" + name + ".yaml"), c.robot);
   c.rho.resize(static_cast<Eigen::Index>(c.study.tuned.size()));
   for (std::size_t k = 0; k < c.study.tuned.size(); ++k)
-    c.rho[static_cast<Eigen::Index>(k)] = c.study.parameters[static_cast<std::size_t>(c.study.tuned[k])].value;
+    c.rho[static_cast<Eigen::Index>(k)] =
+        c.study.parameters[static_cast<std::size_t>(c.study.tuned[k])].value;
   return c;
 }
 
-/// References: an independent solution of the same data by other formulations and tolerances down to 1e-12.
-void expect_reference(const std::string& name, const std::string& integrator, double objective, const std::vector<double>& gradient) {
+/// References: an independent solution of the same data by other formulations and tolerances down
+/// to 1e-12.
+void expect_reference(const std::string& name, const std::string& integrator, double objective,
+                      const std::vector<double>& gradient) {
   Case c = shipped(name);
   c.study.solver.integrator = integrator_named(integrator);
   const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, true);
@@ -135,17 +154,21 @@ void expect_reference(const std::string& name, const std::string& integrator, do
   EXPECT_NEAR(evaluation.objective, objective, 1e-7 * objective);
   ASSERT_EQ(static_cast<std::size_t>(evaluation.gradient.size()), gradient.size());
   for (std::size_t k = 0; k < gradient.size(); ++k)
-    EXPECT_NEAR(evaluation.gradient[static_cast<Eigen::Index>(k)], gradient[k], 1e-5 * std::abs(gradient[k])) << k;
+    EXPECT_NEAR(evaluation.gradient[static_cast<Eigen::Index>(k)], gradient[k],
+                1e-5 * std::abs(gradient[k]))
+        << k;
 }
 
 TEST(Evaluation, SliderCrankMeetsTheReference) {
   for (const char* integrator : {"rosenbrock", "idas"})
-    expect_reference("slider_crank", integrator, 0.05925272691, {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
+    expect_reference("slider_crank", integrator, 0.05925272691,
+                     {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
 }
 
 TEST(Evaluation, HaugsSliderCrankMeetsTheReference) {
   for (const char* integrator : {"rosenbrock", "idas"})
-    expect_reference("slider_crank_haug", integrator, 0.717975196477, {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
+    expect_reference("slider_crank_haug", integrator, 0.717975196477,
+                     {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
 }
 
 TEST(Evaluation, TangentIsExactForEveryMethod) {
@@ -155,7 +178,8 @@ TEST(Evaluation, TangentIsExactForEveryMethod) {
     c.study.solver.relative_tolerance = 1e-5;
     c.study.solver.absolute_tolerance = 1e-6;
     c.study.duration = 0.4;
-    const GradientCheck check = check_gradient(make_system(c.robot, c.study), c.rho, CheckMethod::kComplexStep);
+    const GradientCheck check =
+        check_gradient(make_system(c.robot, c.study), c.rho, CheckMethod::kComplexStep);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;
     EXPECT_LT(check.largest_relative_difference, 1e-10) << method;
   }
@@ -164,12 +188,14 @@ TEST(Evaluation, TangentIsExactForEveryMethod) {
 TEST(Evaluation, RiddersDifferencesAgree) {
   Case c = shipped("slider_crank");
   c.study.duration = 0.3;
-  const GradientCheck check = check_gradient(make_system(c.robot, c.study), c.rho, CheckMethod::kRidders);
+  const GradientCheck check =
+      check_gradient(make_system(c.robot, c.study), c.rho, CheckMethod::kRidders);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-4);
 }
 
-// With idas every check is by Ridders' differences of the other integrator, since there is no complex step through IDAS.
+// With idas every check is by Ridders' differences of the other integrator, since there is no
+// complex step through IDAS.
 TEST(Evaluation, AGradientByIdasIsCheckedByTheOtherIntegrator) {
   Case c = shipped("slider_crank");
   c.study.duration = 0.3;
@@ -183,7 +209,8 @@ TEST(Evaluation, AGradientByIdasIsCheckedByTheOtherIntegrator) {
   }
 }
 
-// A rod too short for a whole turn: the crank stops, held by friction, and the mechanism stays there.
+// A rod too short for a whole turn: the crank stops, held by friction, and the mechanism stays
+// there.
 TEST(Evaluation, AJammedDesignHasTheSameValueWithBothIntegrators) {
   double objective[2];
   for (int k = 0; k < 2; ++k) {

@@ -12,14 +12,21 @@ namespace {
 using Complex = std::complex<double>;
 
 struct IdasTangentTest : ::testing::Test {
-  IdasTangentTest() : system(servo("{integrator: idas}")), layout(system->layout()), integrator(*system), tangent(*system) {
-    if (!integrator.start(system->parameters()).ok()) throw std::logic_error("the start cannot be assembled");
+  IdasTangentTest()
+      : system(servo("{integrator: idas}")),
+        layout(system->layout()),
+        integrator(*system),
+        tangent(*system) {
+    if (!integrator.start(system->parameters()).ok())
+      throw std::logic_error("the start cannot be assembled");
     state = integrator.state();
     // Off the constraints, where stabilization shows.
-    for (Eigen::Index k = 0; k < state.q.size(); ++k) state.q[k] += 1e-2 * std::sin(5.0 * static_cast<double>(k));
+    for (Eigen::Index k = 0; k < state.q.size(); ++k)
+      state.q[k] += 1e-2 * std::sin(5.0 * static_cast<double>(k));
     direction.resize(layout);
     for (VectorX<double>* part : {&direction.q, &direction.v, &direction.s, &direction.z})
-      for (Eigen::Index k = 0; k < part->size(); ++k) (*part)[k] = std::sin(3.0 * static_cast<double>(++count));
+      for (Eigen::Index k = 0; k < part->size(); ++k)
+        (*part)[k] = std::sin(3.0 * static_cast<double>(++count));
     starts.resize(5, state);
     scales.resize(5);
     tangent.start(system->parameters(), integrator.state(), &integrator, &starts, &scales);
@@ -34,7 +41,9 @@ struct IdasTangentTest : ::testing::Test {
     equations.set_design(moved);
     State<Complex> at;
     at.turns = state.turns;
-    const auto move = [](const VectorX<double>& from, const VectorX<double>& along) { return (from + Complex(0.0, 1e-30) * along).eval(); };
+    const auto move = [](const VectorX<double>& from, const VectorX<double>& along) {
+      return (from + Complex(0.0, 1e-30) * along).eval();
+    };
     at.q = move(state.q, direction.q);
     at.v = move(state.v, direction.v);
     at.s = move(state.s, direction.s);
@@ -67,7 +76,8 @@ TEST_F(IdasTangentTest, DerivativesMeetTheComplexStep) {
       VectorX<double> result;
       const VectorX<double> expected = reference(static_cast<std::size_t>(k), kappa);
       tangent.derivative(k, direction, &result);
-      EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff()) << kappa << " " << k;
+      EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff())
+          << kappa << " " << k;
     }
   }
 }
@@ -82,7 +92,8 @@ TEST_F(IdasTangentTest, StartsFromTheAssembliesSensitivities) {
 }
 
 TEST_F(IdasTangentTest, TerminalTermsUseConsistentRates) {
-  // d/d rho_k of w along the start's own sensitivities, by central differences of assembled designs.
+  // d/d rho_k of w along the start's own sensitivities, by central differences of assembled
+  // designs.
   Eigen::VectorXd gradient;
   tangent.terminal(integrator.state(), &integrator.equations(), &starts, &gradient);
   for (std::size_t k = 0; k < 5; ++k) {
@@ -103,8 +114,10 @@ TEST_F(IdasTangentTest, ProjectedDirectionsAreTangentToTheConstraints) {
   state = integrator.state();
   std::vector<State<double>> exact = starts, directions = starts;
   for (State<double>& moved : directions) {
-    for (Eigen::Index k = 0; k < moved.q.size(); ++k) moved.q[k] += 1e-3 * std::sin(5.0 * static_cast<double>(k));
-    for (Eigen::Index k = 0; k < moved.v.size(); ++k) moved.v[k] += 1e-3 * std::cos(5.0 * static_cast<double>(k));
+    for (Eigen::Index k = 0; k < moved.q.size(); ++k)
+      moved.q[k] += 1e-3 * std::sin(5.0 * static_cast<double>(k));
+    for (Eigen::Index k = 0; k < moved.v.size(); ++k)
+      moved.v[k] += 1e-3 * std::cos(5.0 * static_cast<double>(k));
   }
   const std::vector<State<double>> drifted = directions;
   ASSERT_TRUE(tangent.project(state, &integrator.equations(), &directions));
@@ -117,12 +130,14 @@ TEST_F(IdasTangentTest, ProjectedDirectionsAreTangentToTheConstraints) {
     tangent.derivative(k, directions[at], &after);
     EXPECT_GT(before.segment(layout.n, layout.m).norm(), 1e-3) << k;
     EXPECT_LT(after.segment(layout.n, layout.m).norm(), 1e-9) << k;
-    EXPECT_LT((directions[at].q - exact[at].q).norm(), 2.0 * (drifted[at].q - exact[at].q).norm()) << k;
+    EXPECT_LT((directions[at].q - exact[at].q).norm(), 2.0 * (drifted[at].q - exact[at].q).norm())
+        << k;
   }
   // Directions that are tangent to the constraints are not changed.
   directions = exact;
   ASSERT_TRUE(tangent.project(state, &integrator.equations(), &directions));
-  for (std::size_t k = 0; k < 5; ++k) EXPECT_LT((directions[k].v - exact[k].v).cwiseAbs().maxCoeff(), 1e-11);
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_LT((directions[k].v - exact[k].v).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 }  // namespace

@@ -31,12 +31,14 @@ Evaluation evaluate(const std::string& urdf, const std::string& study_text) {
   const auto system = make_system(robot, study);
   Eigen::VectorXd rho(static_cast<Eigen::Index>(study.tuned.size()));
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
-    rho[static_cast<Eigen::Index>(k)] = study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
+    rho[static_cast<Eigen::Index>(k)] =
+        study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
   return Evaluator(system).evaluate(rho, true);
 }
 
 const Evaluation& reference() {
-  static const Evaluation evaluation = evaluate(text_of("urdf/slider_crank.urdf"), text_of("config/slider_crank.yaml"));
+  static const Evaluation evaluation =
+      evaluate(text_of("urdf/slider_crank.urdf"), text_of("config/slider_crank.yaml"));
   return evaluation;
 }
 
@@ -45,14 +47,18 @@ void expect_same(const Evaluation& variant) {
   ASSERT_TRUE(variant.status.ok()) << variant.status.cause;
   EXPECT_NEAR(variant.objective, reference().objective, 2e-6 * reference().objective);
   for (Eigen::Index k = 0; k < variant.gradient.size(); ++k)
-    EXPECT_NEAR(variant.gradient[k], reference().gradient[k], 1e-5 * reference().gradient.cwiseAbs().maxCoeff()) << k;
+    EXPECT_NEAR(variant.gradient[k], reference().gradient[k],
+                1e-5 * reference().gradient.cwiseAbs().maxCoeff())
+        << k;
 }
 
-/// Top-level elements of a robot in reverse order; parameters stay in front, since studies list them in their own order anyway.
+/// Top-level elements of a robot in reverse order; parameters stay in front, since studies list
+/// them in their own order anyway.
 std::string reversed(const std::string& urdf) {
   std::vector<std::string> blocks;
   const std::regex element("<(link|joint|loop)\\b[^>]*?(/>|>[\\s\\S]*?</\\1>)");
-  for (std::sregex_iterator it(urdf.begin(), urdf.end(), element), end; it != end; ++it) blocks.push_back(it->str());
+  for (std::sregex_iterator it(urdf.begin(), urdf.end(), element), end; it != end; ++it)
+    blocks.push_back(it->str());
   EXPECT_EQ(blocks.size(), 12U);
   std::string rest = std::regex_replace(urdf, element, ""), body;
   for (auto block = blocks.rbegin(); block != blocks.rend(); ++block) body += *block + "\n";
@@ -68,32 +74,40 @@ TEST(Invariance, NamesDoNotMatter) {
 }
 
 TEST(Invariance, OrderDoesNotMatter) {
-  expect_same(evaluate(reversed(text_of("urdf/slider_crank.urdf")), text_of("config/slider_crank.yaml")));
+  expect_same(
+      evaluate(reversed(text_of("urdf/slider_crank.urdf")), text_of("config/slider_crank.yaml")));
 }
 
 TEST(Invariance, DirectionDoesNotMatter) {
   const std::string turned =
       replaced(text_of("urdf/slider_crank.urdf"), "</robot>",
-               "<link name=\"world\"/><joint name=\"turn\" type=\"fixed\"><parent link=\"world\"/><child link=\"ground\"/>"
+               "<link name=\"world\"/><joint name=\"turn\" type=\"fixed\"><parent "
+               "link=\"world\"/><child link=\"ground\"/>"
                "<origin xyz=\"0.3 -0.2 0.5\" rpy=\"1.5707963267948966 0 0\"/></joint></robot>");
   // The axis -z becomes +y after a quarter turn about x.
-  expect_same(evaluate(turned, text_of("config/slider_crank.yaml") + "\ngravity: [0.0, 9.81, 0.0]\n"));
+  expect_same(
+      evaluate(turned, text_of("config/slider_crank.yaml") + "\ngravity: [0.0, 9.81, 0.0]\n"));
 }
 
 TEST(Invariance, TheCutDoesNotMatter) {
-  // The tree runs over the rod to the slider, and the sliding joint with its friction closes the loop.
+  // The tree runs over the rod to the slider, and the sliding joint with its friction closes the
+  // loop.
   std::string urdf = text_of("urdf/slider_crank.urdf");
   std::smatch joint;
   ASSERT_TRUE(std::regex_search(urdf, joint, std::regex("<codesign:friction[\\s\\S]*?/>")));
   const std::string friction = joint.str();
   urdf = replaced(urdf, "<joint name=\"slider_joint\"[\\s\\S]*?</joint>", "");
-  urdf = replaced(urdf, "<loop name=\"slider_pin\"[\\s\\S]*?</loop>",
-                  "<joint name=\"pin_z\" type=\"continuous\"><parent link=\"rod\"/><child link=\"cross\"/>"
-                  "<origin xyz=\"0.3 0 0\" codesign:xyz=\"${rod_length} 0 0\"/><axis xyz=\"0 0 1\"/></joint><link name=\"cross\"/>"
-                  "<joint name=\"pin_y\" type=\"continuous\"><parent link=\"cross\"/><child link=\"slider\"/>"
-                  "<origin xyz=\"0 0 0\" rpy=\"0 -0.49301772898075735 0.16744807921968938\"/><axis xyz=\"0 1 0\"/></joint>"
-                  "<loop name=\"rail\" type=\"prismatic\"><predecessor link=\"ground\"/><successor link=\"slider\"/><axis xyz=\"1 0 0\"/>" +
-                      std::regex_replace(friction, std::regex("\\$"), "$$$$") + "</loop>");
+  urdf = replaced(
+      urdf, "<loop name=\"slider_pin\"[\\s\\S]*?</loop>",
+      "<joint name=\"pin_z\" type=\"continuous\"><parent link=\"rod\"/><child link=\"cross\"/>"
+      "<origin xyz=\"0.3 0 0\" codesign:xyz=\"${rod_length} 0 0\"/><axis xyz=\"0 0 "
+      "1\"/></joint><link name=\"cross\"/>"
+      "<joint name=\"pin_y\" type=\"continuous\"><parent link=\"cross\"/><child link=\"slider\"/>"
+      "<origin xyz=\"0 0 0\" rpy=\"0 -0.49301772898075735 0.16744807921968938\"/><axis xyz=\"0 1 "
+      "0\"/></joint>"
+      "<loop name=\"rail\" type=\"prismatic\"><predecessor link=\"ground\"/><successor "
+      "link=\"slider\"/><axis xyz=\"1 0 0\"/>" +
+          std::regex_replace(friction, std::regex("\\$"), "$$$$") + "</loop>");
   expect_same(evaluate(urdf, text_of("config/slider_crank.yaml")));
 }
 

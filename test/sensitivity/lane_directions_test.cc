@@ -42,14 +42,17 @@ struct Probe {
 /// (width, first, count) of each group for a number of tuned parameters.
 std::vector<std::array<int, 3>> groups_of(int count) {
   std::string parameters;
-  for (int k = 0; k < count; ++k) parameters += (k ? ", p" : "p") + std::to_string(k) + ": {initial: " + std::to_string(k) + "}";
+  for (int k = 0; k < count; ++k)
+    parameters += (k ? ", p" : "p") + std::to_string(k) + ": {initial: " + std::to_string(k) + "}";
   const auto system =
-      compile(pendulum(), "duration: 1.0\nparameters: {" + parameters + "}\nobjective: {integral: [{signal: hinge/velocity}]}\n");
+      compile(pendulum(), "duration: 1.0\nparameters: {" + parameters +
+                              "}\nobjective: {integral: [{signal: hinge/velocity}]}\n");
   LaneGroups<Probe> groups(*system, 7);
   std::vector<std::array<int, 3>> found;
   groups.for_each([&](auto* group) {
     EXPECT_EQ(group->tag, 7);
-    found.push_back({std::remove_pointer_t<decltype(group)>::kWidth, group->range.first, group->range.count});
+    found.push_back(
+        {std::remove_pointer_t<decltype(group)>::kWidth, group->range.first, group->range.count});
   });
   return found;
 }
@@ -70,7 +73,8 @@ TEST(LaneGroups, KeepALaneWhereAskedTo) {
     LaneGroups<Probe> groups(LaneCount{lanes, 1}, *system, 7);
     std::vector<std::array<int, 3>> found;
     groups.for_each([&](auto* group) {
-      found.push_back({std::remove_pointer_t<decltype(group)>::kWidth, group->range.first, group->range.count});
+      found.push_back(
+          {std::remove_pointer_t<decltype(group)>::kWidth, group->range.first, group->range.count});
     });
     return found;
   };
@@ -86,7 +90,8 @@ TEST(LaneGroups, SeedOneDirectionPerLane) {
   ASSERT_EQ(seeded.size(), 5U);
   for (std::size_t p = 0; p < 5; ++p) {
     EXPECT_EQ(seeded[p].a, system->parameters()[p]);
-    for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(seeded[p].v[lane], p == static_cast<std::size_t>(lane) + 1 && lane < 2 ? 1.0 : 0.0);
+    for (int lane = 0; lane < 4; ++lane)
+      EXPECT_EQ(seeded[p].v[lane], p == static_cast<std::size_t>(lane) + 1 && lane < 2 ? 1.0 : 0.0);
   }
 }
 

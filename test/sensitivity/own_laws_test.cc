@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Laws that are not in the library: a friction law, a joint and a controller, each one function and one row of a table.
+// Laws that are not in the library: a friction law, a joint and a controller, each one function and
+// one row of a table.
 #include <gtest/gtest.h>
 
 #include "codegen/traced.h"
@@ -12,7 +13,8 @@
 namespace codesign {
 namespace {
 
-/// Coulomb friction that falls from mu_s to mu_d as a Gaussian of the speed, without a jump at rest.
+/// Coulomb friction that falls from mu_s to mu_d as a Gaussian of the speed, without a jump at
+/// rest.
 template <class T>
 T gauss(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
   using std::exp;
@@ -22,13 +24,15 @@ T gauss(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t) {
 }
 const FrictionLaw kGauss{"gauss", "Gauss", {gauss, gauss}};
 
-/// The point of body j stays in the plane of body i that is normal to z and goes through the point of body i.
+/// The point of body j stays in the plane of body i that is normal to z and goes through the point
+/// of body i.
 template <class T>
 void point_in_plane(const PairConstants<T>&, PairRows<T>* rows) {
   rows->keep_in_plane(2);
 }
-const JointLaw kPointInPlane{nullptr, "codesign:point_in_plane",       JointType::kOther, 1, ForceRows::kAlong, false,
-                             false,   {point_in_plane, point_in_plane}};
+const JointLaw kPointInPlane{
+    nullptr, "codesign:point_in_plane",       JointType::kOther, 1, ForceRows::kAlong, false,
+    false,   {point_in_plane, point_in_plane}};
 
 /// u = p tanh(d e).
 template <class T>
@@ -53,37 +57,48 @@ std::string guided() {
   const auto parameter = [](const char* name, const char* value) {
     return std::string("<codesign:parameter name='") + name + "' value='" + value + "'/>";
   };
-  return robot(
-      parameter("mu_s", "0.5") + parameter("v_t", "0.02") + parameter("height", "-1.5") + bar("upper") + bar("lower") +
-      hinge("shoulder", "ground", "upper", "0 0 0",
-            "<codesign:friction model='gauss' mu_static='0.5' codesign:mu_static='${mu_s}' mu_dynamic='0.3' "
-            "transition_velocity='0.02' codesign:transition_velocity='${v_t}' joint_length='0.05' pin_radius='0.02'/>") +
-      hinge("elbow", "upper", "lower", "0 0 -1") +
-      "<loop name='rail' type='codesign:point_in_plane'><predecessor link='ground'><origin xyz='0.3 0.2 -1.5' codesign:xyz='0.3 0.2 "
-      "${height}'/></predecessor><successor link='lower'><origin xyz='0 0 -1'/></successor><axis xyz='0 0 1'/></loop>");
+  return robot(parameter("mu_s", "0.5") + parameter("v_t", "0.02") + parameter("height", "-1.5") +
+               bar("upper") + bar("lower") +
+               hinge("shoulder", "ground", "upper", "0 0 0",
+                     "<codesign:friction model='gauss' mu_static='0.5' "
+                     "codesign:mu_static='${mu_s}' mu_dynamic='0.3' "
+                     "transition_velocity='0.02' codesign:transition_velocity='${v_t}' "
+                     "joint_length='0.05' pin_radius='0.02'/>") +
+               hinge("elbow", "upper", "lower", "0 0 -1") +
+               "<loop name='rail' type='codesign:point_in_plane'><predecessor "
+               "link='ground'><origin xyz='0.3 0.2 -1.5' codesign:xyz='0.3 0.2 "
+               "${height}'/></predecessor><successor link='lower'><origin xyz='0 0 "
+               "-1'/></successor><axis xyz='0 0 1'/></loop>");
 }
 
 std::string study(const std::string& solver) {
-  return "duration: 0.4\ninitial_state: {shoulder: {position: 0.3, velocity: 1.5}, elbow: {guess: 0.7}}\n"
-         "controllers: {hold: {type: soft_p, input: shoulder/position, setpoint: 0.5, output: shoulder, gains: {p: \"${strength}\", d: "
+  return "duration: 0.4\ninitial_state: {shoulder: {position: 0.3, velocity: 1.5}, elbow: {guess: "
+         "0.7}}\n"
+         "controllers: {hold: {type: soft_p, input: shoulder/position, setpoint: 0.5, output: "
+         "shoulder, gains: {p: \"${strength}\", d: "
          "\"${slope}\"}}}\n"
-         "parameters: {mu_s: {tune: true}, v_t: {tune: true}, height: {tune: true}, strength: {initial: 4.0}, slope: {initial: 3.0}}\n"
-         "objective: {integral: [{signal: shoulder/velocity}, {signal: elbow/position, weight: 2.0}, {signal: hold/output, weight: 0.1}, "
+         "parameters: {mu_s: {tune: true}, v_t: {tune: true}, height: {tune: true}, strength: "
+         "{initial: 4.0}, slope: {initial: 3.0}}\n"
+         "objective: {integral: [{signal: shoulder/velocity}, {signal: elbow/position, weight: "
+         "2.0}, {signal: hold/output, weight: 0.1}, "
          "{signal: shoulder/normal_force, weight: 0.001}]}\n"
-         "solver: {integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10" +
+         "solver: {integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, "
+         "absolute_tolerance: 1.0e-10" +
          solver + "}\n";
 }
 
 Problem own(const std::string& urdf, const std::string& text) {
-  return load_problem({"own.urdf", urdf}, {}, {"own.yaml", text}, {}, TrajectoryLoader(), FileLoader(), own_laws());
+  return load_problem({"own.urdf", urdf}, {}, {"own.yaml", text}, {}, TrajectoryLoader(),
+                      FileLoader(), own_laws());
 }
 
 TEST(OwnLaws, ValuesAreThoseOfTheFunctions) {
   for (const char* coordinates : {", coordinates: absolute", ", coordinates: joint"}) {
     const Problem problem = own(guided(), study(coordinates));
-    Simulation simulation(problem, problem.parameters(),
-                          {"shoulder/position", "elbow/position", "shoulder/velocity", "shoulder/friction", "shoulder/normal_force",
-                           "hold/error", "hold/output", "shoulder/effort"});
+    Simulation simulation(
+        problem, problem.parameters(),
+        {"shoulder/position", "elbow/position", "shoulder/velocity", "shoulder/friction",
+         "shoulder/normal_force", "hold/error", "hold/output", "shoulder/effort"});
     ASSERT_TRUE(simulation.start().ok()) << coordinates;
     Frame frame;
     for (int k = 0; k <= 8; ++k) {
@@ -91,13 +106,16 @@ TEST(OwnLaws, ValuesAreThoseOfTheFunctions) {
       ASSERT_TRUE(k == 0 || simulation.advance_to(time).ok()) << coordinates;
       simulation.sample(time, &frame);
       const std::vector<double>& s = frame.signals;
-      EXPECT_NEAR(-std::cos(s[0]) - std::cos(s[0] + s[1]), kHeight, 1e-9) << "the tip stays in the plane, " << coordinates << time;
-      EXPECT_NEAR(s[3], -kRadius * gauss(kRadius * s[2], kMuS, kMuD, kVt) * s[4], 1e-12) << coordinates << time;
+      EXPECT_NEAR(-std::cos(s[0]) - std::cos(s[0] + s[1]), kHeight, 1e-9)
+          << "the tip stays in the plane, " << coordinates << time;
+      EXPECT_NEAR(s[3], -kRadius * gauss(kRadius * s[2], kMuS, kMuD, kVt) * s[4], 1e-12)
+          << coordinates << time;
       EXPECT_GT(s[4], 1.0) << coordinates << time;
       EXPECT_NEAR(s[6], 4.0 * std::tanh(3.0 * s[5]), 1e-13) << coordinates << time;
       EXPECT_EQ(s[7], s[6]) << coordinates << time;
     }
-    EXPECT_LT(simulation.statistics().energy_error, 1e-8) << coordinates << " the plane does no work";
+    EXPECT_LT(simulation.statistics().energy_error, 1e-8)
+        << coordinates << " the plane does no work";
   }
 }
 
@@ -120,12 +138,14 @@ TEST(OwnLaws, AFunctionOfTheSpeedAlsoSlipsInSeveralDirections) {
   c.mu_static = kMuS;
   c.mu_dynamic = kMuD;
   c.transition_velocity = kVt;
-  for (double v : {1e-4, 0.003, 0.02, 0.5}) EXPECT_NEAR(per_speed(kGauss, v * v, c) * v, gauss(v, kMuS, kMuD, kVt), 1e-9) << v;
+  for (double v : {1e-4, 0.003, 0.02, 0.5})
+    EXPECT_NEAR(per_speed(kGauss, v * v, c) * v, gauss(v, kMuS, kMuD, kVt), 1e-9) << v;
   EXPECT_NEAR(per_speed(kGauss, 0.0, c), 8.0 * kMuS / kVt, 1e-6) << "the slope at rest";
 
-  const Problem problem = own(with_friction_model(puck(), "gauss"),
-                              "duration: 0.2\ninitial_state: {}\nparameters: {weight: {initial: 1.0}}\n"
-                              "objective: {integral: [{signal: slope/friction, weight: \"${weight}\"}]}\n");
+  const Problem problem =
+      own(with_friction_model(puck(), "gauss"),
+          "duration: 0.2\ninitial_state: {}\nparameters: {weight: {initial: 1.0}}\n"
+          "objective: {integral: [{signal: slope/friction, weight: \"${weight}\"}]}\n");
   Simulation simulation(problem, problem.parameters());
   ASSERT_TRUE(simulation.start().ok());
   ASSERT_TRUE(simulation.advance_to(0.2).ok());
@@ -143,14 +163,21 @@ TEST(OwnLaws, FilesNameThemOnlyWithTheirRows) {
   };
   EXPECT_EQ(complaint(guided(), own_laws()), "");
   EXPECT_NE(complaint(guided(), standard_laws()).find("gauss"), std::string::npos);
-  EXPECT_NE(complaint(with_friction_model(pendulum(pin_friction()), "gaus"), own_laws()).find("gauss"), std::string::npos)
+  EXPECT_NE(
+      complaint(with_friction_model(pendulum(pin_friction()), "gaus"), own_laws()).find("gauss"),
+      std::string::npos)
       << "nearest name";
-  const std::string bristles = with_friction_model(pendulum(pin_friction()), "gauss' dwell_time='1");
-  EXPECT_NE(complaint(bristles, own_laws()).find("dwell_time has no meaning for this friction model"), std::string::npos);
+  const std::string bristles =
+      with_friction_model(pendulum(pin_friction()), "gauss' dwell_time='1");
+  EXPECT_NE(
+      complaint(bristles, own_laws()).find("dwell_time has no meaning for this friction model"),
+      std::string::npos);
   const RobotDescription read = read_urdf({"own.urdf", guided()}, {}, own_laws());
-  const std::string written = write_tuned_urdf({"own.urdf", guided()}, {}, {0.6, 0.02, -1.4}, FrictionModel::kLuGre, own_laws());
+  const std::string written = write_tuned_urdf({"own.urdf", guided()}, {}, {0.6, 0.02, -1.4},
+                                               FrictionModel::kLuGre, own_laws());
   EXPECT_EQ(read.joints[0].friction->model, FrictionModel(kGauss));
-  EXPECT_EQ(read_urdf({"written.urdf", written}, {}, own_laws()).joints[0].friction->model, FrictionModel::kLuGre);
+  EXPECT_EQ(read_urdf({"written.urdf", written}, {}, own_laws()).joints[0].friction->model,
+            FrictionModel::kLuGre);
 }
 
 }  // namespace

@@ -32,17 +32,21 @@ Rooted run_with_root(RosenbrockGradient* engine, const CompiledSystem& system) {
   return result;
 }
 
-/// The residuals in complex arithmetic: the run with steps of the same sizes, the residuals at each point.
+/// The residuals in complex arithmetic: the run with steps of the same sizes, the residuals at each
+/// point.
 class Replay {
  public:
-  explicit Replay(const CompiledSystem& system) : integrator_(system), step_(system, integrator_.step().tableau()) {}
+  explicit Replay(const CompiledSystem& system)
+      : integrator_(system), step_(system, integrator_.step().tableau()) {}
 
-  VectorX<Complex> residuals(const std::vector<Complex>& parameters, const std::vector<double>& real, const std::vector<double>& steps) {
+  VectorX<Complex> residuals(const std::vector<Complex>& parameters,
+                             const std::vector<double>& real, const std::vector<double>& steps) {
     residuals_.clear();
     step_.equations().set_design(parameters);
     integrator_.start(real);
     State<Complex> state;
-    integrator_.assembly().extend(parameters, integrator_.initial_state(), &step_.equations(), &state);
+    integrator_.assembly().extend(parameters, integrator_.initial_state(), &step_.equations(),
+                                  &state);
     step_.start(state);
     for (double h : steps) {
       step_.attempt(h);
@@ -51,7 +55,8 @@ class Replay {
       for (const double sign : {-1.0, 1.0}) add_point(0.5 + sign / std::sqrt(12.0));
     }
     add(ObjectivePart::kTerminal, step_.state(), 1.0);
-    return Eigen::Map<const VectorX<Complex>>(residuals_.data(), static_cast<Eigen::Index>(residuals_.size()));
+    return Eigen::Map<const VectorX<Complex>>(residuals_.data(),
+                                              static_cast<Eigen::Index>(residuals_.size()));
   }
 
  private:
@@ -88,7 +93,8 @@ TEST_P(ResidualRowsTest, AreTheComplexStepOfTheResiduals) {
     Eigen::VectorXd r;
     for (Eigen::Index k = 0; k < count; ++k) {
       std::vector<Complex> perturbed(parameters.begin(), parameters.end());
-      perturbed[static_cast<std::size_t>(system->study().tuned[static_cast<std::size_t>(k)])] += Complex(0.0, kComplexStep);
+      perturbed[static_cast<std::size_t>(system->study().tuned[static_cast<std::size_t>(k)])] +=
+          Complex(0.0, kComplexStep);
       const VectorX<Complex> residuals = replay.residuals(perturbed, parameters, rooted.steps);
       if (J.size() == 0) J.resize(residuals.size(), count);
       J.col(k) = residuals.imag() / kComplexStep;
@@ -97,8 +103,10 @@ TEST_P(ResidualRowsTest, AreTheComplexStepOfTheResiduals) {
     const Eigen::MatrixXd expected = J.transpose() * J, H = rooted.root.transpose() * rooted.root;
     for (Eigen::Index i = 0; i < count; ++i)
       for (Eigen::Index k = 0; k < count; ++k)
-        EXPECT_NEAR(H(i, k), expected(i, k), 1e-9 * std::sqrt(expected(i, i) * expected(k, k))) << method << " " << i << " " << k;
-    // The sum of squares of the residuals is the objective, except for the errors of both quadratures.
+        EXPECT_NEAR(H(i, k), expected(i, k), 1e-9 * std::sqrt(expected(i, i) * expected(k, k)))
+            << method << " " << i << " " << k;
+    // The sum of squares of the residuals is the objective, except for the errors of both
+    // quadratures.
     EXPECT_NEAR(r.squaredNorm(), rooted.run.objective, 1e-3 * rooted.run.objective) << method;
   }
 }
@@ -112,8 +120,10 @@ TEST_P(ResidualRowsTest, ChangeNothingElse) {
   ASSERT_TRUE(rooted.run.status.ok() && plain.status.ok());
   EXPECT_EQ(rooted.run.objective, plain.objective);
   EXPECT_EQ(rooted.run.gradient, plain.gradient);
-  EXPECT_EQ(run_with_root(&parts, *system).root, rooted.root) << "though gradients alone are in parts";
-  EXPECT_EQ(run_gradient(&with, *system, system->parameters()).gradient, plain.gradient) << "after a run with rows";
+  EXPECT_EQ(run_with_root(&parts, *system).root, rooted.root)
+      << "though gradients alone are in parts";
+  EXPECT_EQ(run_gradient(&with, *system, system->parameters()).gradient, plain.gradient)
+      << "after a run with rows";
   EXPECT_EQ(run_with_root(&with, *system).root, rooted.root);
 }
 
@@ -127,37 +137,46 @@ TEST_P(ResidualRowsTest, AreThoseOfTheOtherIntegrator) {
   for (const IntegratorKind kind : {IntegratorKind::kRosenbrock, IntegratorKind::kIdas}) {
     study.solver.integrator = kind;
     Evaluator evaluator(make_system(test.robot, study));
-    const Evaluation evaluation = evaluator.evaluate_design(make_system(test.robot, study)->parameters(), Derivatives::kGaussNewton);
+    const Evaluation evaluation = evaluator.evaluate_design(
+        make_system(test.robot, study)->parameters(), Derivatives::kGaussNewton);
     ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
-    H[kind == IntegratorKind::kIdas] = evaluation.jacobian_root.transpose() * evaluation.jacobian_root;
+    H[kind == IntegratorKind::kIdas] =
+        evaluation.jacobian_root.transpose() * evaluation.jacobian_root;
   }
   for (Eigen::Index i = 0; i < H[0].rows(); ++i)
-    for (Eigen::Index k = 0; k < H[0].cols(); ++k) EXPECT_NEAR(H[1](i, k), H[0](i, k), 2e-3 * std::sqrt(H[0](i, i) * H[0](k, k)));
+    for (Eigen::Index k = 0; k < H[0].cols(); ++k)
+      EXPECT_NEAR(H[1](i, k), H[0](i, k), 2e-3 * std::sqrt(H[0](i, i) * H[0](k, k)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, ResidualRowsTest, ::testing::Range(std::size_t{0}, gradient_cases().size()),
-                         [](const auto& instance) { return gradient_cases().at(instance.param).name; });
+INSTANTIATE_TEST_SUITE_P(Mechanisms, ResidualRowsTest,
+                         ::testing::Range(std::size_t{0}, gradient_cases().size()),
+                         [](const auto& instance) {
+                           return gradient_cases().at(instance.param).name;
+                         });
 
 /// A block on a smooth rail under a constant force, x = F t^2 / (2 m).
 GradientCase block_on_rail(const std::string& integral, const std::string& terminal) {
-  return from_texts("block", R"(<robot name="block" xmlns:codesign="urn:mechanism_codesign">
+  return from_texts(
+      "block", R"(<robot name="block" xmlns:codesign="urn:mechanism_codesign">
   <link name="ground"/>
   <link name="block"><inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
   <joint name="slide" type="prismatic"><parent link="ground"/><child link="block"/><axis xyz="1 0 0"/>
     <limit lower="-50" upper="50" effort="100" velocity="100"/></joint>
 </robot>)",
-                    "duration: 2.0\nloads: [{joint: slide, effort: \"${force}\"}]\n"
-                    "initial_state: {slide: {position: 0.0, velocity: \"0.0\"}}\n"
-                    "parameters: {force: {initial: 3.0, lower: -10.0, upper: 10.0}, w: {initial: 0.5, lower: -1.0, upper: 1.0}}\n"
-                    "solver: {relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9, maximum_step: 0.05}\n"
-                    "objective: {integral: [" +
-                        integral + "], terminal: [" + terminal + "]}\n");
+      "duration: 2.0\nloads: [{joint: slide, effort: \"${force}\"}]\n"
+      "initial_state: {slide: {position: 0.0, velocity: \"0.0\"}}\n"
+      "parameters: {force: {initial: 3.0, lower: -10.0, upper: 10.0}, w: {initial: 0.5, lower: "
+      "-1.0, upper: 1.0}}\n"
+      "solver: {relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9, maximum_step: 0.05}\n"
+      "objective: {integral: [" +
+          integral + "], terminal: [" + terminal + "]}\n");
 }
 
 TEST(ResidualRows, HaveTheSquaresOfSensitivitiesThatAreKnown) {
-  const GradientCase test =
-      block_on_rail("{signal: slide/position, weight: \"${w}\"}", "{signal: slide/velocity, reference: 1.0, weight: 4}");
-  const Evaluation evaluation = Evaluator(test.compile("rodas5p", "auto")).evaluate(Eigen::Vector2d(3.0, 0.5), Derivatives::kGaussNewton);
+  const GradientCase test = block_on_rail("{signal: slide/position, weight: \"${w}\"}",
+                                          "{signal: slide/velocity, reference: 1.0, weight: 4}");
+  const Evaluation evaluation = Evaluator(test.compile("rodas5p", "auto"))
+                                    .evaluate(Eigen::Vector2d(3.0, 0.5), Derivatives::kGaussNewton);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   const Eigen::MatrixXd H = evaluation.jacobian_root.transpose() * evaluation.jacobian_root;
   // x_F = t^2 / 4, v_F = t / 2, t = 2 s, F = 3 N. By w: r = sqrt(w) x, r_w = x / (2 sqrt(w)).
@@ -169,18 +188,23 @@ TEST(ResidualRows, HaveTheSquaresOfSensitivitiesThatAreKnown) {
 
 TEST(ResidualRows, WeightsOfZeroHaveNone) {
   const GradientCase test = block_on_rail("{signal: slide/position, weight: \"${w}\"}", "");
-  const Evaluation evaluation = Evaluator(test.compile("rodas5p", "auto")).evaluate(Eigen::Vector2d(3.0, 0.0), Derivatives::kGaussNewton);
+  const Evaluation evaluation = Evaluator(test.compile("rodas5p", "auto"))
+                                    .evaluate(Eigen::Vector2d(3.0, 0.0), Derivatives::kGaussNewton);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_EQ(evaluation.jacobian_root, Eigen::MatrixXd::Zero(2, 2));
 }
 
 TEST(ResidualRows, ANegativeWeightIsNoSumOfSquares) {
-  const GradientCase test = block_on_rail("{signal: slide/velocity}, {signal: slide/position, weight: \"${w}\"}", "");
+  const GradientCase test =
+      block_on_rail("{signal: slide/velocity}, {signal: slide/position, weight: \"${w}\"}", "");
   Evaluator evaluator(test.compile("rodas5p", "auto"));
-  const Evaluation evaluation = evaluator.evaluate(Eigen::Vector2d(3.0, -0.5), Derivatives::kGaussNewton);
+  const Evaluation evaluation =
+      evaluator.evaluate(Eigen::Vector2d(3.0, -0.5), Derivatives::kGaussNewton);
   EXPECT_EQ(evaluation.status.code, StatusCode::kInvalidDesign);
-  EXPECT_NE(evaluation.status.cause.find("objective.integral[1] is -0.5"), std::string::npos) << evaluation.status.cause;
-  EXPECT_TRUE(evaluator.evaluate(Eigen::Vector2d(3.0, -0.5), true).status.ok()) << "a gradient has nothing against it";
+  EXPECT_NE(evaluation.status.cause.find("objective.integral[1] is -0.5"), std::string::npos)
+      << evaluation.status.cause;
+  EXPECT_TRUE(evaluator.evaluate(Eigen::Vector2d(3.0, -0.5), true).status.ok())
+      << "a gradient has nothing against it";
 }
 
 TEST(ResidualRows, AStudyThatAsksForTheAdjointHasThem) {
@@ -189,7 +213,8 @@ TEST(ResidualRows, AStudyThatAsksForTheAdjointHasThem) {
   Evaluator evaluator(adjoint);
   const Evaluation first = evaluator.evaluate_design(adjoint->parameters(), true);
   const Evaluation a = evaluator.evaluate_design(adjoint->parameters(), Derivatives::kGaussNewton);
-  const Evaluation b = Evaluator(direct).evaluate_design(direct->parameters(), Derivatives::kGaussNewton);
+  const Evaluation b =
+      Evaluator(direct).evaluate_design(direct->parameters(), Derivatives::kGaussNewton);
   ASSERT_TRUE(a.status.ok() && b.status.ok());
   EXPECT_EQ(a.jacobian_root, b.jacobian_root);
   EXPECT_EQ(evaluator.evaluate_design(adjoint->parameters(), true).gradient, first.gradient);

@@ -20,14 +20,20 @@ struct ControlCase {
 };
 
 const std::string kGains = "gains: {p: \"${Kp}\", i: \"${Ki}\", d: \"${Kd}\"}";
-const std::string kShoulder = "type: pid, input: shoulder/position, setpoint: \"${aim}\", output: shoulder, ";
+const std::string kShoulder =
+    "type: pid, input: shoulder/position, setpoint: \"${aim}\", output: shoulder, ";
 
-std::string shoulder(const std::string& keys) { return "  servo: {" + kShoulder + kGains + ", " + keys + "}\n"; }
+std::string shoulder(const std::string& keys) {
+  return "  servo: {" + kShoulder + kGains + ", " + keys + "}\n";
+}
 
 std::vector<ControlCase> control_cases() {
-  const std::string cascade = "  outer: {type: pid, input: shoulder/position, setpoint: \"${aim}\", gains: {p: \"${Ki/10}\"}";
+  const std::string cascade =
+      "  outer: {type: pid, input: shoulder/position, setpoint: \"${aim}\", gains: {p: "
+      "\"${Ki/10}\"}";
   const std::string inner =
-      "}\n  servo: {type: pid, input: shoulder/velocity - outer/output, setpoint: 0.0, output: shoulder, gains: {p: \"${Kd}\", i: "
+      "}\n  servo: {type: pid, input: shoulder/velocity - outer/output, setpoint: 0.0, output: "
+      "shoulder, gains: {p: \"${Kd}\", i: "
       "\"${Kp}\"}";
   return {
       {"derivative_filter", shoulder("derivative_filter: \"${tau}\"")},
@@ -35,33 +41,43 @@ std::vector<ControlCase> control_cases() {
       {"antiwindup", shoulder("i_clamp: \"${20*tau}\", antiwindup: true")},
       {"output_limit", shoulder("output_limit: \"${200*tau}\"")},
       {"time_constant", shoulder("time_constant: \"${tau}\""), "shoulder/effort_rate"},
-      {"effort_rate", shoulder("derivative_filter: \"${tau}\", output_limit: 15.0"), "shoulder/effort_rate"},
+      {"effort_rate", shoulder("derivative_filter: \"${tau}\", output_limit: 15.0"),
+       "shoulder/effort_rate"},
       {"sampled", shoulder("sample_time: 0.01")},
       {"sampled_filter", shoulder("sample_time: 0.01, derivative_filter: \"${tau}\"")},
       {"sampled_clamp", shoulder("sample_time: 0.01, i_clamp: \"${20*tau}\"")},
-      {"sampled_antiwindup", shoulder("sample_time: 0.01, i_clamp: \"${20*tau}\", antiwindup: true")},
+      {"sampled_antiwindup",
+       shoulder("sample_time: 0.01, i_clamp: \"${20*tau}\", antiwindup: true")},
       {"sampled_limit", shoulder("sample_time: 0.01, output_limit: \"${200*tau}\"")},
       {"delayed", shoulder("sample_time: 0.01, delay: 0.004")},
       {"delayed_by_a_period", shoulder("sample_time: 0.01, delay: 0.01")},
-      {"delayed_by_more", shoulder("sample_time: 0.005, delay: 0.0137, time_constant: \"${tau}\""), "shoulder/effort_rate"},
+      {"delayed_by_more", shoulder("sample_time: 0.005, delay: 0.0137, time_constant: \"${tau}\""),
+       "shoulder/effort_rate"},
       {"state_feedback",
-       "  servo: {type: state_feedback, output: shoulder, sample_time: 0.01, delay: 0.002, feedback: [{signal: shoulder/position, gain: "
+       "  servo: {type: state_feedback, output: shoulder, sample_time: 0.01, delay: 0.002, "
+       "feedback: [{signal: shoulder/position, gain: "
        "\"${Kp}\", reference: \"${aim}\"}, {signal: shoulder/velocity, gain: \"${Kd}\"}]}\n"},
       {"pd_gravity",
-       "  servo: {type: pd_gravity, output: shoulder, setpoint: \"${aim}\", gains: {p: \"${Kp}\", d: \"${Kd}\"}, sample_time: 0.01}\n"},
+       "  servo: {type: pd_gravity, output: shoulder, setpoint: \"${aim}\", gains: {p: \"${Kp}\", "
+       "d: \"${Kd}\"}, sample_time: 0.01}\n"},
       {"cascade", cascade + inner + "}\n"},
-      {"cascade_of_two_rates", cascade + ", sample_time: 0.02" + inner + ", sample_time: 0.004, delay: 0.001}\n"}};
+      {"cascade_of_two_rates",
+       cascade + ", sample_time: 0.02" + inner + ", sample_time: 0.004, delay: 0.001}\n"}};
 }
 
-std::shared_ptr<const CompiledSystem> compile_case(const ControlCase& c, const std::string& solver, const std::string& more = "") {
+std::shared_ptr<const CompiledSystem> compile_case(const ControlCase& c, const std::string& solver,
+                                                   const std::string& more = "") {
   return compile(double_pendulum(pin_friction()),
-                 "duration: 0.4\ninitial_state: {shoulder: {position: \"${start}\"}, elbow: {velocity: 1.0}}\ncontrollers:\n" +
+                 "duration: 0.4\ninitial_state: {shoulder: {position: \"${start}\"}, elbow: "
+                 "{velocity: 1.0}}\ncontrollers:\n" +
                      c.controllers +
-                     "parameters: {Kp: {initial: 40.0}, Ki: {initial: 60.0}, Kd: {initial: 1.5}, aim: {initial: 0.3}, tau: {initial: "
+                     "parameters: {Kp: {initial: 40.0}, Ki: {initial: 60.0}, Kd: {initial: 1.5}, "
+                     "aim: {initial: 0.3}, tau: {initial: "
                      "0.04}, start: {initial: 1.0}}\n"
                      "objective: {integral: [{signal: servo/output, weight: 0.01}, {signal: " +
                      c.term +
-                     ", weight: 1.0e-3}, {signal: shoulder/position}],\n  terminal: [{signal: elbow/position}, {signal: "
+                     ", weight: 1.0e-3}, {signal: shoulder/position}],\n  terminal: [{signal: "
+                     "elbow/position}, {signal: "
                      "shoulder/acceleration, weight: 0.01}]}\n" +
                      more + "solver: " + solver + "\n");
 }
@@ -70,8 +86,10 @@ class ControlGradientTest : public ::testing::TestWithParam<ControlCase> {};
 
 TEST_P(ControlGradientTest, MeetsTheComplexStep) {
   for (const char* method : {"rodas4", "rodas5p", "dopri5"}) {
-    const auto system = compile_case(GetParam(), "{gradient: direct, method: " + std::string(method) + "}");
-    const GradientCheck check = check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
+    const auto system =
+        compile_case(GetParam(), "{gradient: direct, method: " + std::string(method) + "}");
+    const GradientCheck check =
+        check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;
     EXPECT_LT(check.largest_relative_difference, 1e-10);
     EXPECT_GT(check.evaluation.gradient.cwiseAbs().maxCoeff(), 1e-4);
@@ -79,14 +97,20 @@ TEST_P(ControlGradientTest, MeetsTheComplexStep) {
 }
 
 TEST_P(ControlGradientTest, IsThatOfTheOtherIntegrator) {
-  const auto own = compile_case(GetParam(), "{gradient: direct, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}");
-  const auto other = compile_case(GetParam(), "{integrator: idas, relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
+  const auto own = compile_case(GetParam(),
+                                "{gradient: direct, method: rodas5p, relative_tolerance: 1.0e-9, "
+                                "absolute_tolerance: 1.0e-10}");
+  const auto other = compile_case(
+      GetParam(), "{integrator: idas, relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
   const Eigen::VectorXd rho = start_of(own->study());
   const Evaluation a = Evaluator(own).evaluate(rho, true), b = Evaluator(other).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok()) << a.status.cause;
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_NEAR(a.objective, b.objective, 1e-6 * a.objective);
-  EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(), 1e-5 * a.gradient.cwiseAbs().maxCoeff()) << a.gradient << "\n" << b.gradient;
+  EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(),
+            1e-5 * a.gradient.cwiseAbs().maxCoeff())
+      << a.gradient << "\n"
+      << b.gradient;
 }
 
 TEST_P(ControlGradientTest, OfTheAdjointIsTheSameWhereThereIsOne) {
@@ -96,28 +120,36 @@ TEST_P(ControlGradientTest, OfTheAdjointIsTheSameWhereThereIsOne) {
     EXPECT_FALSE(prefers_adjoint(*compile_case(GetParam(), "{gradient: auto}")));
     return;
   }
-  const auto direct = compile_case(GetParam(), "{gradient: direct}"), adjoint = compile_case(GetParam(), "{gradient: adjoint}");
+  const auto direct = compile_case(GetParam(), "{gradient: direct}"),
+             adjoint = compile_case(GetParam(), "{gradient: adjoint}");
   const Eigen::VectorXd rho = start_of(direct->study());
-  const Evaluation a = Evaluator(direct).evaluate(rho, true), b = Evaluator(adjoint).evaluate(rho, true);
+  const Evaluation a = Evaluator(direct).evaluate(rho, true),
+                   b = Evaluator(adjoint).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok() && b.status.ok());
-  EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(), 1e-10 * a.gradient.cwiseAbs().maxCoeff());
+  EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(),
+            1e-10 * a.gradient.cwiseAbs().maxCoeff());
 }
 
 INSTANTIATE_TEST_SUITE_P(Controls, ControlGradientTest, ::testing::ValuesIn(control_cases()),
-                         [](const ::testing::TestParamInfo<ControlCase>& test) { return test.param.name; });
+                         [](const ::testing::TestParamInfo<ControlCase>& test) {
+                           return test.param.name;
+                         });
 
 TEST(SampledPeaks, MeetTheComplexStep) {
   // The effort jumps at each sample, so that its peak lies right behind one.
   const ControlCase sampled{"", shoulder("sample_time: 0.02"), "shoulder/position"};
   const auto system = compile_case(sampled, "{method: rodas5p}",
-                                   "path: [{signal: shoulder/effort, at_most: 20.0}, {signal: elbow/acceleration, at_most: 50.0}]\n");
-  const GradientCheck check = check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
+                                   "path: [{signal: shoulder/effort, at_most: 20.0}, {signal: "
+                                   "elbow/acceleration, at_most: 50.0}]\n");
+  const GradientCheck check =
+      check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-9);
 }
 
 TEST(RoundedMeasurements, HaveNoGradient) {
-  const ControlCase rounded{"", shoulder("sample_time: 0.02, quantization: 0.01"), "shoulder/position"};
+  const ControlCase rounded{"", shoulder("sample_time: 0.02, quantization: 0.01"),
+                            "shoulder/position"};
   const auto system = compile_case(rounded, "{}");
   Evaluator evaluator(system);
   EXPECT_TRUE(evaluator.evaluate(start_of(system->study()), false).status.ok());

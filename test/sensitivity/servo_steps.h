@@ -12,7 +12,8 @@
 
 namespace codesign {
 
-/// Three steps of the servo with the tangent by its five parameters, the points between the steps, and the backward pass.
+/// Three steps of the servo with the tangent by its five parameters, the points between the steps,
+/// and the backward pass.
 struct ServoSteps {
   static constexpr double kSize = 2e-3;
 
@@ -40,7 +41,8 @@ struct ServoSteps {
     end = tangent.directions();
   }
 
-  /// The adjoint at the start for a given adjoint at the end. @param visit called with each point's index after its step has been reversed.
+  /// The adjoint at the start for a given adjoint at the end. @param visit called with each point's
+  /// index after its step has been reversed.
   template <class Visit>
   const VectorX<double>& back(const VectorX<double>& last, const Visit& visit) {
     adjoint.start(parameters, last);

@@ -63,7 +63,8 @@ TEST_P(SignalWatchTest, NoSampleOfTheRunIsBeyondTheExtremes) {
   std::vector<double> times;
   for (const WatchLayout::Entry& entry : layout.entries())
     for (int window = 0; window < entry.windows(); ++window)
-      for (int place : {entry.largest(window), entry.smallest(window)}) times.push_back(evaluation.extremes.times[place]);
+      for (int place : {entry.largest(window), entry.smallest(window)})
+        times.push_back(evaluation.extremes.times[place]);
   for (int k = 0; k <= 2000; ++k) times.push_back(test_.study.duration * (0.1 + 0.85 * k / 2000));
   std::sort(times.begin(), times.end());
   Simulation simulation(system, system->parameters(), watched_signals(system->study()));
@@ -77,11 +78,13 @@ TEST_P(SignalWatchTest, NoSampleOfTheRunIsBeyondTheExtremes) {
       const WatchLayout::Entry& entry = layout.entries()[k];
       const double value = frame.signals[k], slack = 1e-9 * std::max(1.0, std::abs(value));
       const auto after = std::upper_bound(entry.instants.begin(), entry.instants.end(), time);
-      const int window = std::min(static_cast<int>(after - entry.instants.begin()), entry.windows()) - 1;
+      const int window =
+          std::min(static_cast<int>(after - entry.instants.begin()), entry.windows()) - 1;
       if (window < 0) continue;
       for (int place : {entry.largest(window), entry.smallest(window)})
         if (evaluation.extremes.times[place] == time) {
-          EXPECT_NEAR(evaluation.extremes.values[place], value, slack) << system->study().watched[k].signal.text << " at " << time;
+          EXPECT_NEAR(evaluation.extremes.values[place], value, slack)
+              << system->study().watched[k].signal.text << " at " << time;
           ++met;
         }
       EXPECT_LE(value, evaluation.extremes.values[entry.largest(window)] + slack)
@@ -110,8 +113,11 @@ TEST_P(SignalWatchTest, GradientsMeetTheComplexStep) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, SignalWatchTest, ::testing::Range(std::size_t{0}, gradient_cases().size()),
-                         [](const auto& instance) { return gradient_cases().at(instance.param).name; });
+INSTANTIATE_TEST_SUITE_P(Mechanisms, SignalWatchTest,
+                         ::testing::Range(std::size_t{0}, gradient_cases().size()),
+                         [](const auto& instance) {
+                           return gradient_cases().at(instance.param).name;
+                         });
 
 // Two integrators, each with its own dense output and sensitivities.
 TEST(SignalWatch, IdasAgrees) {
@@ -121,10 +127,12 @@ TEST(SignalWatch, IdasAgrees) {
   const auto rosenbrock = test.compile("rodas5p", "auto");
   test.study.solver.integrator = IntegratorKind::kIdas;
   const auto idas = test.compile("rodas5p", "auto");
-  const Evaluation a = Evaluator(rosenbrock).evaluate(start_of(test.study), true), b = Evaluator(idas).evaluate(start_of(test.study), true);
+  const Evaluation a = Evaluator(rosenbrock).evaluate(start_of(test.study), true),
+                   b = Evaluator(idas).evaluate(start_of(test.study), true);
   ASSERT_TRUE(a.status.ok() && b.status.ok()) << a.status.cause << b.status.cause;
   EXPECT_NEAR(b.objective, a.objective, 1e-5 * std::abs(a.objective));
-  const double scale = a.extremes.values.cwiseAbs().maxCoeff(), slope = a.extremes.gradients.cwiseAbs().maxCoeff();
+  const double scale = a.extremes.values.cwiseAbs().maxCoeff(),
+               slope = a.extremes.gradients.cwiseAbs().maxCoeff();
   EXPECT_LT((a.extremes.values - b.extremes.values).cwiseAbs().maxCoeff(), 1e-5 * scale);
   EXPECT_LT((a.extremes.gradients - b.extremes.gradients).cwiseAbs().maxCoeff(), 1e-3 * slope);
 }

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Gradients of motions through singular positions are right to four digits, or come with a warning, or fail.
+// Gradients of motions through singular positions are right to four digits, or come with a warning,
+// or fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,12 +16,14 @@ namespace {
 /// IFToMM's A02 past its flat position, by the speed it starts with.
 Evaluation evaluate(const std::string& integrator, double tolerance, double duration) {
   std::string urdf = upright_row(2);
-  urdf.insert(urdf.find('>') + 1, "<codesign:parameter name='rate' value='1' lower='0.5' upper='2'/>");
-  const std::string study =
-      "duration: " + to_decimal(duration) +
-      "\nparameters: {rate: {}}\ninitial_state: {hinge0: {position: 0.0, velocity: '${rate}'}}\nsolver: {integrator: " + integrator +
-      ", relative_tolerance: " + to_decimal(tolerance) + ", absolute_tolerance: " + to_decimal(tolerance) +
-      "}\nobjective: {integral: [{signal: hinge0/velocity}]}\n";
+  urdf.insert(urdf.find('>') + 1,
+              "<codesign:parameter name='rate' value='1' lower='0.5' upper='2'/>");
+  const std::string study = "duration: " + to_decimal(duration) +
+                            "\nparameters: {rate: {}}\ninitial_state: {hinge0: {position: 0.0, "
+                            "velocity: '${rate}'}}\nsolver: {integrator: " +
+                            integrator + ", relative_tolerance: " + to_decimal(tolerance) +
+                            ", absolute_tolerance: " + to_decimal(tolerance) +
+                            "}\nobjective: {integral: [{signal: hinge0/velocity}]}\n";
   const Problem problem = load_problem({"row.urdf", urdf}, {}, {"row.yaml", study});
   return Evaluator(problem.system()).evaluate(problem.start(), true);
 }
@@ -33,8 +36,9 @@ TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsByBothIntegrators) {
         const bool warned = std::any_of(e.warnings.begin(), e.warnings.end(), [](const Warning& w) {
           return w.code == "singular_position_passed" || w.code == "sensitivities_restarted";
         });
-        EXPECT_TRUE(!e.status.ok() || warned) << integrator << " at " << tolerance << " over " << duration << " s: " << e.gradient[0]
-                                              << " in place of " << (duration > 3.2 ? 7.134 : 41.958);
+        EXPECT_TRUE(!e.status.ok() || warned)
+            << integrator << " at " << tolerance << " over " << duration << " s: " << e.gradient[0]
+            << " in place of " << (duration > 3.2 ? 7.134 : 41.958);
       }
     }
   }

@@ -35,7 +35,8 @@ State<double> numbered_with_turns(double first, double turns) {
 
 StepPath path_of(int points, int most) {
   StepPath path(layout(), most);
-  for (int k = 0; k < points; ++k) path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k));
+  for (int k = 0; k < points; ++k)
+    path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k));
   return path;
 }
 
@@ -100,7 +101,8 @@ TEST(StepPath, TakesPointsThatAreMadeOnceMoreAsFarAsThereIsRoom) {
 TEST(StepPath, BeginsAnewWithEveryPoint) {
   StepPath path = path_of(100, 10);
   path.clear();
-  for (int k = 0; k < 10; ++k) path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k));
+  for (int k = 0; k < 10; ++k)
+    path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k));
   for (int k = 0; k < 10; ++k) expect_point(path, k);
 }
 

@@ -24,13 +24,17 @@ class TangentEquationsTest : public ::testing::TestWithParam<bool> {
     state.t = 0.2;
     state.q = waves(state.q.size(), 0.3), state.v = waves(state.v.size(), 1.1);
     state.s = waves(state.s.size(), 2.0), state.z = waves(state.z.size(), 0.7);
-    for (Eigen::Index k = 0; k < y.size(); ++k) y.data()[k] = std::sin(0.7 * static_cast<double>(k));
+    for (Eigen::Index k = 0; k < y.size(); ++k)
+      y.data()[k] = std::sin(0.7 * static_cast<double>(k));
   }
 
-  static void expect_equal(const Eigen::Ref<const Eigen::Matrix<double, 4, Eigen::Dynamic>>& actual, const VectorX<Lanes<4>>& expected) {
+  static void expect_equal(const Eigen::Ref<const Eigen::Matrix<double, 4, Eigen::Dynamic>>& actual,
+                           const VectorX<Lanes<4>>& expected) {
     ASSERT_GE(actual.cols(), expected.size());
     for (Eigen::Index k = 0; k < expected.size(); ++k)
-      EXPECT_LT((actual.col(k) - expected[k].directions()).norm(), 1e-11 * (1.0 + expected[k].directions().norm())) << k;
+      EXPECT_LT((actual.col(k) - expected[k].directions()).norm(),
+                1e-11 * (1.0 + expected[k].directions().norm()))
+          << k;
   }
 
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
@@ -57,8 +61,10 @@ TEST_P(TangentEquationsTest, OfTheMatricesAreOnTheirPatterns) {
   equations.linearize(tangents.lanes(state, y), &expected);
   const auto compare = [](const LineVector& actual, const std::vector<Lanes<4>>& lanes) {
     ASSERT_EQ(actual.size(), 4 * lanes.size());
-    expect_equal(Eigen::Map<const Eigen::Matrix<double, 4, Eigen::Dynamic>>(actual.data(), 4, static_cast<Eigen::Index>(lanes.size())),
-                 Eigen::Map<const VectorX<Lanes<4>>>(lanes.data(), static_cast<Eigen::Index>(lanes.size())));
+    expect_equal(
+        Eigen::Map<const Eigen::Matrix<double, 4, Eigen::Dynamic>>(
+            actual.data(), 4, static_cast<Eigen::Index>(lanes.size())),
+        Eigen::Map<const VectorX<Lanes<4>>>(lanes.data(), static_cast<Eigen::Index>(lanes.size())));
   };
   compare(tangents.changes().position, expected.position);
   compare(tangents.changes().velocity, expected.velocity);
@@ -80,9 +86,12 @@ TEST_P(TangentEquationsTest, OfTheConstraintsAreOnePerRow) {
 TEST(TangentEquations, FollowTheBranchOfTheState) {
   const std::string narrow = "<limit lower='-0.05' upper='0.04' effort='2' velocity='1'/>";
   const std::shared_ptr<const CompiledSystem> system =
-      compile(robot(bar("arm") + "<joint name='hinge' type='revolute'><parent link='ground'/><child link='arm'/><axis xyz='0 1 0'/>" +
+      compile(robot(bar("arm") +
+                    "<joint name='hinge' type='revolute'><parent link='ground'/><child "
+                    "link='arm'/><axis xyz='0 1 0'/>" +
                     narrow + "</joint>"),
-              motion_study(1.0, "{}", "hinge/velocity", "{}") + "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
+              motion_study(1.0, "{}", "hinge/velocity", "{}") +
+                  "limits: {position: true, stiffness: 20.0, width: 0.01}\n");
   TangentEquations<4> tangents(*system);
   tangents.equations().set_design({});
   State<double> state;
@@ -99,13 +108,16 @@ TEST(TangentEquations, FollowTheBranchOfTheState) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Code, TangentEquationsTest, ::testing::Values(true, false),
-                         [](const auto& code) { return code.param ? std::string("compiled") : std::string("interpreted"); });
+                         [](const auto& code) {
+                           return code.param ? std::string("compiled") : std::string("interpreted");
+                         });
 
 using C = std::complex<double>;
 constexpr double kSize = 2e-3;
 constexpr int kSteps = 5;
 
-/// A few steps of the servo, their tangent by lanes, and the same steps with one parameter moved along the imaginary axis.
+/// A few steps of the servo, their tangent by lanes, and the same steps with one parameter moved
+/// along the imaginary axis.
 class TangentStepTest : public ::testing::Test {
  protected:
   TangentStepTest() : step(*system, rodas4()), tangent(*system, rodas4()), assembly(*system) {
@@ -155,14 +167,17 @@ TEST_F(TangentStepTest, IsTheDerivativeOfTheStepsToRounding) {
     const RosenbrockStep<C> run = shifted(k, h);
     const auto row = static_cast<Eigen::Index>(k);
     const auto compare = [&](const VectorX<C>& value, int first) {
-      const Eigen::VectorXd expected = value.imag() / h, actual = tangent.directions().row(row).segment(first, value.size()).transpose();
+      const Eigen::VectorXd
+          expected = value.imag() / h,
+          actual = tangent.directions().row(row).segment(first, value.size()).transpose();
       EXPECT_LT((actual - expected).norm(), 1e-11 * (1.0 + expected.norm())) << "parameter " << k;
     };
     compare(run.state().q, at.x());
     compare(run.state().s, at.s());
     compare(run.state().v, at.v());
     compare(run.state().z, at.z());
-    EXPECT_NEAR(tangent.psi()[row], run.psi().imag() / h, 1e-12 * (1.0 + std::abs(run.psi().imag() / h)));
+    EXPECT_NEAR(tangent.psi()[row], run.psi().imag() / h,
+                1e-12 * (1.0 + std::abs(run.psi().imag() / h)));
   }
 }
 

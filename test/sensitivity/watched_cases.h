@@ -9,8 +9,8 @@
 
 namespace codesign {
 
-/// Adds watched signals to a case: its default signals, every second one as a peak in the objective, the others within bounds that the
-/// test does not use.
+/// Adds watched signals to a case: its default signals, every second one as a peak in the
+/// objective, the others within bounds that the test does not use.
 inline GradientCase with_watched(GradientCase test) {
   std::vector<std::string> texts = default_signals(test.robot, test.study.controllers);
   if (texts.size() > 8) texts.resize(8);

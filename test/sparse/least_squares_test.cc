@@ -8,12 +8,14 @@
 namespace codesign {
 namespace {
 
-/// A matrix with three numbers per column in a band. Columns are independent, except that column k is the sum of the two before if k % 7
+/// A matrix with three numbers per column in a band. Columns are independent, except that column k
+/// is the sum of the two before if k % 7
 /// == 3.
 SparseMatrix band(int size) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int column, int k) {
-    for (int r = 0; r < 3; ++r) entries.emplace_back(k + r, column, std::sin(1.3 * k + r) + (r == 0 ? 2.0 : 0.0));
+    for (int r = 0; r < 3; ++r)
+      entries.emplace_back(k + r, column, std::sin(1.3 * k + r) + (r == 0 ? 2.0 : 0.0));
   };
   for (int k = 0; k < size; ++k) {
     if (k % 7 != 3) {
@@ -29,8 +31,9 @@ SparseMatrix band(int size) {
 }
 
 Eigen::MatrixXd right_sides(Eigen::Index rows) {
-  return Eigen::MatrixXd::NullaryExpr(rows, 2,
-                                      [](Eigen::Index r, Eigen::Index c) { return std::cos(0.7 * static_cast<double>(r + 3 * c)); });
+  return Eigen::MatrixXd::NullaryExpr(rows, 2, [](Eigen::Index r, Eigen::Index c) {
+    return std::cos(0.7 * static_cast<double>(r + 3 * c));
+  });
 }
 
 TEST(SparseQr, FindsTheColumnsThatFollowFromEarlierOnes) {
@@ -41,17 +44,20 @@ TEST(SparseQr, FindsTheColumnsThatFollowFromEarlierOnes) {
   for (int k = 3; k < size; k += 7) expected.push_back(k);
   EXPECT_EQ(qr.dependent(), expected);
   qr.factor(band(size), 1e-9);
-  EXPECT_EQ(qr.dependent().size(), expected.size()) << "another ordering finds as many, if not the same";
+  EXPECT_EQ(qr.dependent().size(), expected.size())
+      << "another ordering finds as many, if not the same";
 }
 
 TEST(SparseQr, SolutionsAreThoseOfLeastSquaresWithoutDependentColumns) {
   const SparseMatrix A = band(60);
   const Eigen::MatrixXd b = right_sides(A.rows());
   SparseQr qr;
-  for (const SparseQr::Ordering ordering : {SparseQr::Ordering::kNatural, SparseQr::Ordering::kFillReducing}) {
+  for (const SparseQr::Ordering ordering :
+       {SparseQr::Ordering::kNatural, SparseQr::Ordering::kFillReducing}) {
     qr.factor(A, 1e-9, ordering);
     const Eigen::MatrixXd x = qr.solve(b), shortest = least_norm(Eigen::MatrixXd(A)).solve(b);
-    EXPECT_LT((A * (x - shortest)).cwiseAbs().maxCoeff(), 1e-12) << "the point of the columns' span nearest to b is one";
+    EXPECT_LT((A * (x - shortest)).cwiseAbs().maxCoeff(), 1e-12)
+        << "the point of the columns' span nearest to b is one";
     for (int column : qr.dependent()) EXPECT_EQ(x.row(column).norm(), 0.0);
   }
 }
@@ -71,11 +77,13 @@ TEST(SparseQr, OfFullRankHasNoDependentColumns) {
   EXPECT_LT((qr.solve(b) - Eigen::Vector3d(1.0, 2.0, 2.0)).norm(), 1e-14);
 }
 
-/// A matrix with `size` independent columns of three numbers each in a band, followed by columns that are sums of neighbours.
+/// A matrix with `size` independent columns of three numbers each in a band, followed by columns
+/// that are sums of neighbours.
 SparseMatrix band(int size, int sums) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int column, int k) {
-    for (int r = 0; r < 3; ++r) entries.emplace_back(k + r, column, std::sin(1.3 * k + r) + (r == 0 ? 2.0 : 0.0));
+    for (int r = 0; r < 3; ++r)
+      entries.emplace_back(k + r, column, std::sin(1.3 * k + r) + (r == 0 ? 2.0 : 0.0));
   };
   for (int k = 0; k < size; ++k) add(k, k);
   for (int k = 0; k < sums; ++k) add(size + k, k), add(size + k, k + 1);

@@ -39,7 +39,9 @@ TEST_P(LuScheduleTest, SolvesForOneAndForSeveralRightHandSides) {
     lu.solve_transposed<1>(y);
     EXPECT_LT((matrix(corner) * x - b).norm(), 1e-13);
     EXPECT_LT((matrix(corner).transpose() * y - b).norm(), 1e-13);
-    Eigen::Matrix<double, 8, 3> many = Eigen::Matrix<double, 8, 1>::LinSpaced(1.0, 8.0) * b.transpose(), transposed = many;
+    Eigen::Matrix<double, 8, 3> many = Eigen::Matrix<double, 8, 1>::LinSpaced(1.0, 8.0) *
+                                       b.transpose(),
+                                transposed = many;
     lu.solve<8>(many);
     lu.solve_transposed<8>(transposed);
     for (int k = 0; k < 8; ++k) {
@@ -51,8 +53,9 @@ TEST_P(LuScheduleTest, SolvesForOneAndForSeveralRightHandSides) {
 
 TEST_P(LuScheduleTest, EliminatesMoreProductsThanAreListed) {
   constexpr int n = 250;  // n^3/3 products
-  const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
-      n, n, [](Eigen::Index r, Eigen::Index c) { return std::sin(static_cast<double>(3 * r + 7 * c + r * c)) + (r == c ? 40.0 : 0.0); });
+  const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index r, Eigen::Index c) {
+    return std::sin(static_cast<double>(3 * r + 7 * c + r * c)) + (r == c ? 40.0 : 0.0);
+  });
   std::vector<int> start{0}, rows;
   for (int c = 0; c < n; ++c) {
     for (int r = 0; r < n; ++r) rows.push_back(r);
@@ -85,7 +88,8 @@ TEST_P(LuScheduleTest, TakesFillAndPermutationsOfALargeMatrix) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   // Some diagonal entries are zero, so that rows and columns must be exchanged.
   for (int row = 0; row < n; ++row)
-    for (int k = 0; k < 4; ++k) A(row, (7 * row + 13 * k * k + row / 3) % n) += 1.0 + 0.1 * Eigen::internal::random<double>();
+    for (int k = 0; k < 4; ++k)
+      A(row, (7 * row + 13 * k * k + row / 3) % n) += 1.0 + 0.1 * Eigen::internal::random<double>();
   A.diagonal().tail(n / 2).array() += 5.0;
   std::vector<int> start{0}, rows;
   std::vector<double> entries;
@@ -110,7 +114,8 @@ TEST_P(LuScheduleTest, TakesFillAndPermutationsOfALargeMatrix) {
     lu.solve_transposed<1>(y);
     EXPECT_LT((A * x - b).norm(), 1e-11);
     EXPECT_LT((A.transpose() * y - b).norm(), 1e-11);
-    Eigen::Matrix<double, 4, Eigen::Dynamic> many = Eigen::Vector4d(1.0, 2.0, 3.0, 4.0) * b.transpose();
+    Eigen::Matrix<double, 4, Eigen::Dynamic> many =
+        Eigen::Vector4d(1.0, 2.0, 3.0, 4.0) * b.transpose();
     lu.solve<4>(many);
     EXPECT_LT((many.row(2).transpose() - 3.0 * x).norm(), 1e-11);
   }

@@ -8,7 +8,8 @@
 namespace codesign {
 namespace {
 
-// The pattern of an arrow matrix, full first row, first column and diagonal, in compressed-column form.
+// The pattern of an arrow matrix, full first row, first column and diagonal, in compressed-column
+// form.
 const std::vector<int> kPivotStart{0, 4, 6, 8, 10}, kPivotRows{0, 1, 2, 3, 0, 1, 0, 2, 0, 3};
 const std::vector<double> kPivotValues{8.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
 

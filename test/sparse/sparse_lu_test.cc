@@ -9,7 +9,8 @@ namespace codesign {
 namespace {
 
 // A full 4 x 4 pattern, column by column.
-const std::vector<int> kLuStart{0, 4, 8, 12, 16}, kLuRows{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+const std::vector<int> kLuStart{0, 4, 8, 12, 16},
+    kLuRows{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 
 Eigen::Matrix4d dense_matrix(double corner) {
   Eigen::Matrix4d m;

@@ -14,8 +14,9 @@ using Sentences = std::vector<std::string>;
 
 /// Columns sin((k + 1) 0.1 t), t = 0 ... 199: nothing depends on anything.
 Eigen::MatrixXd waves(Eigen::Index columns) {
-  return Eigen::MatrixXd::NullaryExpr(200, columns,
-                                      [](Eigen::Index t, Eigen::Index k) { return std::sin(0.1 * static_cast<double>((k + 1) * t)); });
+  return Eigen::MatrixXd::NullaryExpr(200, columns, [](Eigen::Index t, Eigen::Index k) {
+    return std::sin(0.1 * static_cast<double>((k + 1) * t));
+  });
 }
 
 TEST(Identifiability, FullRankSaysNothing) {
@@ -61,14 +62,16 @@ TEST(Identifiability, AParameterWithoutEffectIsNamed) {
   const Identifiability found = find_identifiable(upper_factor(J));
   EXPECT_EQ(found.rank, 2);
   EXPECT_EQ(found.is_determined, (std::vector<bool>{true, false, true}));
-  EXPECT_EQ(describe_undetermined(found, {"a", "preload", "c"}), Sentences{"preload has no effect"});
+  EXPECT_EQ(describe_undetermined(found, {"a", "preload", "c"}),
+            Sentences{"preload has no effect"});
   const Identifiability none = find_identifiable(Eigen::MatrixXd::Zero(2, 2));
   EXPECT_EQ(none.rank, 0);
   EXPECT_EQ(describe_undetermined(none, {"a", "b"}).size(), 2U);
 }
 
-// A pendulum determines m c and J + m c^2 for mass m, known distance c, inertia J: with torque = (J + m c^2) a + m c g sin q all three
-// columns of (m, J) are told apart by gravity; without gravity m and J appear only together.
+// A pendulum determines m c and J + m c^2 for mass m, known distance c, inertia J: with torque = (J
+// + m c^2) a + m c g sin q all three columns of (m, J) are told apart by gravity; without gravity m
+// and J appear only together.
 TEST(Identifiability, ThePendulumTrap) {
   const double c = 0.5;
   Eigen::MatrixXd J(200, 2);

@@ -29,7 +29,8 @@ struct LinearFit {
     for (Eigen::Index i = 0; i < 100; ++i) {
       const auto k = static_cast<double>(i);
       X.row(i) << 1.0, std::cos(0.05 * k), k / 100.0;
-      y[i] = X.row(i).dot(Eigen::Vector3d(1.0, 2.0, 3.0)) + std::sin(0.3 * k) + 0.2 * (std::fmod(k * k, 7.0) - 3.0);
+      y[i] = X.row(i).dot(Eigen::Vector3d(1.0, 2.0, 3.0)) + std::sin(0.3 * k) +
+             0.2 * (std::fmod(k * k, 7.0) - 3.0);
     }
     residuals = y - X * least_norm(X).solve(y);
   }
@@ -38,7 +39,8 @@ struct LinearFit {
 // statsmodels 0.13.5: OLS(y, X).fit().cov_params().
 TEST(ParameterCovariance, WhiteNoiseGivesTheCovarianceOfOrdinaryLeastSquares) {
   const LinearFit fit;
-  const ParameterCovariance white = parameter_covariance(fit.residuals, fit.X, {100}, options_of(NoiseModel::kWhite));
+  const ParameterCovariance white =
+      parameter_covariance(fit.residuals, fit.X, {100}, options_of(NoiseModel::kWhite));
   EXPECT_NEAR(white.covariance(0, 0), 0.031968533391019884, 1e-14);
   EXPECT_NEAR(white.covariance(0, 1), -0.014272580808639405, 1e-14);
   EXPECT_NEAR(white.covariance(2, 2), 0.131379241180395, 1e-14);
@@ -46,14 +48,18 @@ TEST(ParameterCovariance, WhiteNoiseGivesTheCovarianceOfOrdinaryLeastSquares) {
   EXPECT_EQ(white.lag, 0);
   EXPECT_NEAR(white.above[2], student_quantile(0.975, 97.0) * std::sqrt(0.131379241180395), 1e-12);
   EXPECT_EQ(white.above, white.below);
-  EXPECT_NEAR(white.correlation()(0, 1), -0.014272580808639405 / std::sqrt(0.031968533391019884 * 0.024766585931535075), 1e-12);
+  EXPECT_NEAR(white.correlation()(0, 1),
+              -0.014272580808639405 / std::sqrt(0.031968533391019884 * 0.024766585931535075),
+              1e-12);
   EXPECT_EQ(white.correlation()(1, 1), 1.0);
 }
 
-// statsmodels 0.13.5: get_robustcov_results('HAC', maxlags=5, use_correction=False), whose kernel works on the scores as they are.
+// statsmodels 0.13.5: get_robustcov_results('HAC', maxlags=5, use_correction=False), whose kernel
+// works on the scores as they are.
 TEST(ParameterCovariance, TheKernelOfTheScoresIsThatOfStatsmodels) {
   const LinearFit fit;
-  const Eigen::MatrixXd inverse = least_norm(fit.X.transpose() * fit.X).solve(Eigen::MatrixXd::Identity(3, 3));
+  const Eigen::MatrixXd inverse =
+      least_norm(fit.X.transpose() * fit.X).solve(Eigen::MatrixXd::Identity(3, 3));
   const Eigen::MatrixXd terms = fit.residuals.asDiagonal() * fit.X * inverse;
   const Eigen::MatrixXd covariance = bartlett_sum(terms, {100}, 5);
   EXPECT_NEAR(covariance(0, 0), 0.11539627615412597, 1e-12);
@@ -63,14 +69,16 @@ TEST(ParameterCovariance, TheKernelOfTheScoresIsThatOfStatsmodels) {
 
 TEST(ParameterCovariance, OutputsAtOneTimeDependOnEachOther) {
   const LinearFit fit;
-  // The same output twice has no more information, though white noise would promise half of the variance.
+  // The same output twice has no more information, though white noise would promise half of the
+  // variance.
   Eigen::MatrixXd residuals(100, 2), jacobian(200, 3);
   residuals << fit.residuals, fit.residuals;
   jacobian << fit.X, fit.X;
   const IntervalOptions options = options_of(NoiseModel::kCorrelated, 5);
   const ParameterCovariance once = parameter_covariance(fit.residuals, fit.X, {100}, options);
   const ParameterCovariance twice = parameter_covariance(residuals, jacobian, {100}, options);
-  EXPECT_NEAR(twice.covariance(2, 2) / once.covariance(2, 2), (200.0 / 197.0) / (100.0 / 97.0), 1e-9);
+  EXPECT_NEAR(twice.covariance(2, 2) / once.covariance(2, 2), (200.0 / 197.0) / (100.0 / 97.0),
+              1e-9);
   const IntervalOptions white = options_of(NoiseModel::kWhite);
   EXPECT_NEAR(parameter_covariance(residuals, jacobian, {100}, white).covariance(2, 2) /
                   parameter_covariance(fit.residuals, fit.X, {100}, white).covariance(2, 2),
@@ -81,20 +89,23 @@ TEST(ParameterCovariance, WhatTheDataDoNotTellHasNoInterval) {
   const LinearFit fit;
   Eigen::MatrixXd jacobian(100, 4);
   jacobian << fit.X, 3.0 * fit.X.col(1);
-  for (const NoiseModel noise : {NoiseModel::kWhite, NoiseModel::kCorrelated, NoiseModel::kBootstrap}) {
-    const ParameterCovariance result =
-        parameter_covariance(fit.residuals, jacobian, {100}, options_of(noise, noise == NoiseModel::kWhite ? 0 : 5));
-    const ParameterCovariance told =
-        parameter_covariance(fit.residuals, fit.X, {100}, options_of(noise, noise == NoiseModel::kWhite ? 0 : 5));
+  for (const NoiseModel noise :
+       {NoiseModel::kWhite, NoiseModel::kCorrelated, NoiseModel::kBootstrap}) {
+    const ParameterCovariance result = parameter_covariance(
+        fit.residuals, jacobian, {100}, options_of(noise, noise == NoiseModel::kWhite ? 0 : 5));
+    const ParameterCovariance told = parameter_covariance(
+        fit.residuals, fit.X, {100}, options_of(noise, noise == NoiseModel::kWhite ? 0 : 5));
     EXPECT_EQ(result.identifiability.rank, 3);
-    EXPECT_TRUE(std::isinf(result.above[1]) && std::isinf(result.below[3]) && std::isinf(result.covariance(3, 3)));
+    EXPECT_TRUE(std::isinf(result.above[1]) && std::isinf(result.below[3]) &&
+                std::isinf(result.covariance(3, 3)));
     EXPECT_TRUE(std::isnan(result.covariance(0, 1)) && std::isnan(result.correlation()(3, 1)));
     EXPECT_NEAR(result.covariance(0, 2) / told.covariance(0, 2), 1.0, 1e-8);
     EXPECT_NEAR(result.above[2] / told.above[2], 1.0, 1e-8);
   }
 }
 
-/// How often intervals at 95 % hold the truth, in 200 runs of a linear model with noise u_t = rho u_{t-1} + e_t: per parameter.
+/// How often intervals at 95 % hold the truth, in 200 runs of a linear model with noise u_t = rho
+/// u_{t-1} + e_t: per parameter.
 std::array<int, 3> count_covered(NoiseModel noise, double rho, Eigen::Index count) {
   const Eigen::Vector3d truth(1.0, 2.0, 3.0);
   Eigen::MatrixXd X(count, 3);
@@ -114,9 +125,11 @@ std::array<int, 3> count_covered(NoiseModel noise, double rho, Eigen::Index coun
       u = rho * u + normal(generator);
     }
     const Eigen::VectorXd x = fit.solve(y);
-    const ParameterCovariance known = parameter_covariance(y - X * x, X, {count}, options_of(noise));
+    const ParameterCovariance known =
+        parameter_covariance(y - X * x, X, {count}, options_of(noise));
     for (Eigen::Index k = 0; k < 3; ++k)
-      if (x[k] - known.below[k] <= truth[k] && truth[k] <= x[k] + known.above[k]) ++covered[static_cast<std::size_t>(k)];
+      if (x[k] - known.below[k] <= truth[k] && truth[k] <= x[k] + known.above[k])
+        ++covered[static_cast<std::size_t>(k)];
   }
   return covered;
 }
@@ -136,17 +149,20 @@ TEST(Coverage, OfWhiteNoiseFailsWhereNoiseIsCorrelated) {
 }
 
 TEST(Coverage, OfTheBootstrapIsNearlyTheKernels) {
-  for (const int covered : count_covered(NoiseModel::kBootstrap, 0.8, 1000)) EXPECT_GE(covered, 170);
+  for (const int covered : count_covered(NoiseModel::kBootstrap, 0.8, 1000))
+    EXPECT_GE(covered, 170);
 }
 
 TEST(ParameterCovariance, ThePredictionIsThatOfResidualsOfVarianceOne) {
   const LinearFit fit;
   const double variance = fit.residuals.squaredNorm() / 97.0;
-  const ParameterCovariance white = parameter_covariance(fit.residuals, fit.X, {100}, options_of(NoiseModel::kWhite, 0, 0.9));
+  const ParameterCovariance white =
+      parameter_covariance(fit.residuals, fit.X, {100}, options_of(NoiseModel::kWhite, 0, 0.9));
   const ParameterCovariance predicted = predicted_covariance(fit.X / std::sqrt(variance), 100, 0.9);
   EXPECT_TRUE(predicted.covariance.isApprox(white.covariance, 1e-12));
   EXPECT_TRUE(predicted.above.isApprox(white.above, 1e-12));
-  const ParameterCovariance by_factor = predicted_covariance(upper_factor(fit.X / std::sqrt(variance)), 100, 0.9);
+  const ParameterCovariance by_factor =
+      predicted_covariance(upper_factor(fit.X / std::sqrt(variance)), 100, 0.9);
   EXPECT_TRUE(by_factor.above.isApprox(white.above, 1e-12));
   Eigen::MatrixXd dependent = fit.X;
   dependent.col(2) = 3.0 * dependent.col(0);

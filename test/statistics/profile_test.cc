@@ -33,7 +33,8 @@ TEST(Profile, OfAQuadraticIsTheLinearInterval) {
   EXPECT_FALSE(far.found_better);
 }
 
-// 5 + (exp(x) - 1)^2 reaches 6.25 at ln(1 - sqrt(1.25)) and ln(1 + sqrt(1.25)), but the first value does not exist.
+// 5 + (exp(x) - 1)^2 reaches 6.25 at ln(1 - sqrt(1.25)) and ln(1 + sqrt(1.25)), but the first value
+// does not exist.
 TEST(Profile, FindsSkewedIntervalsAndOpenEnds) {
   const ProfiledCost cost = [](double x) { return 5.0 + std::pow(std::expm1(x), 2.0); };
   const ProfileInterval open = profile_interval(at(0.0, 1.25, 1.0), cost);
@@ -75,10 +76,13 @@ TEST(Profile, TellsFitsThatFailAndFitsThatAreBetter) {
 }
 
 TEST(Profile, TheThresholdGivesTheLinearIntervalOfALinearFit) {
-  // Sum of squares = cost + (x - x0)^2 / v with the variance s^2 v of x: at the end, (x - x0)^2 = factor^2 s^2 v.
+  // Sum of squares = cost + (x - x0)^2 / v with the variance s^2 v of x: at the end, (x - x0)^2 =
+  // factor^2 s^2 v.
   const double variance = 0.3, v = 0.01, factor = interval_factor(0.9, 12.0);
-  EXPECT_NEAR(profile_threshold(0.9, variance, 1.0, 12.0), factor * factor * variance * v / v, 1e-14);
-  EXPECT_NEAR(profile_threshold(0.9, variance, 4.0, 12.0), 4.0 * profile_threshold(0.9, variance, 1.0, 12.0), 1e-13);
+  EXPECT_NEAR(profile_threshold(0.9, variance, 1.0, 12.0), factor * factor * variance * v / v,
+              1e-14);
+  EXPECT_NEAR(profile_threshold(0.9, variance, 4.0, 12.0),
+              4.0 * profile_threshold(0.9, variance, 1.0, 12.0), 1e-13);
 }
 
 }  // namespace

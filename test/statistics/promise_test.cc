@@ -18,7 +18,8 @@ constexpr double kLevel = 0.9;
 
 using Numbers = Eigen::Vector2d;
 
-/// Three terms of a recorded effort: two friction coefficients, which are hard to distinguish, and an offset of the sensor.
+/// Three terms of a recorded effort: two friction coefficients, which are hard to distinguish, and
+/// an offset of the sensor.
 Eigen::MatrixXd regressors() {
   Eigen::MatrixXd terms(kTimes, 3);
   for (int k = 0; k < kTimes; ++k) {
@@ -28,7 +29,8 @@ Eigen::MatrixXd regressors() {
   return terms;
 }
 
-/// The distribution of the two coefficients that one recording of a robot leaves, as `uncertain.from` has it.
+/// The distribution of the two coefficients that one recording of a robot leaves, as
+/// `uncertain.from` has it.
 std::vector<UncertainQuantity> identified(const Numbers& robot, std::mt19937* random) {
   static const Eigen::MatrixXd kTerms = regressors();
   std::normal_distribution<double> normal;
@@ -39,19 +41,23 @@ std::vector<UncertainQuantity> identified(const Numbers& robot, std::mt19937* ra
     one += 0.1 + 0.3 * noise;
   }
   const Eigen::VectorXd fit = kTerms.householderQr().solve(effort);
-  const ParameterCovariance known = parameter_covariance(kTerms * fit - effort, kTerms, {kTimes}, {});
+  const ParameterCovariance known =
+      parameter_covariance(kTerms * fit - effort, kTerms, {kTimes}, {});
   const auto given = conditional_normal(known.covariance.topLeftCorner(2, 2));
   std::vector<UncertainQuantity> quantities(2);
   for (Eigen::Index i = 0; i < 2; ++i) {
     UncertainQuantity& quantity = quantities[static_cast<std::size_t>(i)];
-    quantity.distribution = {DistributionKind::kNormal, fit[i], given->deviations[i], -10.0, 10.0, {}};
+    quantity.distribution = {
+        DistributionKind::kNormal, fit[i], given->deviations[i], -10.0, 10.0, {}};
     if (i > 0) quantity.slopes = {{0, given->slopes(1, 0)}};
   }
   return quantities;
 }
 
 /// The cost of a robot that runs with friction.
-double objective(const Numbers& robot) { return 3.0 * robot[0] + 2.0 * robot[1] + 0.5 * robot.squaredNorm(); }
+double objective(const Numbers& robot) {
+  return 3.0 * robot[0] + 2.0 * robot[1] + 0.5 * robot.squaredNorm();
+}
 
 double bound_of(const std::vector<UncertainQuantity>& quantities) {
   Eigen::VectorXd values(kSamples);
@@ -64,7 +70,8 @@ double bound_of(const std::vector<UncertainQuantity>& quantities) {
   return measure(options, values, Eigen::VectorXd::Constant(kSamples, 1.0 / kSamples)).threshold;
 }
 
-/// Robots around one truth, each identified from a recording of its own, each with a promise of its own; doc/theory.md (24h).
+/// Robots around one truth, each identified from a recording of its own, each with a promise of its
+/// own; doc/theory.md (24h).
 TEST(Promise, IsKeptByAsManyRobotsAsItSays) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
@@ -84,7 +91,8 @@ TEST(Promise, NeedsTheCorrelations) {
   const double bound = bound_of(quantities);
   const UncertainQuantity& first = quantities[0];
   const double slope = quantities[1].slopes[0].slope;
-  quantities[1].distribution.deviation = std::hypot(quantities[1].distribution.deviation, slope * first.distribution.deviation);
+  quantities[1].distribution.deviation =
+      std::hypot(quantities[1].distribution.deviation, slope * first.distribution.deviation);
   quantities[1].slopes.clear();
   const double nominal = objective({first.distribution.mean, quantities[1].distribution.mean});
   EXPECT_LT(slope, 0.0) << "one coefficient can do the other's work";

@@ -30,7 +30,8 @@ Eigen::MatrixXd by_definition(const Eigen::MatrixXd& x, const SeriesLengths& len
     for (Eigen::Index t = 0; t < length; ++t)
       for (Eigen::Index s = 0; s < length; ++s)
         if (std::abs(t - s) <= lag)
-          sum += (1.0 - static_cast<double>(std::abs(t - s)) / (lag + 1.0)) * x.row(begin + t).transpose() * x.row(begin + s);
+          sum += (1.0 - static_cast<double>(std::abs(t - s)) / (lag + 1.0)) *
+                 x.row(begin + t).transpose() * x.row(begin + s);
     begin += length;
   }
   return sum;
@@ -40,7 +41,8 @@ TEST(BartlettSum, IsTheDefinition) {
   const Eigen::MatrixXd x = noise(60, 3, 0.5, 1);
   for (const int lag : {1, 4, 30, 80}) {
     EXPECT_LT((bartlett_sum(x, {60}, lag) - by_definition(x, {60}, lag)).norm(), 1e-10) << lag;
-    EXPECT_LT((bartlett_sum(x, {25, 35}, lag) - by_definition(x, {25, 35}, lag)).norm(), 1e-10) << lag;
+    EXPECT_LT((bartlett_sum(x, {25, 35}, lag) - by_definition(x, {25, 35}, lag)).norm(), 1e-10)
+        << lag;
   }
 }
 
@@ -58,13 +60,15 @@ TEST(LongRun, OfAnAutoregressionIsItsSpectrumAtZero) {
   double mean = 0.0;
   constexpr int kRuns = 20;
   for (unsigned seed = 0; seed < kRuns; ++seed)
-    mean += long_run_covariance(noise(4000, 1, rho, seed), {4000}).covariance(0, 0) / 4000.0 / kRuns;
+    mean +=
+        long_run_covariance(noise(4000, 1, rho, seed), {4000}).covariance(0, 0) / 4000.0 / kRuns;
   EXPECT_NEAR(mean * (1.0 - rho) * (1.0 - rho), 1.0, 0.1);
 }
 
 TEST(LongRun, SeriesAreIndependentOfEachOther) {
   Eigen::MatrixXd x = noise(2000, 1, 0.9, 3);
-  // The second recording repeats the first: taken as one, they would correlate only at lags beyond the kernel's.
+  // The second recording repeats the first: taken as one, they would correlate only at lags beyond
+  // the kernel's.
   x.bottomRows(1000) = x.topRows(1000);
   const double one = long_run_covariance(x.topRows(1000), {1000}, 50).covariance(0, 0);
   const double two = long_run_covariance(x, {1000, 1000}, 50).covariance(0, 0);
@@ -85,11 +89,13 @@ TEST(LongRun, ZerosStayZeros) {
 /// Terms that change slowly: 5 and 7 turns in 1000 rows.
 Eigen::MatrixXd slow_terms() {
   return Eigen::MatrixXd::NullaryExpr(1000, 2, [](Eigen::Index t, Eigen::Index k) {
-    return std::sin(0.00628 * static_cast<double>((2 * k + 5) * t)) + 0.5 * std::cos(3.0 * static_cast<double>(t * t + k));
+    return std::sin(0.00628 * static_cast<double>((2 * k + 5) * t)) +
+           0.5 * std::cos(3.0 * static_cast<double>(t * t + k));
   });
 }
 
-// The variance of a sum of blocks tends to the kernel's estimate of the same width; blocks at the ends make the difference.
+// The variance of a sum of blocks tends to the kernel's estimate of the same width; blocks at the
+// ends make the difference.
 TEST(BlockBootstrap, AgreesWithTheKernel) {
   const Eigen::MatrixXd terms = slow_terms();
   const Eigen::MatrixXd draws = bootstrap_sums(terms, {1000}, 20, 4000, 1);
@@ -102,11 +108,15 @@ TEST(BlockBootstrap, AgreesWithTheKernel) {
 }
 
 TEST(BlockBootstrap, RepeatsItselfForOneSeed) {
-  EXPECT_EQ(bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 3), bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 3));
-  EXPECT_NE(bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 3), bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 4));
+  EXPECT_EQ(bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 3),
+            bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 3));
+  EXPECT_NE(bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 3),
+            bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 4));
 }
 
-TEST(BlockBootstrap, ASeriesOfOneBlockNeverVaries) { EXPECT_LT(bootstrap_sums(slow_terms(), {1000}, 5000, 10, 1).norm(), 1e-9); }
+TEST(BlockBootstrap, ASeriesOfOneBlockNeverVaries) {
+  EXPECT_LT(bootstrap_sums(slow_terms(), {1000}, 5000, 10, 1).norm(), 1e-9);
+}
 
 // Blocks that end at the end of the first series do not reach into the second.
 TEST(BlockBootstrap, BlocksStayInTheirSeries) {
@@ -124,14 +134,16 @@ TEST(EmpiricalQuantile, InterpolatesBetweenEntries) {
 }
 
 Eigen::VectorXd series(double (*f)(double)) {
-  return Eigen::VectorXd::NullaryExpr(100, [f](Eigen::Index k) { return f(static_cast<double>(k)); });
+  return Eigen::VectorXd::NullaryExpr(100,
+                                      [f](Eigen::Index k) { return f(static_cast<double>(k)); });
 }
 double wave(double k) { return std::sin(0.7 * k) + std::fmod(k * k, 7.0) / 5.0; }
 double chirp(double k) { return std::cos(3.0 * k * k + 0.5 * k); }
 
 // statsmodels 0.13.5: acorr_ljungbox(x, lags=[1, 3, 10]).
 TEST(LjungBox, GivesTheNumbersOfStatsmodels) {
-  const Whiteness one = ljung_box(series(wave), {100}, 1), three = ljung_box(series(wave), {100}, 3), ten = ljung_box(series(wave), {100});
+  const Whiteness one = ljung_box(series(wave), {100}, 1),
+                  three = ljung_box(series(wave), {100}, 3), ten = ljung_box(series(wave), {100});
   EXPECT_NEAR(one.statistic, 44.43457848900372, 1e-10);
   EXPECT_NEAR(one.probability / 2.630005432752963e-11, 1.0, 1e-9);
   EXPECT_NEAR(three.statistic, 62.452746721158036, 1e-10);
@@ -151,7 +163,9 @@ TEST(LjungBox, RecordingsHaveTheirOwnMeans) {
   EXPECT_GT(ljung_box(two, {200}).first_correlation, 0.9);
 }
 
-TEST(LjungBox, ZerosAreWhite) { EXPECT_EQ(ljung_box(Eigen::VectorXd::Zero(50), {50}).probability, 1.0); }
+TEST(LjungBox, ZerosAreWhite) {
+  EXPECT_EQ(ljung_box(Eigen::VectorXd::Zero(50), {50}).probability, 1.0);
+}
 
 }  // namespace
 

@@ -20,7 +20,8 @@ TEST(ReactionSharing, WithoutDroppedRowsThereAreNoFurtherUnknowns) {
 
 TEST(ReactionSharing, EachUnknownHasItsPlace) {
   ReactionSharing sharing(1e-8);
-  const std::string hung = four_bar_with(bar("bob") + hinge("bob_hinge", "coupler", "bob", "0 0 -0.6"));
+  const std::string hung =
+      four_bar_with(bar("bob") + hinge("bob_hinge", "coupler", "bob", "0 0 -0.6"));
   const Compiled plain(hung, let_go("{}", "bob_hinge/velocity"), 1e-8);
   for (std::size_t k = 0; k < plain.system.topology().pairs.size(); ++k) {
     const Pair& pair = plain.system.topology().pairs[k];

@@ -14,15 +14,18 @@ CompiledSystem compile(const std::string& urdf, const std::string& study) {
 }
 
 /// A hinged bar with a controller of these gains; `objective` is the list of integral terms.
-CompiledSystem controlled(const std::string& gains, const std::string& input, const std::string& objective) {
+CompiledSystem controlled(const std::string& gains, const std::string& input,
+                          const std::string& objective) {
   return compile(pendulum(), "duration: 1.0\ncontrollers: {hold: {type: pid, input: " + input +
-                                 ", setpoint: 0.0, output: hinge, gains: " + gains + "}}\nobjective: {integral: " + objective + "}\n");
+                                 ", setpoint: 0.0, output: hinge, gains: " + gains +
+                                 "}}\nobjective: {integral: " + objective + "}\n");
 }
 
 const std::string kSwing = "[{signal: hinge/velocity}]";
 
 TEST(CompiledSystem, LaysOutBodiesPairsAndNorms) {
-  const CompiledSystem system = compile(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
+  const CompiledSystem system =
+      compile(four_bar(), let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"));
   const Layout& layout = system.layout();
   EXPECT_EQ(layout.bodies, 3);
   EXPECT_EQ(layout.n, 21);
@@ -35,12 +38,16 @@ TEST(CompiledSystem, LaysOutBodiesPairsAndNorms) {
 TEST(CompiledSystem, AnIntegralIsAStateOnlyIfSomethingReadsIt) {
   EXPECT_EQ(controlled("{p: 1.0}", "hinge/position", kSwing).layout().states, 0);
   EXPECT_EQ(controlled("{p: 1.0, i: 1.0}", "hinge/position", kSwing).layout().states, 1);
-  EXPECT_EQ(controlled("{p: 1.0}", "hinge/position", "[{signal: hold/integral}]").layout().states, 1);
+  EXPECT_EQ(controlled("{p: 1.0}", "hinge/position", "[{signal: hold/integral}]").layout().states,
+            1);
 }
 
 TEST(CompiledSystem, ADifferentialGainNeedsARateThatExists) {
-  EXPECT_TRUE(controlled("{p: 1.0}", "hinge/position", kSwing).controllers().at(0).input_rate.empty());
-  EXPECT_EQ(controlled("{d: 1.0}", "hinge/position", kSwing).controllers().at(0).input_rate.at(0).kind, SignalKind::kJointVelocity);
+  EXPECT_TRUE(
+      controlled("{p: 1.0}", "hinge/position", kSwing).controllers().at(0).input_rate.empty());
+  EXPECT_EQ(
+      controlled("{d: 1.0}", "hinge/position", kSwing).controllers().at(0).input_rate.at(0).kind,
+      SignalKind::kJointVelocity);
   EXPECT_NO_THROW(controlled("{p: 1.0}", "bar/angular_velocity/y", kSwing));
   EXPECT_THROW(controlled("{d: 1.0}", "bar/angular_velocity/y", kSwing), InputError);
 }
@@ -52,7 +59,8 @@ TEST(CompiledSystem, AControllerCannotReadWhatItCauses) {
 
 TEST(CompiledSystem, OnlyJointsWithALoadAreListed) {
   EXPECT_TRUE(compile(pendulum(), let_go("{}", "hinge/velocity")).loads().empty());
-  const CompiledSystem system = compile(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity"));
+  const CompiledSystem system =
+      compile(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity"));
   ASSERT_EQ(system.loads().size(), 2U);
   EXPECT_TRUE(system.loads()[0].reaction_friction);
   EXPECT_FALSE(system.loads()[0].passive);

@@ -14,13 +14,16 @@ namespace {
 
 /// Every kind of tree joint one after the other, written in the wrong order.
 const RobotDescription& robot() {
-  static const RobotDescription robot =
-      read_urdf(robot_text(kGround + link_with("e") + link_with("d") + link_with("c") + link_with("b") + link_with("a") +
-                           joint_with("floating", "floating", "d", "e", "<origin xyz='0.1 0 0'/>") +
-                           joint_with("planar", "planar", "c", "d", "<origin xyz='0 0.1 0'/><axis xyz='0 0 1'/>") +
-                           joint_with("fixed", "fixed", "b", "c", "<origin xyz='0 0 0.2' codesign:xyz='0 0 ${length}' rpy='0.3 0 0'/>") +
-                           joint_with("slide", "prismatic", "a", "b", "<axis xyz='0 2 0'/><limit effort='1' velocity='1'/>") +
-                           joint_with("hinge", "continuous", "ground", "a", "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>")));
+  static const RobotDescription robot = read_urdf(robot_text(
+      kGround + link_with("e") + link_with("d") + link_with("c") + link_with("b") + link_with("a") +
+      joint_with("floating", "floating", "d", "e", "<origin xyz='0.1 0 0'/>") +
+      joint_with("planar", "planar", "c", "d", "<origin xyz='0 0.1 0'/><axis xyz='0 0 1'/>") +
+      joint_with("fixed", "fixed", "b", "c",
+                 "<origin xyz='0 0 0.2' codesign:xyz='0 0 ${length}' rpy='0.3 0 0'/>") +
+      joint_with("slide", "prismatic", "a", "b",
+                 "<axis xyz='0 2 0'/><limit effort='1' velocity='1'/>") +
+      joint_with("hinge", "continuous", "ground", "a",
+                 "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>")));
   return robot;
 }
 
@@ -30,7 +33,8 @@ std::vector<LinkMotion<double>> motions(const Eigen::VectorXd& theta, const Eige
 
 Eigen::VectorXd generic(double phase) {
   Eigen::VectorXd x(11);
-  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = 0.7 * std::sin(2.0 * static_cast<double>(k) + phase);
+  for (Eigen::Index k = 0; k < x.size(); ++k)
+    x[k] = 0.7 * std::sin(2.0 * static_cast<double>(k) + phase);
   return x;
 }
 
@@ -51,7 +55,8 @@ TEST(LinkMotions, AHingeAndASlideByHand) {
   rate[0] = 2.0;
   rate[1] = 3.0;
   const auto links = motions(theta, rate);
-  // Link b has slid by 0.5 along a's y, which the hinge has turned to the ground's -x; the turn carries it towards -y.
+  // Link b has slid by 0.5 along a's y, which the hinge has turned to the ground's -x; the turn
+  // carries it towards -y.
   const LinkMotion<double>& b = links[4];
   EXPECT_LT((b.X.t - Eigen::Vector3d(0.5, 0.0, 0.0)).norm(), 1e-15);
   EXPECT_LT((b.omega - Eigen::Vector3d(0.0, 0.0, 2.0)).norm(), 1e-15);
@@ -84,20 +89,25 @@ TEST(LinkMotions, VelocitiesAreTheDerivativesOfThePoses) {
 TEST(BodyCoordinates, AreThoseOfTheCentreOfMass) {
   Compiled bar(pendulum(), let_go("{hinge: {position: 0.4}}", "hinge/velocity"));
   bar.equations.set_design({});
-  const auto links = link_motions<double>(bar.system.robot(), TreeLayout(bar.system.robot()), {}, Eigen::VectorXd::Constant(1, 0.4),
-                                          Eigen::VectorXd::Constant(1, 3.0));
+  const auto links =
+      link_motions<double>(bar.system.robot(), TreeLayout(bar.system.robot()), {},
+                           Eigen::VectorXd::Constant(1, 0.4), Eigen::VectorXd::Constant(1, 3.0));
   Eigen::VectorXd q, v;
   body_coordinates(bar.system, bar.equations.constants(), links, &q, &v);
-  EXPECT_LT((q.head<3>() - 0.5 * Eigen::Vector3d(-std::sin(0.4), 0.0, -std::cos(0.4))).norm(), 1e-15);
+  EXPECT_LT((q.head<3>() - 0.5 * Eigen::Vector3d(-std::sin(0.4), 0.0, -std::cos(0.4))).norm(),
+            1e-15);
   EXPECT_LT((q.tail<4>() - Eigen::Vector4d(std::cos(0.2), 0.0, std::sin(0.2), 0.0)).norm(), 1e-15);
-  EXPECT_LT((v.head<3>() - 1.5 * Eigen::Vector3d(-std::cos(0.4), 0.0, std::sin(0.4))).norm(), 1e-15);
-  EXPECT_LT((v.tail<4>() - 1.5 * Eigen::Vector4d(-std::sin(0.2), 0.0, std::cos(0.2), 0.0)).norm(), 1e-15);
+  EXPECT_LT((v.head<3>() - 1.5 * Eigen::Vector3d(-std::cos(0.4), 0.0, std::sin(0.4))).norm(),
+            1e-15);
+  EXPECT_LT((v.tail<4>() - 1.5 * Eigen::Vector4d(-std::sin(0.2), 0.0, std::cos(0.2), 0.0)).norm(),
+            1e-15);
 }
 
 TEST(StartRotations, AreTakenOverByFloatingJointsOfTheTreeAlone) {
   RobotDescription robot;
-  for (const auto& [name, type, is_loop] :
-       {std::tuple{"base", JointType::kFloating, false}, {"hinge", JointType::kRevolute, false}, {"closure", JointType::kRevolute, true}}) {
+  for (const auto& [name, type, is_loop] : {std::tuple{"base", JointType::kFloating, false},
+                                            {"hinge", JointType::kRevolute, false},
+                                            {"closure", JointType::kRevolute, true}}) {
     JointDescription& joint = robot.joints.emplace_back();
     joint.name = name;
     joint.type = type;

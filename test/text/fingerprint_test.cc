@@ -27,7 +27,9 @@ TEST(Fingerprint, AChecksumFindsEveryChangedByte) {
   }
 }
 
-TEST(Fingerprint, CountsEveryByte) { EXPECT_NE(fingerprint(std::string("\xff\0", 2)), fingerprint("\xff")); }
+TEST(Fingerprint, CountsEveryByte) {
+  EXPECT_NE(fingerprint(std::string("\xff\0", 2)), fingerprint("\xff"));
+}
 
 }  // namespace
 }  // namespace codesign

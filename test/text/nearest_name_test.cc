@@ -44,13 +44,16 @@ TEST(NearestName, IsOfferedAsAQuestion) {
 }
 
 TEST(UnknownName, SaysWhatWasMeant) {
-  const InputError error = unknown_name({"study.yaml", 3}, "solver.metod", "key", "metod", {"method", "integrator"});
+  const InputError error =
+      unknown_name({"study.yaml", 3}, "solver.metod", "key", "metod", {"method", "integrator"});
   EXPECT_STREQ(error.what(),
-               "study.yaml:3: solver.metod: unknown key, did you mean \"method\"? (value: metod, allowed: method, integrator)");
+               "study.yaml:3: solver.metod: unknown key, did you mean \"method\"? (value: metod, "
+               "allowed: method, integrator)");
 }
 
 TEST(UnknownName, GuessesNothingFromAfar) {
-  EXPECT_EQ(unknown_name({"f", 1}, "e", "joint", "banana", {"crank_joint"}).fault().message, "unknown joint");
+  EXPECT_EQ(unknown_name({"f", 1}, "e", "joint", "banana", {"crank_joint"}).fault().message,
+            "unknown joint");
 }
 
 TEST(UnknownName, ListsAtMostTwoDozenNames) {

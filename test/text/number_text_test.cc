@@ -31,7 +31,8 @@ TEST(NumberText, ReadsWholeNumbersOnly) {
   EXPECT_EQ(parse_number("-1e-3"), -1e-3);
   EXPECT_EQ(parse_number("+2"), 2.0);
   EXPECT_EQ(parse_number(".5"), 0.5);
-  for (const char* text : {"", "1,5", "1.5m", " 1", "1 ", "+-1", "--1", "0x1", "one", "+", "1e"}) EXPECT_FALSE(parse_number(text)) << text;
+  for (const char* text : {"", "1,5", "1.5m", " 1", "1 ", "+-1", "--1", "0x1", "one", "+", "1e"})
+    EXPECT_FALSE(parse_number(text)) << text;
 }
 
 TEST(NumberText, WhatIsTooSmallIsZero) {

@@ -20,7 +20,8 @@ TEST(InputError, NamesFileLineElementValueAndAllowed) {
 }
 
 TEST(InputError, LeavesOutWhatIsNotKnown) {
-  EXPECT_EQ(text({{"a.urdf", 0}, "", "the file cannot be read", "", ""}), "a.urdf: the file cannot be read");
+  EXPECT_EQ(text({{"a.urdf", 0}, "", "the file cannot be read", "", ""}),
+            "a.urdf: the file cannot be read");
   EXPECT_EQ(text({{"", 0}, "duration", "missing", "", ""}), "duration: missing");
   EXPECT_EQ(text({{"a", 1}, "b", "c", "d", ""}), "a:1: b: c (value: d)");
   EXPECT_EQ(text({{"a", 1}, "b", "c", "", "e"}), "a:1: b: c (allowed: e)");
@@ -33,7 +34,11 @@ TEST(InputError, KeepsTheParts) {
 }
 
 TEST(Warning, ReadsLikeAnErrorAboutTheSamePlace) {
-  const InputFault fault{{"arm.urdf", 7}, "<limit>", "lower is above upper, so that nothing is bounded", "1 > -1", "lower <= upper"};
+  const InputFault fault{{"arm.urdf", 7},
+                         "<limit>",
+                         "lower is above upper, so that nothing is bounded",
+                         "1 > -1",
+                         "lower <= upper"};
   const Warning warning = warn("limit_order", fault);
   EXPECT_EQ(warning.code, "limit_order");
   EXPECT_EQ(warning.message, InputError(fault).what());
@@ -70,12 +75,14 @@ TEST(SourceText, HasThePathAsItsName) {
 
 TEST(SourceText, WhatIsNoFileIsNamed) {
   const TemporaryDirectory folder;
-  EXPECT_NE(complaint_about((folder.path() / "none").string()).find("no such file"), std::string::npos);
+  EXPECT_NE(complaint_about((folder.path() / "none").string()).find("no such file"),
+            std::string::npos);
   EXPECT_NE(complaint_about(folder.path().string()).find("folder"), std::string::npos);
   const std::string empty = (folder.path() / "empty").string();
   std::ofstream{empty};
   EXPECT_NE(complaint_about(empty).find("empty"), std::string::npos);
-  EXPECT_NE(complaint_about("/dev/zero").find("too large"), std::string::npos) << "a device without end";
+  EXPECT_NE(complaint_about("/dev/zero").find("too large"), std::string::npos)
+      << "a device without end";
 }
 
 TEST(Status, OnlySuccessIsOk) {

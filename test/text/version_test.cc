@@ -16,7 +16,8 @@ TEST(Version, IsThatOfPackageXml) {
   std::ifstream file(source_dir() + "/package.xml");
   std::ostringstream text;
   text << file.rdbuf();
-  EXPECT_NE(text.str().find("<version>" + std::string(version()) + "</version>"), std::string::npos) << version();
+  EXPECT_NE(text.str().find("<version>" + std::string(version()) + "</version>"), std::string::npos)
+      << version();
 }
 
 }  // namespace

@@ -15,31 +15,46 @@ namespace codesign {
 struct OptionRange {
   double least, most;
   bool has_least = true, has_most = true;  ///< whether the ends are allowed themselves
-  const char* fault = nullptr;             ///< the message for another value; null: "KEY out of range"
-  const char* allowed = nullptr;           ///< the allowed values in words; null: in_words() says them
+  const char* fault = nullptr;    ///< the message for another value; null: "KEY out of range"
+  const char* allowed = nullptr;  ///< the allowed values in words; null: in_words() says them
 
   bool is_bounded() const { return most < std::numeric_limits<double>::infinity(); }
-  bool holds(double value) const { return (has_least ? value >= least : value > least) && (has_most ? value <= most : value < most); }
+  bool holds(double value) const {
+    return (has_least ? value >= least : value > least) &&
+           (has_most ? value <= most : value < most);
+  }
   /// "0 or more", "more than 0 and less than 1", "a whole number from 1 to 4".
   std::string in_words() const;
 };
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr OptionRange kAboveZero{0.0, kUnbounded, false}, kZeroOrMore{0.0, kUnbounded}, kProperFraction{0.0, 1.0, false, false};
+constexpr OptionRange kAboveZero{0.0, kUnbounded, false}, kZeroOrMore{0.0, kUnbounded},
+    kProperFraction{0.0, 1.0, false, false};
 constexpr OptionRange kCount{1.0, kUnbounded, true, true, "count out of range"};
 constexpr OptionRange kPositive{0.0, kUnbounded, false, true, "not above zero"};
-constexpr OptionRange kTime{0.0, kUnbounded, true, true, "number out of range", "a positive number of seconds, or 0 for none"};
+constexpr OptionRange kTime{0.0,
+                            kUnbounded,
+                            true,
+                            true,
+                            "number out of range",
+                            "a positive number of seconds, or 0 for none"};
 constexpr OptionRange kSeed{0.0, std::numeric_limits<int>::max()};
-// Smallest tolerances that double precision (rounding 1.1e-16) can meet: a relative error test needs some hundred roundings, an absolute
-// one the rounding of a position of 1 m, the objective a few roundings of its own.
-constexpr OptionRange tolerance_from(double least) { return {least, 1.0, true, false, "tolerance out of range"}; }
-constexpr OptionRange kRelativeTolerance = tolerance_from(1e-13), kAbsoluteTolerance = tolerance_from(1e-16);
+// Smallest tolerances that double precision (rounding 1.1e-16) can meet: a relative error test
+// needs some hundred roundings, an absolute one the rounding of a position of 1 m, the objective a
+// few roundings of its own.
+constexpr OptionRange tolerance_from(double least) {
+  return {least, 1.0, true, false, "tolerance out of range"};
+}
+constexpr OptionRange kRelativeTolerance = tolerance_from(1e-13),
+                      kAbsoluteTolerance = tolerance_from(1e-16);
 
-constexpr std::array<const char*, 12> kAlgorithmNames{"auto",  "lbfgs", "var1",   "var2",   "tnewton",      "mma",
-                                                      "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs", "levenberg_marquardt"};
+constexpr std::array<const char*, 12> kAlgorithmNames{
+    "auto",  "lbfgs", "var1",   "var2",   "tnewton",      "mma",
+    "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs", "levenberg_marquardt"};
 
-// The keys of each block of options: visit(key, range or names of the choices, option) for each, in the order of messages. Defaults are in
-// the structures. From these rows come the reader, the list of known keys and the test of the tables of keys in doc/study.md.
+// The keys of each block of options: visit(key, range or names of the choices, option) for each, in
+// the order of messages. Defaults are in the structures. From these rows come the reader, the list
+// of known keys and the test of the tables of keys in doc/study.md.
 
 template <class Visit>
 void visit_options(const Visit& visit, LimitOptions* of) {
@@ -61,7 +76,9 @@ void visit_options(const Visit& visit, SolverOptions* of) {
   visit("initial_step", kTime, of->initial_step);
   visit("maximum_step", kTime, of->maximum_step);
   visit("maximum_steps", kCount, of->maximum_steps);
-  visit("maximum_speed", OptionRange{0.0, kUnbounded, true, true, kTime.fault, "a positive speed in m/s and rad/s, or 0: chosen"},
+  visit("maximum_speed",
+        OptionRange{0.0, kUnbounded, true, true, kTime.fault,
+                    "a positive speed in m/s and rad/s, or 0: chosen"},
         of->maximum_speed);
   visit("closure_tolerance", kZeroOrMore, of->closure_tolerance);
   visit("coordinates", kCoordinatesNames, of->coordinates);
@@ -103,7 +120,8 @@ void visit_options(const Visit& visit, EngineOptions* of) {
 
 template <class Visit>
 void visit_options(const Visit& visit, FilterOptions* of) {
-  constexpr OptionRange kCutoff{0.0, kUnbounded, true, true, "a cutoff is a frequency", "more than 0 Hz, or 0 for no filter"};
+  constexpr OptionRange kCutoff{
+      0.0, kUnbounded, true, true, "a cutoff is a frequency", "more than 0 Hz, or 0 for no filter"};
   visit("cutoff", kCutoff, of->cutoff);
   visit("residual_cutoff", kCutoff, of->residual_cutoff);
   visit("order", OptionRange{1, 8}, of->order);
@@ -113,12 +131,18 @@ void visit_options(const Visit& visit, FilterOptions* of) {
 template <class Visit>
 void visit_options(const Visit& visit, LossOptions* of) {
   visit("type", kLossNames, of->kind);
-  visit("scale", OptionRange{0.0, kUnbounded, false, true, kPositive.fault, "more than 0, in units of the residuals' spread"}, of->scale);
+  visit("scale",
+        OptionRange{0.0, kUnbounded, false, true, kPositive.fault,
+                    "more than 0, in units of the residuals' spread"},
+        of->scale);
 }
 
 template <class Visit>
 void visit_options(const Visit& visit, IntervalOptions* of) {
-  visit("level", OptionRange{0.0, 1.0, false, false, "the level is a probability", "between 0 and 1, such as 0.95"}, of->level);
+  visit("level",
+        OptionRange{0.0, 1.0, false, false, "the level is a probability",
+                    "between 0 and 1, such as 0.95"},
+        of->level);
   visit("noise", kNoiseNames, of->noise);
   visit("lag", OptionRange{1, std::numeric_limits<int>::max()}, of->lag);
   visit("profiles", of->profiles);

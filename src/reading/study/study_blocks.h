@@ -17,111 +17,145 @@
 
 namespace codesign {
 
-/// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned (in the order written). Start and bounds
-/// default to the model's; a parameter that the model does not have needs `initial`. @throws InputError
+/// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned
+/// (in the order written). Start and bounds default to the model's; a parameter that the model does
+/// not have needs `initial`. @throws InputError
 void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study);
 
 /// Sets a parameter's bounds to `lower` and `upper` of a map, where given.
 /// @throws InputError if lower is not below upper, or the parameter's value is not within them.
 void read_bounds(const YamlValue& value, Parameter* parameter);
 
-/// Reads a known number, or a map `{initial, lower, upper}`, which may be empty, of a number to be fitted. Missing keys leave their values
-/// unchanged.
+/// Reads a known number, or a map `{initial, lower, upper}`, which may be empty, of a number to be
+/// fitted. Missing keys leave their values unchanged.
 /// @param lower bound of a fitted number unless another one is given. @throws InputError
 void read_fitted(const YamlValue& value, double lower, FittedNumber* number);
 
-/// Appends the parameters that basis controllers declare by `coefficients: {count, initial, lower, upper, tune}` to Study::parameters. For
-/// a controller `push` they are push_c0, push_c1, ... @throws InputError
+/// Appends the parameters that basis controllers declare by `coefficients: {count, initial, lower,
+/// upper, tune}` to Study::parameters. For a controller `push` they are push_c0, push_c1, ...
+/// @throws InputError
 void declare_coefficients(const YamlValue& study_value, Study* study);
 
-/// Reads the keys of one basis controller, after declare_coefficients(). @param table of Study::parameters.
+/// Reads the keys of one basis controller, after declare_coefficients(). @param table of
+/// Study::parameters.
 /// @throws InputError
-BasisDescription read_basis(const std::string& controller, const YamlValue& value, const ParameterTable& table, double study_duration);
+BasisDescription read_basis(const std::string& controller, const YamlValue& value,
+                            const ParameterTable& table, double study_duration);
 
-/// Whether an item of `constraints:` is a bound on the peak of a signal, which read_watched() reads, and not on parameters.
+/// Whether an item of `constraints:` is a bound on the peak of a signal, which read_watched()
+/// reads, and not on parameters.
 bool bounds_a_peak(const YamlValue& item);
 
-/// Reads the constraints among parameters in the list `constraints:`, each `left >= right`, `left <= right` or
-/// `{expression: "${...}", between: [lower, upper]}`; a bound on both sides becomes two constraints. Study::parameters must have been read.
+/// Reads the constraints among parameters in the list `constraints:`, each `left >= right`, `left
+/// <= right` or
+/// `{expression: "${...}", between: [lower, upper]}`; a bound on both sides becomes two
+/// constraints. Study::parameters must have been read.
 /// @throws InputError
 void read_constraints(const YamlValue& study_value, Study* study);
 
 /// Reads `initial_state:`. @param table of Study::parameters. @throws InputError
-void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study);
+void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
+                        const ParameterTable& table, Study* study);
 
-/// Reads `loads:`, the constant efforts and wrenches. @param table of Study::parameters. @throws InputError
-void read_loads(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study);
+/// Reads `loads:`, the constant efforts and wrenches. @param table of Study::parameters. @throws
+/// InputError
+void read_loads(const YamlValue& study_value, const RobotDescription& robot,
+                const ParameterTable& table, Study* study);
 
 /// Reads a function of time: a quantity, or a map whose `type` is sine, waypoints or trajectory.
 /// @param loader for trajectories; may be empty. @throws InputError
-ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table, const TrajectoryLoader& loader);
+ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table,
+                                    const TrajectoryLoader& loader);
 
 /// Reads `controllers:`. Study::duration must have been read.
-/// @param table of Study::parameters, with the coefficients of basis controllers. @throws InputError
-void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table,
-                      const TrajectoryLoader& loader, Study* study);
+/// @param table of Study::parameters, with the coefficients of basis controllers. @throws
+/// InputError
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot,
+                      const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
-/// The optional keys of a controller of this kind: its `own` keys, then the keys about its program on a robot.
+/// The optional keys of a controller of this kind: its `own` keys, then the keys about its program
+/// on a robot.
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own);
 
-/// Reads them into ControllerDescription::realization; the gains must have been read. @throws InputError
-void read_realization(const YamlValue& value, const ParameterTable& table, ControllerDescription* controller);
+/// Reads them into ControllerDescription::realization; the gains must have been read. @throws
+/// InputError
+void read_realization(const YamlValue& value, const ParameterTable& table,
+                      ControllerDescription* controller);
 
-/// Reads `hardware:`, doc/study.md: for controllers of the study, the namespaces of their gains on the robot. The controllers must have
-/// been read. @throws InputError for an unknown controller, a controller without gains of control_toolbox, a bad or repeated namespace, or
-/// an `i` gain without `i_clamp`.
+/// Reads `hardware:`, doc/study.md: for controllers of the study, the namespaces of their gains on
+/// the robot. The controllers must have been read. @throws InputError for an unknown controller, a
+/// controller without gains of control_toolbox, a bad or repeated namespace, or an `i` gain without
+/// `i_clamp`.
 void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study);
 
 /// Reads `objective:`, which may be missing or empty. Study::controllers must have been read.
 /// @param table of Study::parameters. @throws InputError
-void read_objective(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table,
-                    const TrajectoryLoader& loader, Study* study);
+void read_objective(const YamlValue& study_value, const RobotDescription& robot,
+                    const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
-/// Reads `path:`, `final:` and `objective.peak:`, each a list that may be missing. Study::controllers and Study::duration must have been
-/// read. @param table of Study::parameters. @throws InputError
-void read_watched(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, const TrajectoryLoader& loader,
-                  Study* study);
+/// Reads `path:`, `final:` and `objective.peak:`, each a list that may be missing.
+/// Study::controllers and Study::duration must have been read. @param table of Study::parameters.
+/// @throws InputError
+void read_watched(const YamlValue& study_value, const RobotDescription& robot,
+                  const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
 /// Reads all of a study except the blocks of EnsembleDescription.
 using RunReader = std::function<Study(const YamlValue& study_value)>;
 
-/// Reads the map `runs:`. The changes of a run are merged into the study's own tree, and the whole is read by `read_run`.
+/// Reads the map `runs:`. The changes of a run are merged into the study's own tree, and the whole
+/// is read by `read_run`.
 /// @param study as read without changes. @throws InputError
-std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study& study, const RunReader& read_run);
+std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study& study,
+                                      const RunReader& read_run);
 
 /// Reads the map `uncertain:`.
-/// @param study with its parameters. @param runs of the study; parameters that they set cannot be uncertain. @param files reads the file
-/// that `from` names; empty: such a study is refused.
+/// @param study with its parameters. @param runs of the study; parameters that they set cannot be
+/// uncertain. @param files reads the file that `from` names; empty: such a study is refused.
 /// @throws InputError
-std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const RobotDescription& robot, const Study& study,
-                                              const std::vector<RunDescription>& runs, const FileLoader& files);
+std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain,
+                                              const RobotDescription& robot, const Study& study,
+                                              const std::vector<RunDescription>& runs,
+                                              const FileLoader& files);
 
-/// Reads `uncertain.from`: the normal distribution of several parameters that an identification has found, with its correlations,
-/// doc/theory.md (24h). Numbers of sensors and recordings, which are not parameters of the model, are left out: the result is the marginal
-/// distribution of the other numbers.
-/// @param from the file's path, or {file, except}. @param study with its parameters. @param own names with a distribution of their own in
-/// `uncertain:`. @param files reads the file; empty: refused. @param first how many uncertain quantities come before these
+/// Reads `uncertain.from`: the normal distribution of several parameters that an identification has
+/// found, with its correlations, doc/theory.md (24h). Numbers of sensors and recordings, which are
+/// not parameters of the model, are left out: the result is the marginal distribution of the other
+/// numbers.
+/// @param from the file's path, or {file, except}. @param study with its parameters. @param own
+/// names with a distribution of their own in `uncertain:`. @param files reads the file; empty:
+/// refused. @param first how many uncertain quantities come before these
 /// @throws InputError, located in the study or in the file
-std::vector<UncertainQuantity> read_identified(const YamlValue& from, const Study& study, const std::set<std::string>& own,
+std::vector<UncertainQuantity> read_identified(const YamlValue& from, const Study& study,
+                                               const std::set<std::string>& own,
                                                const FileLoader& files, std::size_t first);
 
-/// Reads `runs:`, `uncertain:`, `robust:`, `multistart:` and `engine:`. All other blocks of the study must have been read. `robust` is set
-/// exactly if the study has runs or uncertain quantities. @param files as in read_study(). @throws InputError
-EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot, const RunReader& read_run,
-                                  const FileLoader& files, const Study& study);
+/// Reads `runs:`, `uncertain:`, `robust:`, `multistart:` and `engine:`. All other blocks of the
+/// study must have been read. `robust` is set exactly if the study has runs or uncertain
+/// quantities. @param files as in read_study(). @throws InputError
+EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot,
+                                  const RunReader& read_run, const FileLoader& files,
+                                  const Study& study);
 
-/// Reads a list of recordings, `identify.data` or `identify.holdout`; at least one. @throws InputError
-std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot, const Study& study);
+/// Reads a list of recordings, `identify.data` or `identify.holdout`; at least one. @throws
+/// InputError
+std::vector<RecordingDescription> read_recording_list(const YamlValue& list,
+                                                      const RobotDescription& robot,
+                                                      const Study& study);
 
-/// Reads the map `identify:` of a study whose parameters have been read. The recordings themselves are not opened.
-/// @param is_planned the study has a block `excite:`, so that there may be no data yet. @throws InputError
-IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study,
+/// Reads the map `identify:` of a study whose parameters have been read. The recordings themselves
+/// are not opened.
+/// @param is_planned the study has a block `excite:`, so that there may be no data yet. @throws
+/// InputError
+IdentificationDescription read_identification(const YamlValue& identify,
+                                              const RobotDescription& robot, const Study& study,
                                               bool is_planned = false);
 
-/// The duration of a study with `identify:` that has no `duration`: the duration of a segment, `identify.segment` or its default [s].
+/// The duration of a study with `identify:` that has no `duration`: the duration of a segment,
+/// `identify.segment` or its default [s].
 double segment_of(const YamlValue& identify);
 
-/// Reads the map `excite:` of a study. Whether the joints determine the motion is not examined. @throws InputError
+/// Reads the map `excite:` of a study. Whether the joints determine the motion is not examined.
+/// @throws InputError
 ExcitationDescription read_excitation(const YamlValue& excite, const RobotDescription& robot);
 
 }  // namespace codesign

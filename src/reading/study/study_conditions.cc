@@ -22,39 +22,52 @@ const Names& pose_keys() {
   return kKeys;
 }
 
-bool has_pose(const JointDescription& joint) { return joint.type == JointType::kPlanar || joint.type == JointType::kFloating; }
+bool has_pose(const JointDescription& joint) {
+  return joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
+}
 
 /// The joint or loop of this name, whose initial state may be given.
-const JointDescription& starting_joint(const std::string& name, const RobotDescription& robot, const YamlValue& value) {
+const JointDescription& starting_joint(const std::string& name, const RobotDescription& robot,
+                                       const YamlValue& value) {
   Names known;
   for (const JointDescription& joint : robot.joints) {
     const bool free = !joint.is_loop && has_pose(joint);
     if (joint.name == name && (free || has_one_coordinate(joint.type))) return joint;
     if (joint.name == name)
-      value.fail("this joint has neither a single coordinate nor a pose", "a revolute, continuous, prismatic, planar or floating joint");
+      value.fail("this joint has neither a single coordinate nor a pose",
+                 "a revolute, continuous, prismatic, planar or floating joint");
     if (free || has_one_coordinate(joint.type)) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
 }
 
-void read_scalar_start(const YamlValue& value, const ParameterTable& table, InitialJointState* state) {
-  if (const auto position = value.find("position")) state->position = read_quantity(*position, table);
-  if (const auto velocity = value.find("velocity")) state->velocity = read_quantity(*velocity, table);
+void read_scalar_start(const YamlValue& value, const ParameterTable& table,
+                       InitialJointState* state) {
+  if (const auto position = value.find("position"))
+    state->position = read_quantity(*position, table);
+  if (const auto velocity = value.find("velocity"))
+    state->velocity = read_quantity(*velocity, table);
   const auto guess = value.find("guess");
   if (guess && state->position) guess->fail("a joint has either a position or a guess of it");
   if (guess) state->guess = guess->number();
 }
 
 /// Checks that a vector lies in the plane of a planar joint, at the parameters' start values.
-void check_in_plane(const YamlValue& value, const QuantityVector& vector, const JointDescription& joint) {
-  const auto nominal = [](const QuantityVector& q) { return Vector3<double>(q[0].nominal(), q[1].nominal(), q[2].nominal()); };
+void check_in_plane(const YamlValue& value, const QuantityVector& vector,
+                    const JointDescription& joint) {
+  const auto nominal = [](const QuantityVector& q) {
+    return Vector3<double>(q[0].nominal(), q[1].nominal(), q[2].nominal());
+  };
   const Vector3<double> x = nominal(vector), normal = nominal(joint.axis).normalized();
   if (std::abs(x.dot(normal)) > 1e-9 * (1.0 + x.norm()))
-    value.fail("the vector does not lie in the plane of the joint; its component along the normal is " + to_decimal(x.dot(normal)),
-               "a vector normal to the joint's <axis>");
+    value.fail(
+        "the vector does not lie in the plane of the joint; its component along the normal is " +
+            to_decimal(x.dot(normal)),
+        "a vector normal to the joint's <axis>");
 }
 
-void read_pose_start(const YamlValue& value, const JointDescription& joint, const ParameterTable& table, InitialJointState* state) {
+void read_pose_start(const YamlValue& value, const JointDescription& joint,
+                     const ParameterTable& table, InitialJointState* state) {
   const bool planar = joint.type == JointType::kPlanar;
   const auto slide = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
@@ -65,8 +78,10 @@ void read_pose_start(const YamlValue& value, const JointDescription& joint, cons
   const auto turn = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
     if (!found) return;
-    if (planar && found->is_list()) found->fail("a planar joint turns only about its normal", "one number");
-    *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, table)} : read_vector(*found, table);
+    if (planar && found->is_list())
+      found->fail("a planar joint turns only about its normal", "one number");
+    *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, table)}
+                     : read_vector(*found, table);
   };
   slide("translation", &state->translation);
   slide("linear_velocity", &state->linear_velocity);
@@ -76,49 +91,60 @@ void read_pose_start(const YamlValue& value, const JointDescription& joint, cons
   if (state->angular_velocity && !state->rotation) state->rotation.emplace();
 }
 
-InitialJointState read_joint_start(const std::string& name, const YamlValue& value, const RobotDescription& robot,
-                                   const ParameterTable& table) {
+InitialJointState read_joint_start(const std::string& name, const YamlValue& value,
+                                   const RobotDescription& robot, const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
   const Names& keys = has_pose(joint) ? pose_keys() : scalar_keys();
   const Names& others = has_pose(joint) ? scalar_keys() : pose_keys();
   if (value.is_map())
     for (const auto& [key, at] : value.entries())
-      if (std::find(others.begin(), others.end(), key) != others.end()) at.fail("this joint's start has no " + key, list_names(keys));
+      if (std::find(others.begin(), others.end(), key) != others.end())
+        at.fail("this joint's start has no " + key, list_names(keys));
   value.require_keys({}, keys);
-  if (value.entries().empty()) value.fail("no initial state is given for this joint", list_names(keys));
+  if (value.entries().empty())
+    value.fail("no initial state is given for this joint", list_names(keys));
   InitialJointState state;
   state.joint = joint.name;
   state.where = value.where();
-  has_pose(joint) ? read_pose_start(value, joint, table, &state) : read_scalar_start(value, table, &state);
+  has_pose(joint) ? read_pose_start(value, joint, table, &state)
+                  : read_scalar_start(value, table, &state);
   return state;
 }
 
 }  // namespace
 
-void read_initial_state(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study) {
+void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
+                        const ParameterTable& table, Study* study) {
   const auto initial_state = study_value.find("initial_state");
   if (!initial_state) return;
-  for (const auto& [name, value] : initial_state->entries()) study->initial_state.push_back(read_joint_start(name, value, robot, table));
+  for (const auto& [name, value] : initial_state->entries())
+    study->initial_state.push_back(read_joint_start(name, value, robot, table));
 }
 
 namespace {
 
-void read_effort(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table, LoadDescription* load) {
+void read_effort(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table,
+                 LoadDescription* load) {
   value.require_keys({"joint", "effort"}, {});
   const YamlValue joint = value.at("joint");
   load->joint = scalar_joint(joint.text(), robot, joint).name;
   load->effort = read_quantity(value.at("effort"), table);
 }
 
-void read_wrench(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table, LoadDescription* load) {
+void read_wrench(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table,
+                 LoadDescription* load) {
   value.require_keys({"link"}, {"force", "torque", "point", "frame"});
   const YamlValue link = value.at("link");
   std::vector<std::string> known;
   for (const LinkDescription& description : robot.links) known.push_back(description.name);
   load->link = link.choice("link", known);
-  const auto force = value.find("force"), torque = value.find("torque"), point = value.find("point"), frame = value.find("frame");
-  if (!force && !torque) value.fail("a load on a link needs a force or a torque", "force: [x, y, z], torque: [x, y, z]");
-  if (point && !force) point->fail("a point without a force has no meaning: it is where the force acts", "force: [x, y, z]");
+  const auto force = value.find("force"), torque = value.find("torque"),
+             point = value.find("point"), frame = value.find("frame");
+  if (!force && !torque)
+    value.fail("a load on a link needs a force or a torque", "force: [x, y, z], torque: [x, y, z]");
+  if (point && !force)
+    point->fail("a point without a force has no meaning: it is where the force acts",
+                "force: [x, y, z]");
   if (force) load->force = read_vector(*force, table);
   if (torque) load->torque = read_vector(*torque, table);
   if (point) load->point = read_vector(*point, table);
@@ -127,16 +153,20 @@ void read_wrench(const YamlValue& value, const RobotDescription& robot, const Pa
 
 }  // namespace
 
-void read_loads(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, Study* study) {
+void read_loads(const YamlValue& study_value, const RobotDescription& robot,
+                const ParameterTable& table, Study* study) {
   const auto loads = study_value.find("loads");
   if (!loads) return;
   for (const YamlValue& value : loads->items()) {
     LoadDescription load;
     load.where = value.where();
-    if (!value.is_map()) value.fail("a load must be a map", "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
+    if (!value.is_map())
+      value.fail("a load must be a map",
+                 "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
     const bool on_joint = value.find("joint").has_value(), on_link = value.find("link").has_value();
     if (on_joint == on_link)
-      value.fail("a load acts on one joint or on one link", "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
+      value.fail("a load acts on one joint or on one link",
+                 "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
     on_joint ? read_effort(value, robot, table, &load) : read_wrench(value, robot, table, &load);
     study->loads.push_back(load);
   }

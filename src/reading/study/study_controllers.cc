@@ -17,10 +17,12 @@ struct Context {
   const Study& study;
 };
 
-void read_gains(const YamlValue& gains, const ParameterTable& table, ControllerDescription* controller) {
+void read_gains(const YamlValue& gains, const ParameterTable& table,
+                ControllerDescription* controller) {
   std::vector<std::string> known;
   std::string all;
-  for (const char* letter = controller->kind->gains; *letter; ++letter) known.emplace_back(1, *letter);
+  for (const char* letter = controller->kind->gains; *letter; ++letter)
+    known.emplace_back(1, *letter);
   for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
   gains.require_keys({}, known);
   if (gains.entries().empty()) gains.fail("a controller needs at least one gain", all);
@@ -30,11 +32,14 @@ void read_gains(const YamlValue& gains, const ParameterTable& table, ControllerD
 }
 
 /// A controller must not have the name of a joint or link, since signals would be ambiguous.
-void refuse_taken_name(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+void refuse_taken_name(const std::string& name, const YamlValue& value,
+                       const RobotDescription& robot) {
   const auto taken = [&name](const auto& item) { return item.name == name; };
   const bool joint = std::any_of(robot.joints.begin(), robot.joints.end(), taken);
   const bool link = std::any_of(robot.links.begin(), robot.links.end(), taken);
-  if (joint || link) throw InputError({value.where(), value.path(), "a joint or link has the same name", name, "another name"});
+  if (joint || link)
+    throw InputError(
+        {value.where(), value.path(), "a joint or link has the same name", name, "another name"});
 }
 
 // A signal may use the controllers before this one, which allows cascades and excludes cycles.
@@ -46,44 +51,57 @@ SignalDescription read_signal(const YamlValue& value, const Context& context) {
 
 /// The position of the joint that the controller drives.
 SignalDescription own_position(const ControllerDescription& controller) {
-  return {controller.output + "/position", {{1.0, controller.output, "position", ""}}, controller.where};
+  return {controller.output + "/position",
+          {{1.0, controller.output, "position", ""}},
+          controller.where};
 }
 
-void read_with_input(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "input", "setpoint", "gains"}, with_realization_keys(controller->kind, {"output"}));
+void read_with_input(const YamlValue& value, const Context& context,
+                     ControllerDescription* controller) {
+  value.require_keys({"type", "input", "setpoint", "gains"},
+                     with_realization_keys(controller->kind, {"output"}));
   controller->input = read_signal(value.at("input"), context);
   controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
   read_gains(value.at("gains"), context.table, controller);
 }
 
-/// Such as gravity compensation and computed torque; the input is the position of the joint that they drive.
-void read_with_own_position(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "setpoint", "output", "gains"}, with_realization_keys(controller->kind, {}));
+/// Such as gravity compensation and computed torque; the input is the position of the joint that
+/// they drive.
+void read_with_own_position(const YamlValue& value, const Context& context,
+                            ControllerDescription* controller) {
+  value.require_keys({"type", "setpoint", "output", "gains"},
+                     with_realization_keys(controller->kind, {}));
   controller->input = own_position(*controller);
   controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
   read_gains(value.at("gains"), context.table, controller);
 }
 
-void read_state_feedback(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type"}, with_realization_keys(controller->kind, {"output", "feedback", "feedforward"}));
+void read_state_feedback(const YamlValue& value, const Context& context,
+                         ControllerDescription* controller) {
+  value.require_keys(
+      {"type"}, with_realization_keys(controller->kind, {"output", "feedback", "feedforward"}));
   if (const auto feedforward = value.find("feedforward"))
     controller->feedforward = read_reference(*feedforward, context.table, context.loader);
   const auto feedback = value.find("feedback");
   const std::vector<YamlValue> terms = feedback ? feedback->items() : std::vector<YamlValue>{};
   if (terms.empty() && !value.find("feedforward"))
-    value.fail("the controller does nothing", "feedback: at least one {signal, gain, reference}; or feedforward");
+    value.fail("the controller does nothing",
+               "feedback: at least one {signal, gain, reference}; or feedforward");
   for (const YamlValue& item : terms) {
     item.require_keys({"signal", "gain"}, {"reference"});
     FeedbackTerm term;
     term.signal = read_signal(item.at("signal"), context);
     term.gain = read_quantity(item.at("gain"), context.table);
-    if (const auto reference = item.find("reference")) term.reference = read_reference(*reference, context.table, context.loader);
+    if (const auto reference = item.find("reference"))
+      term.reference = read_reference(*reference, context.table, context.loader);
     controller->feedback.push_back(term);
   }
 }
 
-void read_basis_controller(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  value.require_keys({"type", "output", "coefficients"}, with_realization_keys(controller->kind, {"shape", "duration"}));
+void read_basis_controller(const YamlValue& value, const Context& context,
+                           ControllerDescription* controller) {
+  value.require_keys({"type", "output", "coefficients"},
+                     with_realization_keys(controller->kind, {"shape", "duration"}));
   controller->basis = read_basis(controller->name, value, context.table, context.study.duration);
 }
 
@@ -100,15 +118,18 @@ void read_law(const YamlValue& value, const Context& context, ControllerDescript
   }
 }
 
-ControllerDescription read_controller(const std::string& name, const YamlValue& value, const Context& context) {
+ControllerDescription read_controller(const std::string& name, const YamlValue& value,
+                                      const Context& context) {
   const std::vector<ControllerKind>& laws = context.robot.laws.controllers;
   refuse_taken_name(name, value, context.robot);
   ControllerDescription controller;
   controller.name = name;
   controller.where = value.where();
   const std::string type = value.at("type").choice("controller type", names_of(laws));
-  controller.kind = *std::find_if(laws.begin(), laws.end(), [&type](const ControllerKind& law) { return law->name == type; });
-  if (const auto output = value.find("output")) controller.output = scalar_joint(output->text(), context.robot, *output).name;
+  controller.kind = *std::find_if(laws.begin(), laws.end(),
+                                  [&type](const ControllerKind& law) { return law->name == type; });
+  if (const auto output = value.find("output"))
+    controller.output = scalar_joint(output->text(), context.robot, *output).name;
   read_law(value, context, &controller);
   read_realization(value, context.table, &controller);
   return controller;
@@ -117,31 +138,39 @@ ControllerDescription read_controller(const std::string& name, const YamlValue& 
 /// A controller without a joint acts through later controllers that read its output.
 void refuse_idle(const Study& study) {
   const auto reads = [](const SignalDescription& signal, const std::string& name) {
-    return std::any_of(signal.terms.begin(), signal.terms.end(),
-                       [&name](const SignalTerm& term) { return term.object == name && term.quantity == "output"; });
+    return std::any_of(signal.terms.begin(), signal.terms.end(), [&name](const SignalTerm& term) {
+      return term.object == name && term.quantity == "output";
+    });
   };
   for (const ControllerDescription& controller : study.controllers) {
     if (!controller.output.empty()) continue;
-    const bool is_read = std::any_of(study.controllers.begin(), study.controllers.end(), [&](const ControllerDescription& other) {
-      return reads(other.input, controller.name) ||
-             std::any_of(other.feedback.begin(), other.feedback.end(),
-                         [&](const FeedbackTerm& term) { return reads(term.signal, controller.name); });
-    });
+    const bool is_read = std::any_of(
+        study.controllers.begin(), study.controllers.end(),
+        [&](const ControllerDescription& other) {
+          return reads(other.input, controller.name) ||
+                 std::any_of(
+                     other.feedback.begin(), other.feedback.end(),
+                     [&](const FeedbackTerm& term) { return reads(term.signal, controller.name); });
+        });
     if (!is_read)
-      throw InputError({controller.where, "controllers." + controller.name + ".output",
-                        "required key is missing: no later controller reads the output of this one either", controller.name,
-                        "output: a joint; or a later controller whose input has the term " + controller.name + "/output"});
+      throw InputError(
+          {controller.where, "controllers." + controller.name + ".output",
+           "required key is missing: no later controller reads the output of this one either",
+           controller.name,
+           "output: a joint; or a later controller whose input has the term " + controller.name +
+               "/output"});
   }
 }
 
 }  // namespace
 
-void read_controllers(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table,
-                      const TrajectoryLoader& loader, Study* study) {
+void read_controllers(const YamlValue& study_value, const RobotDescription& robot,
+                      const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const auto controllers = study_value.find("controllers");
   if (!controllers) return;
   for (const auto& [name, value] : controllers->entries())
-    study->controllers.push_back(read_controller(name, value, Context{robot, table, loader, *study}));
+    study->controllers.push_back(
+        read_controller(name, value, Context{robot, table, loader, *study}));
   refuse_idle(*study);
 }
 

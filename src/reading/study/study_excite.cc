@@ -13,20 +13,25 @@ namespace {
 
 constexpr double kMostPoints = 1e6;
 
-void read_magnitude(const YamlValue& parent, const std::string& key, std::optional<double>* magnitude) {
+void read_magnitude(const YamlValue& parent, const std::string& key,
+                    std::optional<double>* magnitude) {
   if (const auto value = parent.find(key)) *magnitude = read_above_zero(*value);
 }
 
-MotionLimitDescription read_limits(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+MotionLimitDescription read_limits(const std::string& name, const YamlValue& value,
+                                   const RobotDescription& robot) {
   MotionLimitDescription limits;
   limits.joint = scalar_joint(name, robot, value).name;
   limits.element = value.path();
   limits.where = value.where();
   if (const auto position = value.find("position")) {
     const std::vector<YamlValue> ends = position->items();
-    if (ends.size() != 2) position->fail("a range of positions has two ends, found " + std::to_string(ends.size()), "[lower, upper]");
+    if (ends.size() != 2)
+      position->fail("a range of positions has two ends, found " + std::to_string(ends.size()),
+                     "[lower, upper]");
     limits.position = {ends[0].number(), ends[1].number()};
-    if (!((*limits.position)[0] < (*limits.position)[1])) position->fail("the range is empty", "lower below upper");
+    if (!((*limits.position)[0] < (*limits.position)[1]))
+      position->fail("the range is empty", "lower below upper");
   }
   read_magnitude(value, "velocity", &limits.velocity);
   read_magnitude(value, "acceleration", &limits.acceleration);
@@ -35,32 +40,39 @@ MotionLimitDescription read_limits(const std::string& name, const YamlValue& val
 }
 
 /// @param noise of all joints; 0: each joint has its own.
-ExcitedJoint read_joint(const std::string& name, const YamlValue& value, const RobotDescription& robot, double noise) {
+ExcitedJoint read_joint(const std::string& name, const YamlValue& value,
+                        const RobotDescription& robot, double noise) {
   value.require_keys({}, {"position", "velocity", "acceleration", "effort", "noise"});
   ExcitedJoint joint;
   joint.limits = read_limits(name, value, robot);
   joint.noise = noise;
   if (const auto own = value.find("noise")) joint.noise = read_above_zero(*own);
   if (joint.noise == 0.0)
-    value.fail("how noisy the efforts are is not known", "noise: standard deviation of one sample [N m or N], here or as excite.noise");
+    value.fail("how noisy the efforts are is not known",
+               "noise: standard deviation of one sample [N m or N], here or as excite.noise");
   return joint;
 }
 
-void read_joints(const YamlValue& excite, const RobotDescription& robot, ExcitationDescription* description) {
+void read_joints(const YamlValue& excite, const RobotDescription& robot,
+                 ExcitationDescription* description) {
   const auto noise = excite.find("noise");
   const double of_all = noise ? read_above_zero(*noise) : 0.0;
   const YamlValue joints = excite.at("joints");
-  for (const auto& [name, value] : joints.entries()) description->joints.push_back(read_joint(name, value, robot, of_all));
-  if (description->joints.empty()) joints.fail("no joint to move", "the joints that determine the motion");
+  for (const auto& [name, value] : joints.entries())
+    description->joints.push_back(read_joint(name, value, robot, of_all));
+  if (description->joints.empty())
+    joints.fail("no joint to move", "the joints that determine the motion");
 }
 
-void read_followers(const YamlValue& limits, const RobotDescription& robot, ExcitationDescription* description) {
+void read_followers(const YamlValue& limits, const RobotDescription& robot,
+                    ExcitationDescription* description) {
   for (const auto& [name, value] : limits.entries()) {
     value.require_keys({}, {"position", "velocity"});
     const std::string joint = name;
     if (std::any_of(description->joints.begin(), description->joints.end(),
                     [&](const ExcitedJoint& excited) { return excited.limits.joint == joint; }))
-      value.fail("the joint is one of excite.joints", "its limits there, and here those of joints that follow");
+      value.fail("the joint is one of excite.joints",
+                 "its limits there, and here those of joints that follow");
     description->followers.push_back(read_limits(name, value, robot));
   }
 }
@@ -75,11 +87,14 @@ void check_shape(const YamlValue& excite, const ExcitationDescription& descripti
 
 void check_recording_plan(const YamlValue& excite, const ExcitationDescription& description) {
   const double samples = description.period * description.sample_rate;
-  const int waves = description.trajectory == TrajectoryKind::kSpline ? description.knots : description.harmonics;
+  const int waves =
+      description.trajectory == TrajectoryKind::kSpline ? description.knots : description.harmonics;
   const YamlValue at = excite.find("sample_rate").value_or(excite);
   if (samples < 4.0 * waves)
-    at.fail("the samples do not show the trajectory", "at least " + std::to_string(4 * waves) + " samples in a period");
-  if (samples * description.periods > kMostPoints) at.fail("more than a million samples", "a lower rate, or a shorter motion");
+    at.fail("the samples do not show the trajectory",
+            "at least " + std::to_string(4 * waves) + " samples in a period");
+  if (samples * description.periods > kMostPoints)
+    at.fail("more than a million samples", "a lower rate, or a shorter motion");
 }
 
 }  // namespace

@@ -14,11 +14,13 @@ namespace {
 
 constexpr int kMostQueued = 100;
 
-std::optional<Quantity> read_positive_quantity(const YamlValue& controller, const std::string& key, const ParameterTable& table) {
+std::optional<Quantity> read_positive_quantity(const YamlValue& controller, const std::string& key,
+                                               const ParameterTable& table) {
   const auto value = controller.find(key);
   if (!value) return std::nullopt;
   const Quantity quantity = read_quantity(*value, table);
-  if (!(quantity.nominal() > 0.0)) value->fail("this must be positive at the parameters' start", "more than 0");
+  if (!(quantity.nominal() > 0.0))
+    value->fail("this must be positive at the parameters' start", "more than 0");
   return quantity;
 }
 
@@ -26,33 +28,40 @@ std::optional<Quantity> read_positive_quantity(const YamlValue& controller, cons
 double read_instant(const YamlValue& controller, const std::string& key, bool may_be_zero) {
   const auto value = controller.find(key);
   if (!value) return 0.0;
-  if (value->text().compare(0, 2, "${") == 0) value->fail("this must not depend on parameters", "a number");
+  if (value->text().compare(0, 2, "${") == 0)
+    value->fail("this must not depend on parameters", "a number");
   const double number = value->number();
   if (number < 0.0 || (number == 0.0 && !may_be_zero))
-    value->fail(may_be_zero ? "this must not be negative" : "this must be positive", may_be_zero ? "0 or more" : "more than 0");
+    value->fail(may_be_zero ? "this must not be negative" : "this must be positive",
+                may_be_zero ? "0 or more" : "more than 0");
   return number;
 }
 
 /// A key that means nothing without another one.
-void require_partner(const YamlValue& controller, const std::string& key, bool has_other, const std::string& other) {
-  if (const auto value = controller.find(key); value && !has_other) value->fail("this key needs " + other, "with " + other);
+void require_partner(const YamlValue& controller, const std::string& key, bool has_other,
+                     const std::string& other) {
+  if (const auto value = controller.find(key); value && !has_other)
+    value->fail("this key needs " + other, "with " + other);
 }
 
 }  // namespace
 
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
   own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
-  if (kind->is_pid) own.insert(own.end(), {"i_clamp", "antiwindup", "derivative_filter", "quantization"});
+  if (kind->is_pid)
+    own.insert(own.end(), {"i_clamp", "antiwindup", "derivative_filter", "quantization"});
   return own;
 }
 
-void read_realization(const YamlValue& value, const ParameterTable& table, ControllerDescription* controller) {
+void read_realization(const YamlValue& value, const ParameterTable& table,
+                      ControllerDescription* controller) {
   ControlRealization& realization = controller->realization;
   realization.i_clamp = read_positive_quantity(value, "i_clamp", table);
   realization.derivative_filter = read_positive_quantity(value, "derivative_filter", table);
   realization.output_limit = read_positive_quantity(value, "output_limit", table);
   realization.time_constant = read_positive_quantity(value, "time_constant", table);
-  if (const auto antiwindup = value.find("antiwindup")) realization.antiwindup = antiwindup->boolean();
+  if (const auto antiwindup = value.find("antiwindup"))
+    realization.antiwindup = antiwindup->boolean();
   realization.sample_time = read_instant(value, "sample_time", false);
   realization.delay = read_instant(value, "delay", true);
   realization.quantization = read_instant(value, "quantization", true);
@@ -61,17 +70,21 @@ void read_realization(const YamlValue& value, const ParameterTable& table, Contr
   require_partner(value, "derivative_filter", !controller->d.is_zero(), "a gain d");
   require_partner(value, "delay", realization.is_sampled(), "sample_time");
   require_partner(value, "quantization", realization.is_sampled(), "sample_time");
-  require_partner(value, "time_constant", !controller->output.empty(), "output, the joint that the controller drives");
+  require_partner(value, "time_constant", !controller->output.empty(),
+                  "output, the joint that the controller drives");
   if (realization.queued() > kMostQueued)
-    value.at("delay").fail("too many outputs wait at a time: " + readable(std::ceil(realization.delay / realization.sample_time - 1e-9)),
-                           "at most " + std::to_string(kMostQueued) + " times sample_time, which is " +
-                               readable(kMostQueued * realization.sample_time) + " s");
+    value.at("delay").fail(
+        "too many outputs wait at a time: " +
+            readable(std::ceil(realization.delay / realization.sample_time - 1e-9)),
+        "at most " + std::to_string(kMostQueued) + " times sample_time, which is " +
+            readable(kMostQueued * realization.sample_time) + " s");
 }
 
 namespace {
 
 /// @throws InputError, located at `at`, if no controller has this name.
-const ControllerDescription& find_controller(const std::string& name, const YamlValue& at, const Study& study) {
+const ControllerDescription& find_controller(const std::string& name, const YamlValue& at,
+                                             const Study& study) {
   std::vector<std::string> names;
   std::string all;
   for (const ControllerDescription& controller : study.controllers) {
@@ -79,19 +92,22 @@ const ControllerDescription& find_controller(const std::string& name, const Yaml
     names.push_back(controller.name);
     all += (all.empty() ? "" : ", ") + controller.name;
   }
-  at.fail("no controller of the study has this name" + did_you_mean(nearest_name(name, names)), all.empty() ? "no controller" : all);
+  at.fail("no controller of the study has this name" + did_you_mean(nearest_name(name, names)),
+          all.empty() ? "no controller" : all);
 }
 
 /// The law on the robot is control_toolbox's; others have gains of another kind.
 void require_pid_gains(const ControllerDescription& controller, const YamlValue& at) {
   if (!controller.kind->is_pid && controller.kind->load != ControlLoad::kAtRest)
-    at.fail("this controller has no p, i and d that act on an effort", "controllers of type pid or pd_gravity");
+    at.fail("this controller has no p, i and d that act on an effort",
+            "controllers of type pid or pd_gravity");
 }
 
 /// A name of ROS, in each part between slashes.
 bool is_part(const std::string& part) {
   const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-  return !part.empty() && std::isalpha(static_cast<unsigned char>(part[0])) != 0 && std::all_of(part.begin(), part.end(), is_plain);
+  return !part.empty() && std::isalpha(static_cast<unsigned char>(part[0])) != 0 &&
+         std::all_of(part.begin(), part.end(), is_plain);
 }
 
 std::string read_namespace(const YamlValue& value) {
@@ -101,28 +117,37 @@ std::string read_namespace(const YamlValue& value) {
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t slash = std::min(text.find('/', first), text.size());
     if (!is_part(text.substr(first, slash - first)))
-      value.fail("not a namespace of ROS parameters", "parts of letters, digits and _, joined by /, such as arm_controller/gains/elbow");
+      value.fail("not a namespace of ROS parameters",
+                 "parts of letters, digits and _, joined by /, such as arm_controller/gains/elbow");
     first = slash + 1;
   }
   return text;
 }
 
-/// Neither may lie within the other: `p` of one would be a namespace of the other, or the same parameter.
-bool overlap(const std::string& a, const std::string& b) { return (a + "/").rfind(b + "/", 0) == 0 || (b + "/").rfind(a + "/", 0) == 0; }
+/// Neither may lie within the other: `p` of one would be a namespace of the other, or the same
+/// parameter.
+bool overlap(const std::string& a, const std::string& b) {
+  return (a + "/").rfind(b + "/", 0) == 0 || (b + "/").rfind(a + "/", 0) == 0;
+}
 
 /// control_toolbox takes an absent i_clamp for zero, which would switch the integral off.
-void require_clamp(const ControllerDescription& controller, const HardwareGains& gains, const YamlValue& value) {
+void require_clamp(const ControllerDescription& controller, const HardwareGains& gains,
+                   const YamlValue& value) {
   if (!controller.i.is_zero() && !gains.i_clamp)
-    value.fail("the controller has an i gain, and control_toolbox limits the integral's effort to zero unless i_clamp says more",
-               "i_clamp: the largest effort of the integral term [N m or N]");
+    value.fail(
+        "the controller has an i gain, and control_toolbox limits the integral's effort to zero "
+        "unless i_clamp says more",
+        "i_clamp: the largest effort of the integral term [N m or N]");
 }
 
 /// If the controller has a clamp of its own, the robot gets this clamp, since it was simulated.
-void read_clamp(const ControllerDescription& controller, const YamlValue& value, const ParameterTable& table, HardwareGains* gains) {
+void read_clamp(const ControllerDescription& controller, const YamlValue& value,
+                const ParameterTable& table, HardwareGains* gains) {
   if (controller.realization.i_clamp) {
     for (const char* key : {"i_clamp", "antiwindup"})
       if (const auto given = value.find(key))
-        given->fail("the controller of the study has i_clamp already, which the robot gets", "no such key here");
+        given->fail("the controller of the study has i_clamp already, which the robot gets",
+                    "no such key here");
     gains->i_clamp = controller.realization.i_clamp;
     gains->antiwindup = controller.realization.antiwindup;
     return;
@@ -134,7 +159,8 @@ void read_clamp(const ControllerDescription& controller, const YamlValue& value,
   if (const auto antiwindup = value.find("antiwindup")) gains->antiwindup = antiwindup->boolean();
 }
 
-HardwareGains read_gains_of(const std::string& name, const YamlValue& value, const ParameterTable& table, const Study& study) {
+HardwareGains read_gains_of(const std::string& name, const YamlValue& value,
+                            const ParameterTable& table, const Study& study) {
   value.require_keys({"namespace"}, {"i_clamp", "antiwindup"});
   const ControllerDescription& controller = find_controller(name, value, study);
   require_pid_gains(controller, value);
@@ -156,7 +182,9 @@ void read_hardware(const YamlValue& root, const ParameterTable& table, Study* st
     HardwareGains gains = read_gains_of(name, value, table, *study);
     for (const HardwareGains& other : study->hardware)
       if (overlap(other.name_space, gains.name_space))
-        value.at("namespace").fail("the gains of \"" + other.controller + "\" are there, too", "a namespace of its own");
+        value.at("namespace")
+            .fail("the gains of \"" + other.controller + "\" are there, too",
+                  "a namespace of its own");
     study->hardware.push_back(std::move(gains));
   }
 }

@@ -21,7 +21,8 @@ FilterOptions read_filter(const YamlValue& filter) {
   return options;
 }
 
-JointCalibration read_calibration(const std::string& name, const YamlValue& value, const RobotDescription& robot) {
+JointCalibration read_calibration(const std::string& name, const YamlValue& value,
+                                  const RobotDescription& robot) {
   constexpr double kAny = -std::numeric_limits<double>::infinity();
   JointCalibration calibration;
   calibration.joint = scalar_joint(name, robot, value).name;
@@ -29,7 +30,8 @@ JointCalibration read_calibration(const std::string& name, const YamlValue& valu
   value.require_keys({}, {"effort_scale", "delay", "offset"});
   if (const auto scale = value.find("effort_scale")) {
     read_fitted(*scale, kAny, &calibration.effort_scale);
-    if (calibration.effort_scale.value == 0.0) scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
+    if (calibration.effort_scale.value == 0.0)
+      scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
   }
   if (const auto delay = value.find("delay")) read_fitted(*delay, 0.0, &calibration.delay);
   if (const auto offset = value.find("offset")) read_fitted(*offset, kAny, &calibration.offset);
@@ -42,14 +44,18 @@ void refuse_fitted_starts(const std::vector<RecordingDescription>& holdout) {
     for (const StartPosition& start : recording.starts)
       if (start.position.is_fitted)
         throw InputError({start.position.where, recording.element + ".start." + start.joint,
-                          "a holdout is never fitted, so that its start must be known", "a map", "a number in rad or m"});
+                          "a holdout is never fitted, so that its start must be known", "a map",
+                          "a number in rad or m"});
 }
 
 bool has_fitted(const RecordingDescription& recording) {
-  return std::any_of(recording.starts.begin(), recording.starts.end(), [](const StartPosition& start) { return start.position.is_fitted; });
+  return std::any_of(recording.starts.begin(), recording.starts.end(),
+                     [](const StartPosition& start) { return start.position.is_fitted; });
 }
 
-bool has_fitted(const JointCalibration& joint) { return joint.effort_scale.is_fitted || joint.delay.is_fitted || joint.offset.is_fitted; }
+bool has_fitted(const JointCalibration& joint) {
+  return joint.effort_scale.is_fitted || joint.delay.is_fitted || joint.offset.is_fitted;
+}
 
 LossOptions read_loss(const YamlValue& loss) {
   LossOptions options;
@@ -67,19 +73,22 @@ IntervalOptions read_intervals(const YamlValue& intervals) {
   return options;
 }
 
-/// `prior: {payload: 0.3, mass: 0.5}`: relative deviations of tuned parameters, and of what a free inertia is made of.
+/// `prior: {payload: 0.3, mass: 0.5}`: relative deviations of tuned parameters, and of what a free
+/// inertia is made of.
 std::vector<PriorDescription> read_priors(const YamlValue& prior, const Study& study) {
   std::vector<std::string> known(kFreeInertiaParts.begin(), kFreeInertiaParts.end());
   for (const int index : study.tuned) known.push_back(study.parameters[to_index(index)].name);
   std::vector<PriorDescription> priors;
   for (const auto& [name, value] : prior.entries()) {
     const auto place = std::find(known.begin(), known.end(), name) - known.begin();
-    if (place == to_signed(known.size())) throw unknown_name(value.where(), value.path(), "tuned parameter", name, known);
+    if (place == to_signed(known.size()))
+      throw unknown_name(value.where(), value.path(), "tuned parameter", name, known);
     const double deviation = read_above_zero(value, ", relative to the start of the fit");
     const std::size_t tuned = to_index(place) - std::min(to_index(place), kFreeInertiaParts.size());
     const bool is_named = place >= to_signed(kFreeInertiaParts.size());
     if (is_named && study.parameters[to_index(study.tuned[tuned])].value == 0.0)
-      value.fail("a deviation relative to a start of zero is zero", "a parameter whose start is not 0, or bounds instead");
+      value.fail("a deviation relative to a start of zero is zero",
+                 "a parameter whose start is not 0, or bounds instead");
     priors.push_back({name, deviation, value.where()});
   }
   return priors;
@@ -92,14 +101,17 @@ double segment_of(const YamlValue& identify) {
   return segment ? read_above_zero(*segment, " s") : IdentificationDescription().segment;
 }
 
-IdentificationDescription read_identification(const YamlValue& identify, const RobotDescription& robot, const Study& study,
+IdentificationDescription read_identification(const YamlValue& identify,
+                                              const RobotDescription& robot, const Study& study,
                                               bool is_planned) {
   std::vector<std::string> required;
   if (!is_planned) required.emplace_back("data");
-  identify.require_keys(required, {"data", "holdout", "residual", "segment", "filter", "joints", "loss", "intervals", "prior"});
+  identify.require_keys(required, {"data", "holdout", "residual", "segment", "filter", "joints",
+                                   "loss", "intervals", "prior"});
   IdentificationDescription description;
   description.where = identify.where();
-  if (const auto data = identify.find("data")) description.data = read_recording_list(*data, robot, study);
+  if (const auto data = identify.find("data"))
+    description.data = read_recording_list(*data, robot, study);
   if (const auto holdout = identify.find("holdout")) {
     description.holdout = read_recording_list(*holdout, robot, study);
     refuse_fitted_starts(description.holdout);
@@ -108,15 +120,19 @@ IdentificationDescription read_identification(const YamlValue& identify, const R
   description.segment = segment_of(identify);
   if (const auto filter = identify.find("filter")) description.filter = read_filter(*filter);
   if (const auto joints = identify.find("joints"))
-    for (const auto& [name, value] : joints->entries()) description.joints.push_back(read_calibration(name, value, robot));
+    for (const auto& [name, value] : joints->entries())
+      description.joints.push_back(read_calibration(name, value, robot));
   if (const auto loss = identify.find("loss")) description.loss = read_loss(*loss);
-  if (const auto intervals = identify.find("intervals")) description.intervals = read_intervals(*intervals);
+  if (const auto intervals = identify.find("intervals"))
+    description.intervals = read_intervals(*intervals);
   if (const auto prior = identify.find("prior")) description.priors = read_priors(*prior, study);
-  const bool fits_a_joint =
-      std::any_of(description.joints.begin(), description.joints.end(), [](const auto& of) { return has_fitted(of); });
-  const bool fits_a_start = std::any_of(description.data.begin(), description.data.end(), [](const auto& of) { return has_fitted(of); });
+  const bool fits_a_joint = std::any_of(description.joints.begin(), description.joints.end(),
+                                        [](const auto& of) { return has_fitted(of); });
+  const bool fits_a_start = std::any_of(description.data.begin(), description.data.end(),
+                                        [](const auto& of) { return has_fitted(of); });
   if (study.tuned.empty() && !fits_a_joint && !fits_a_start)
-    identify.fail("there is nothing to identify", "at least one parameter under parameters, or a map under identify.joints.JOINT");
+    identify.fail("there is nothing to identify",
+                  "at least one parameter under parameters, or a map under identify.joints.JOINT");
   return description;
 }
 

@@ -9,27 +9,35 @@ namespace codesign {
 
 std::string OptionRange::in_words() const {
   const bool is_whole = is_bounded() && has_least && has_most;
-  if (is_whole) return "a whole number from " + std::to_string(static_cast<int>(least)) + " to " + std::to_string(static_cast<int>(most));
+  if (is_whole)
+    return "a whole number from " + std::to_string(static_cast<int>(least)) + " to " +
+           std::to_string(static_cast<int>(most));
   const std::string end = is_bounded() ? "less than " + to_decimal(most) : "";
-  if (has_least) return end.empty() ? to_decimal(least) + " or more" : "from " + to_decimal(least) + " to " + end;
+  if (has_least)
+    return end.empty() ? to_decimal(least) + " or more"
+                       : "from " + to_decimal(least) + " to " + end;
   return "more than " + to_decimal(least) + (end.empty() ? "" : " and " + end);
 }
 
 namespace {
 
 [[noreturn]] void refuse(const YamlValue& value, const std::string& key, const OptionRange& range) {
-  value.fail(range.fault != nullptr ? range.fault : key + " out of range", range.allowed != nullptr ? range.allowed : range.in_words());
+  value.fail(range.fault != nullptr ? range.fault : key + " out of range",
+             range.allowed != nullptr ? range.allowed : range.in_words());
 }
 
-/// The adjoint exists for the steps of the Rosenbrock integrator only, and cannot take part in their error test.
+/// The adjoint exists for the steps of the Rosenbrock integrator only, and cannot take part in
+/// their error test.
 void check_gradient(const YamlValue& solver, const SolverOptions& options) {
   if (options.gradient != GradientMethod::kAdjoint) return;
   const YamlValue value = solver.at("gradient");
   if (options.integrator != IntegratorKind::kRosenbrock)
     value.fail("the adjoint exists for the integrator rosenbrock only", "auto or direct with idas");
   if (options.sensitivity_tolerance > 0.0)
-    value.fail("the adjoint computes no sensitivities, which sensitivity_tolerance needs for the error test",
-               "auto or direct with sensitivity_tolerance");
+    value.fail(
+        "the adjoint computes no sensitivities, which sensitivity_tolerance needs for the error "
+        "test",
+        "auto or direct with sensitivity_tolerance");
 }
 
 }  // namespace
@@ -38,7 +46,8 @@ void OptionReader::operator()(const std::string& key, bool& option) const {
   if (const auto value = block.find(key)) option = value->boolean();
 }
 
-void OptionReader::operator()(const std::string& key, const OptionRange& range, double& option) const {
+void OptionReader::operator()(const std::string& key, const OptionRange& range,
+                              double& option) const {
   const auto value = block.find(key);
   if (!value) return;
   option = value->number();
@@ -54,7 +63,8 @@ void OptionReader::operator()(const std::string& key, const OptionRange& range, 
   option = static_cast<int>(number);
 }
 
-void OptionReader::operator()(const std::string& key, const OptionRange& range, std::uint32_t& option) const {
+void OptionReader::operator()(const std::string& key, const OptionRange& range,
+                              std::uint32_t& option) const {
   int number = static_cast<int>(option);
   (*this)(key, range, number);
   option = static_cast<std::uint32_t>(number);
@@ -63,7 +73,8 @@ void OptionReader::operator()(const std::string& key, const OptionRange& range, 
 SolverOptions read_solver_options(const YamlValue& solver) {
   SolverOptions options;
   read_options(solver, &options);
-  if (const auto coordinates = solver.find("coordinates")) options.coordinates_where = coordinates->where();
+  if (const auto coordinates = solver.find("coordinates"))
+    options.coordinates_where = coordinates->where();
   check_gradient(solver, options);
   return options;
 }

@@ -14,7 +14,8 @@
 
 namespace codesign {
 
-/// Reads one option, if the block has its key; else the option keeps its value. All throw InputError.
+/// Reads one option, if the block has its key; else the option keeps its value. All throw
+/// InputError.
 struct OptionReader {
   const YamlValue& block;
 
@@ -24,7 +25,8 @@ struct OptionReader {
   void operator()(const std::string& key, const OptionRange& range, std::uint32_t& option) const;
   /// @param names of the choices: the option itself, or an enumeration in this order.
   template <class Option, std::size_t N>
-  void operator()(const std::string& key, const std::array<const char*, N>& names, Option& option) const {
+  void operator()(const std::string& key, const std::array<const char*, N>& names,
+                  Option& option) const {
     const auto value = block.find(key);
     if (!value) return;
     const std::string name = value->choice(key, {names.begin(), names.end()});
@@ -35,12 +37,15 @@ struct OptionReader {
   }
 };
 
-/// Checks that a block has all `required` keys, and else only `others` and those of its options. @throws InputError
+/// Checks that a block has all `required` keys, and else only `others` and those of its options.
+/// @throws InputError
 template <class Options>
-void require_option_keys(const YamlValue& block, Options options, const std::vector<std::string>& required = {},
+void require_option_keys(const YamlValue& block, Options options,
+                         const std::vector<std::string>& required = {},
                          std::vector<std::string> others = {}) {
   const auto add = [&](const char* key, const auto&...) {
-    if (std::find(required.begin(), required.end(), key) == required.end()) others.emplace_back(key);
+    if (std::find(required.begin(), required.end(), key) == required.end())
+      others.emplace_back(key);
   };
   visit_options(add, &options);
   block.require_keys(required, others);
@@ -48,7 +53,8 @@ void require_option_keys(const YamlValue& block, Options options, const std::vec
 
 /// Reads a block that consists of options. @throws InputError
 template <class Options>
-void read_options(const YamlValue& block, Options* options, const std::vector<std::string>& required = {}) {
+void read_options(const YamlValue& block, Options* options,
+                  const std::vector<std::string>& required = {}) {
   require_option_keys(block, *options, required);
   visit_options(OptionReader{block}, options);
 }

@@ -13,19 +13,25 @@
 namespace codesign {
 namespace {
 
-/// A name that the model does not have is a new parameter only if the study gives `initial`; otherwise it is most likely misspelt.
-Parameter new_parameter(const std::string& name, const YamlValue& value, const std::vector<Parameter>& model) {
+/// A name that the model does not have is a new parameter only if the study gives `initial`;
+/// otherwise it is most likely misspelt.
+Parameter new_parameter(const std::string& name, const YamlValue& value,
+                        const std::vector<Parameter>& model) {
   const std::string fault = identifier_fault(name);
   if (!fault.empty())
-    throw InputError({value.where(), value.path(), fault, name, "an identifier that is not the name of a function or constant"});
-  if (value.find("initial")) return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
+    throw InputError({value.where(), value.path(), fault, name,
+                      "an identifier that is not the name of a function or constant"});
+  if (value.find("initial"))
+    return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
   const std::string hint = did_you_mean(nearest_name(name, names_of(model)));
-  throw InputError({value.where(), value.path() + ".initial", "required key is missing: the model has no such parameter" + hint, "", ""});
+  throw InputError({value.where(), value.path() + ".initial",
+                    "required key is missing: the model has no such parameter" + hint, "", ""});
 }
 
 std::unordered_map<std::string, int> indices_of(const std::vector<Parameter>& parameters) {
   std::unordered_map<std::string, int> indices;
-  for (std::size_t i = 0; i < parameters.size(); ++i) indices.emplace(parameters[i].name, static_cast<int>(i));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    indices.emplace(parameters[i].name, static_cast<int>(i));
   return indices;
 }
 
@@ -38,10 +44,12 @@ void read_bounds(const YamlValue& value, Parameter* parameter) {
   if (upper) parameter->upper = upper->number();
   if (!(parameter->lower < parameter->upper)) {
     const YamlValue& at = lower ? *lower : upper ? *upper : value;
-    at.fail("the lower bound must lie below the upper bound", "lower < upper, not " + range_of(*parameter));
+    at.fail("the lower bound must lie below the upper bound",
+            "lower < upper, not " + range_of(*parameter));
   }
   if (parameter->value < parameter->lower || parameter->value > parameter->upper)
-    value.find("initial").value_or(value).fail("the start lies outside the bounds", range_of(*parameter));
+    value.find("initial").value_or(value).fail("the start lies outside the bounds",
+                                               range_of(*parameter));
 }
 
 void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
@@ -83,14 +91,15 @@ void read_fitted(const YamlValue& value, double lower, FittedNumber* number) {
 namespace {
 
 constexpr const char* kFormsOfConstraints =
-    "\"expression >= expression\", {expression: \"${expression}\", between: [lower, upper]} or {peak: signal, at_most: bound}";
+    "\"expression >= expression\", {expression: \"${expression}\", between: [lower, upper]} or "
+    "{peak: signal, at_most: bound}";
 
 std::string text_of(const Quantity& quantity) {
   return quantity.is_constant() ? to_decimal(quantity.nominal()) : quantity.expression()->text();
 }
 
-/// @param table the study's parameters. It is a copy, not the table in the study, since reading a constraint must not mark its parameters
-/// as used: a constraint moves nothing.
+/// @param table the study's parameters. It is a copy, not the table in the study, since reading a
+/// constraint must not mark its parameters as used: a constraint moves nothing.
 void read_bounded_expression(const YamlValue& item, const ParameterTable& table, Study* study) {
   item.require_keys({"expression"}, {"between", "at_least", "at_most"});
   const YamlValue at = item.at("expression");
@@ -99,11 +108,14 @@ void read_bounded_expression(const YamlValue& item, const ParameterTable& table,
     at.fail("no parameter appears in the constraint", "an \"${expression}\" of the parameters");
   const Between bounds = read_between(item, table);
   if (bounds.lower && bounds.upper && !(bounds.lower->nominal() < bounds.upper->nominal()))
-    item.fail("the lower bound, " + to_decimal(bounds.lower->nominal()) + ", must be less than the upper one, " +
-                  to_decimal(bounds.upper->nominal()) + ", at the parameters' start",
-              "lower < upper; a parameter that follows from others is no parameter, but an expression where it is used");
+    item.fail("the lower bound, " + to_decimal(bounds.lower->nominal()) +
+                  ", must be less than the upper one, " + to_decimal(bounds.upper->nominal()) +
+                  ", at the parameters' start",
+              "lower < upper; a parameter that follows from others is no parameter, but an "
+              "expression where it is used");
   const auto add = [&](const std::string& text, const std::string& less, const std::string& more) {
-    study->constraints.push_back(make_constraint(text, less, more, table.names, item.where(), item.path()));
+    study->constraints.push_back(
+        make_constraint(text, less, more, table.names, item.where(), item.path()));
   };
   const std::string middle = expression.expression()->text();
   if (bounds.lower) add(middle + " >= " + text_of(*bounds.lower), text_of(*bounds.lower), middle);
@@ -120,11 +132,13 @@ void read_constraints(const YamlValue& study_value, Study* study) {
   const ParameterTable table(study->parameters);
   for (const YamlValue& item : constraints->items()) {
     if (bounds_a_peak(item)) continue;
-    if (item.is_list() || (item.is_map() && !item.find("expression"))) item.fail("not a constraint", kFormsOfConstraints);
+    if (item.is_list() || (item.is_map() && !item.find("expression")))
+      item.fail("not a constraint", kFormsOfConstraints);
     if (item.is_map())
       read_bounded_expression(item, table, study);
     else
-      study->constraints.push_back(parse_constraint(item.text(), table.names, item.where(), item.path()));
+      study->constraints.push_back(
+          parse_constraint(item.text(), table.names, item.where(), item.path()));
   }
 }
 

@@ -14,7 +14,8 @@ namespace {
 void require_purpose_of_excite(const YamlValue& root) {
   const auto excite = root.find("excite");
   if (excite && !root.find("identify"))
-    excite->fail("the study identifies nothing, so that no motion is better than another", "a block identify; without data it may be {}");
+    excite->fail("the study identifies nothing, so that no motion is better than another",
+                 "a block identify; without data it may be {}");
 }
 
 /// A study that only identifies has no run of its own that could have a duration.
@@ -29,24 +30,34 @@ double read_duration(const YamlValue& root) {
 
 std::array<double, 3> read_gravity(const YamlValue& value) {
   const std::vector<YamlValue> items = value.items();
-  if (items.size() != 3) value.fail("gravity needs three components, found " + std::to_string(items.size()), "[x, y, z] in m/s^2");
+  if (items.size() != 3)
+    value.fail("gravity needs three components, found " + std::to_string(items.size()),
+               "[x, y, z] in m/s^2");
   return {items[0].number(), items[1].number(), items[2].number()};
 }
 
-/// The adjoint can neither compute the derivatives of extreme values nor reverse the jumps of sampled controllers.
+/// The adjoint can neither compute the derivatives of extreme values nor reverse the jumps of
+/// sampled controllers.
 void refuse_adjoint(const YamlValue& root, const Study& study) {
   if (study.solver.gradient != GradientMethod::kAdjoint) return;
-  const auto sampled = [](const ControllerDescription& controller) { return controller.realization.is_sampled(); };
+  const auto sampled = [](const ControllerDescription& controller) {
+    return controller.realization.is_sampled();
+  };
   const YamlValue at = root.at("solver").at("gradient");
   if (!study.watched.empty())
-    at.fail("the adjoint has no derivatives of the extreme values that path, final, objective.peak and peaks in constraints need",
-            "auto, direct");
+    at.fail(
+        "the adjoint has no derivatives of the extreme values that path, final, objective.peak and "
+        "peaks in constraints need",
+        "auto, direct");
   if (std::any_of(study.controllers.begin(), study.controllers.end(), sampled))
-    at.fail("the adjoint does not go back over the samples of controllers with sample_time", "auto, direct");
+    at.fail("the adjoint does not go back over the samples of controllers with sample_time",
+            "auto, direct");
 }
 
-/// Reads all blocks of one run and its optimization, that is all except the blocks of read_ensemble(). Does not check the keys of the root.
-Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot, const TrajectoryLoader& loader) {
+/// Reads all blocks of one run and its optimization, that is all except the blocks of
+/// read_ensemble(). Does not check the keys of the root.
+Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot,
+                      const TrajectoryLoader& loader) {
   Study study;
   study.file = file;
   study.duration = read_duration(root);
@@ -56,7 +67,8 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   constexpr std::size_t kMostTuned = 10000;
   if (study.tuned.size() > kMostTuned) {
     const YamlValue at = root.find("parameters").value_or(root);
-    at.fail("too many parameters to tune: " + std::to_string(study.tuned.size()), "at most " + std::to_string(kMostTuned));
+    at.fail("too many parameters to tune: " + std::to_string(study.tuned.size()),
+            "at most " + std::to_string(kMostTuned));
   }
   read_constraints(root, &study);
   const ParameterTable table(study.parameters);
@@ -70,20 +82,26 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) read_options(*limits, &study.limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
-  if (const auto optimizer = root.find("optimizer")) study.optimizer = read_optimizer_options(*optimizer);
+  if (const auto optimizer = root.find("optimizer"))
+    study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint(root, study);
   return study;
 }
 
 }  // namespace
 
-Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader, const FileLoader& files) {
+Study read_study(const SourceText& yaml, const RobotDescription& robot,
+                 const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({}, {"duration",  "gravity", "initial_state", "controllers", "loads",    "parameters", "objective",
-                         "path",      "final",   "constraints",   "limits",      "solver",   "optimizer",  "runs",
-                         "uncertain", "robust",  "multistart",    "engine",      "identify", "excite",     "hardware"});
+  root.require_keys(
+      {}, {"duration",  "gravity", "initial_state", "controllers", "loads",      "parameters",
+           "objective", "path",    "final",         "constraints", "limits",     "solver",
+           "optimizer", "runs",    "uncertain",     "robust",      "multistart", "engine",
+           "identify",  "excite",  "hardware"});
   require_purpose_of_excite(root);
-  const auto read_run = [&](const YamlValue& study_value) { return read_single_run(study_value, yaml.name, robot, loader); };
+  const auto read_run = [&](const YamlValue& study_value) {
+    return read_single_run(study_value, yaml.name, robot, loader);
+  };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
   if (const auto identify = root.find("identify")) {

@@ -13,6 +13,7 @@ namespace codesign {
 /// @param loader reads trajectories from bags; without it a study that names one is rejected.
 /// @param files reads other files that the study names, likewise.
 /// @throws InputError naming file, line, path, value and allowed range.
-Study read_study(const SourceText& yaml, const RobotDescription& robot, const TrajectoryLoader& loader = {}, const FileLoader& files = {});
+Study read_study(const SourceText& yaml, const RobotDescription& robot,
+                 const TrajectoryLoader& loader = {}, const FileLoader& files = {});
 
 }  // namespace codesign

@@ -41,37 +41,45 @@ ColumnDescription read_column(const YamlValue& value) {
   read_column_place(value.at("column"), &column);
   if (const auto scale = value.find("scale")) {
     column.scale = scale->number();
-    if (column.scale == 0.0) scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
+    if (column.scale == 0.0)
+      scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
   }
   if (const auto offset = value.find("offset")) column.offset = offset->number();
   return column;
 }
 
 /// `JOINT/position`, as signals are spelled. The name of a joint may contain slashes.
-MeasuredColumn read_measured(const std::string& key, const YamlValue& value, const RobotDescription& robot) {
+MeasuredColumn read_measured(const std::string& key, const YamlValue& value,
+                             const RobotDescription& robot) {
   constexpr const char* kAllowed = "time, JOINT/position, JOINT/velocity or JOINT/effort";
   const std::size_t slash = key.rfind('/');
-  const std::vector<std::string> names(kMeasuredQuantityNames.begin(), kMeasuredQuantityNames.end());
-  if (slash == std::string::npos) value.fail("not a measured quantity" + did_you_mean(nearest_name(key, {kTime})), kAllowed);
+  const std::vector<std::string> names(kMeasuredQuantityNames.begin(),
+                                       kMeasuredQuantityNames.end());
+  if (slash == std::string::npos)
+    value.fail("not a measured quantity" + did_you_mean(nearest_name(key, {kTime})), kAllowed);
   MeasuredColumn measured;
   const std::string quantity = key.substr(slash + 1);
   const auto found = std::find(names.begin(), names.end(), quantity);
-  if (found == names.end()) value.fail("not a measured quantity" + did_you_mean(nearest_name(quantity, names)), kAllowed);
+  if (found == names.end())
+    value.fail("not a measured quantity" + did_you_mean(nearest_name(quantity, names)), kAllowed);
   measured.quantity = static_cast<MeasuredQuantity>(found - names.begin());
   measured.joint = scalar_joint(key.substr(0, slash), robot, value).name;
   measured.column = read_column(value);
   return measured;
 }
 
-void read_columns(const YamlValue& columns, const RobotDescription& robot, RecordingDescription* recording) {
+void read_columns(const YamlValue& columns, const RobotDescription& robot,
+                  RecordingDescription* recording) {
   for (const auto& [key, value] : columns.entries()) {
     if (key == kTime)
       recording->time = read_column(value);
     else
       recording->columns.push_back(read_measured(key, value, robot));
   }
-  if (!recording->time) columns.fail("the column of the time is missing", "time: COLUMN beside the quantities");
-  if (recording->columns.empty()) columns.fail("no column of a joint", "JOINT/position: COLUMN, JOINT/velocity or JOINT/effort");
+  if (!recording->time)
+    columns.fail("the column of the time is missing", "time: COLUMN beside the quantities");
+  if (recording->columns.empty())
+    columns.fail("no column of a joint", "JOINT/position: COLUMN, JOINT/velocity or JOINT/effort");
 }
 
 void read_bag(const YamlValue& value, RecordingDescription* recording) {
@@ -82,14 +90,16 @@ void read_bag(const YamlValue& value, RecordingDescription* recording) {
   OptionReader{value}("stamp", kStampNames, recording->stamp);
 }
 
-void read_table(const YamlValue& value, const RobotDescription& robot, RecordingDescription* recording) {
+void read_table(const YamlValue& value, const RobotDescription& robot,
+                RecordingDescription* recording) {
   value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps", "start", "set"});
   recording->file = value.at("csv").text();
   OptionReader{value}("delimiter", kCellDelimiterNames, recording->delimiter);
   if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
 }
 
-void read_start_positions(const YamlValue& starts, const RobotDescription& robot, RecordingDescription* recording) {
+void read_start_positions(const YamlValue& starts, const RobotDescription& robot,
+                          RecordingDescription* recording) {
   for (const auto& [name, value] : starts.entries()) {
     StartPosition start;
     start.joint = scalar_joint(name, robot, value).name;
@@ -108,13 +118,17 @@ std::vector<RecordedSetting> read_settings(const YamlValue& set, const Study& st
   return settings;
 }
 
-RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot, const Study& study) {
-  if (!value.is_map()) value.fail("not a recording", "{bag: FILE, topic: NAME} or {csv: FILE, columns: {time: COLUMN, ...}}");
+RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot,
+                                    const Study& study) {
+  if (!value.is_map())
+    value.fail("not a recording",
+               "{bag: FILE, topic: NAME} or {csv: FILE, columns: {time: COLUMN, ...}}");
   RecordingDescription recording;
   recording.element = value.path();
   recording.where = value.where();
   const bool is_bag = value.find("bag").has_value();
-  if (is_bag == value.find("csv").has_value()) value.fail("a recording is one file", "either bag: FILE with topic: NAME, or csv: FILE");
+  if (is_bag == value.find("csv").has_value())
+    value.fail("a recording is one file", "either bag: FILE with topic: NAME, or csv: FILE");
   if (is_bag)
     read_bag(value, &recording);
   else
@@ -122,7 +136,8 @@ RecordingDescription read_recording(const YamlValue& value, const RobotDescripti
   const auto from = value.find("from"), to = value.find("to");
   if (from) recording.from = from->number();
   if (to) recording.to = to->number();
-  if (!(recording.from < recording.to)) (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
+  if (!(recording.from < recording.to))
+    (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
   OptionReader{value}("gaps", kGapRuleNames, recording.gaps);
   if (const auto starts = value.find("start")) read_start_positions(*starts, robot, &recording);
   if (const auto set = value.find("set")) recording.settings = read_settings(*set, study);
@@ -131,10 +146,14 @@ RecordingDescription read_recording(const YamlValue& value, const RobotDescripti
 
 }  // namespace
 
-std::vector<RecordingDescription> read_recording_list(const YamlValue& list, const RobotDescription& robot, const Study& study) {
+std::vector<RecordingDescription> read_recording_list(const YamlValue& list,
+                                                      const RobotDescription& robot,
+                                                      const Study& study) {
   std::vector<RecordingDescription> recordings;
-  for (const YamlValue& item : list.items()) recordings.push_back(read_recording(item, robot, study));
-  if (recordings.empty()) list.fail("no recording", "at least one {bag: FILE, topic: NAME} or {csv: FILE}");
+  for (const YamlValue& item : list.items())
+    recordings.push_back(read_recording(item, robot, study));
+  if (recordings.empty())
+    list.fail("no recording", "at least one {bag: FILE, topic: NAME} or {csv: FILE}");
   return recordings;
 }
 

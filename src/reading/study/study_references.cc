@@ -13,11 +13,13 @@ ReferenceDescription read_sine(const YamlValue& value, const ParameterTable& tab
   SineDescription& sine = reference.sine;
   sine.amplitude = read_quantity(value.at("amplitude"), table);
   const auto frequency = value.find("frequency"), period = value.find("period");
-  if (frequency.has_value() == period.has_value()) value.fail("a sine has either a frequency or a period", "frequency [Hz] or period [s]");
+  if (frequency.has_value() == period.has_value())
+    value.fail("a sine has either a frequency or a period", "frequency [Hz] or period [s]");
   sine.is_period = period.has_value();
   const YamlValue& pace = frequency ? *frequency : *period;
   sine.frequency = read_quantity(pace, table);
-  if (!(sine.frequency.nominal() > 0.0)) pace.fail("not above zero", frequency ? "more than 0 Hz" : "more than 0 s");
+  if (!(sine.frequency.nominal() > 0.0))
+    pace.fail("not above zero", frequency ? "more than 0 Hz" : "more than 0 s");
   if (const auto phase = value.find("phase")) sine.phase = read_quantity(*phase, table);
   if (const auto offset = value.find("offset")) sine.offset = read_quantity(*offset, table);
   return reference;
@@ -26,7 +28,8 @@ ReferenceDescription read_sine(const YamlValue& value, const ParameterTable& tab
 Interpolation read_interpolation(const YamlValue& value) {
   const auto interpolation = value.find("interpolation");
   if (!interpolation) return Interpolation::kMonotone;
-  const std::string name = interpolation->choice("interpolation", {"monotone", "quintic", "cubic", "linear"});
+  const std::string name =
+      interpolation->choice("interpolation", {"monotone", "quintic", "cubic", "linear"});
   return name == "linear"    ? Interpolation::kLinear
          : name == "cubic"   ? Interpolation::kCubic
          : name == "quintic" ? Interpolation::kQuintic
@@ -34,18 +37,24 @@ Interpolation read_interpolation(const YamlValue& value) {
 }
 
 void check_times(const std::vector<double>& times, const YamlValue& value) {
-  if (times.size() < 2) value.fail("a trajectory needs at least two way-points, found " + std::to_string(times.size()));
+  if (times.size() < 2)
+    value.fail("a trajectory needs at least two way-points, found " + std::to_string(times.size()));
   for (std::size_t k = 1; k < times.size(); ++k)
-    if (!(times[k - 1] < times[k])) value.fail("the times must ascend, and way-point " + std::to_string(k) + " does not come later");
+    if (!(times[k - 1] < times[k]))
+      value.fail("the times must ascend, and way-point " + std::to_string(k) +
+                 " does not come later");
 }
 
-std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count, const ParameterTable& table) {
+std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count,
+                                const ParameterTable& table) {
   std::vector<Quantity> list;
   const auto items = value.find(key);
   if (!items) return list;
   for (const YamlValue& item : items->items()) list.push_back(read_quantity(item, table));
   if (list.size() != count)
-    items->fail("found " + std::to_string(list.size()) + " values for " + std::to_string(count) + " times", "one per time");
+    items->fail(
+        "found " + std::to_string(list.size()) + " values for " + std::to_string(count) + " times",
+        "one per time");
   return list;
 }
 
@@ -59,11 +68,13 @@ void refuse_unused(const YamlValue& value, Interpolation interpolation) {
   if (velocities && interpolation == Interpolation::kLinear)
     velocities->fail("linear interpolation does not use velocities", "monotone, quintic, cubic");
   if (accelerations && !is_of_fifth_degree(interpolation))
-    accelerations->fail("only monotone and quintic interpolation use accelerations", "monotone, quintic");
+    accelerations->fail("only monotone and quintic interpolation use accelerations",
+                        "monotone, quintic");
 }
 
 ReferenceDescription read_waypoints(const YamlValue& value, const ParameterTable& table) {
-  value.require_keys({"type", "times", "positions"}, {"velocities", "accelerations", "interpolation"});
+  value.require_keys({"type", "times", "positions"},
+                     {"velocities", "accelerations", "interpolation"});
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kWaypoints;
   WaypointsDescription& points = reference.waypoints;
@@ -80,11 +91,13 @@ ReferenceDescription read_waypoints(const YamlValue& value, const ParameterTable
 
 ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoader& loader) {
   value.require_keys({"type", "bag", "topic", "joint"}, {"interpolation"});
-  const std::string bag = value.at("bag").text(), topic = value.at("topic").text(), joint = value.at("joint").text();
+  const std::string bag = value.at("bag").text(), topic = value.at("topic").text(),
+                    joint = value.at("joint").text();
   if (!loader)
-    value.fail("a bag is read by the ROS nodes only; `rosrun mechanism_codesign trajectory_from_bag " + bag + " " + topic + " " + joint +
-                   "` prints the same trajectory as way-points",
-               "{type: waypoints, ...}");
+    value.fail(
+        "a bag is read by the ROS nodes only; `rosrun mechanism_codesign trajectory_from_bag " +
+            bag + " " + topic + " " + joint + "` prints the same trajectory as way-points",
+        "{type: waypoints, ...}");
   const RecordedTrajectory recorded = loader({bag, topic, joint, value.where(), value.path()});
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kWaypoints;
@@ -93,16 +106,20 @@ ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoa
   points.times = recorded.times;
   check_times(points.times, value);
   points.positions.assign(recorded.positions.begin(), recorded.positions.end());
-  if (points.interpolation != Interpolation::kLinear) points.velocities.assign(recorded.velocities.begin(), recorded.velocities.end());
-  if (is_of_fifth_degree(points.interpolation)) points.accelerations.assign(recorded.accelerations.begin(), recorded.accelerations.end());
+  if (points.interpolation != Interpolation::kLinear)
+    points.velocities.assign(recorded.velocities.begin(), recorded.velocities.end());
+  if (is_of_fifth_degree(points.interpolation))
+    points.accelerations.assign(recorded.accelerations.begin(), recorded.accelerations.end());
   return reference;
 }
 
 }  // namespace
 
-ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table, const TrajectoryLoader& loader) {
+ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table,
+                                    const TrajectoryLoader& loader) {
   if (!value.is_map()) return read_quantity(value, table);
-  const std::string type = value.at("type").choice("type of reference", {"sine", "waypoints", "trajectory"});
+  const std::string type =
+      value.at("type").choice("type of reference", {"sine", "waypoints", "trajectory"});
   if (type == "sine") return read_sine(value, table);
   return type == "waypoints" ? read_waypoints(value, table) : read_trajectory(value, loader);
 }

@@ -8,7 +8,8 @@
 namespace codesign {
 namespace {
 
-ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table, const TrajectoryLoader& loader,
+ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot,
+                        const ParameterTable& table, const TrajectoryLoader& loader,
                         const Study& study) {
   value.require_keys({"signal"}, {"reference", "weight"});
   ObjectiveTerm term;
@@ -16,23 +17,26 @@ ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot, c
   const YamlValue signal = value.at("signal");
   term.signal = parse_signal(signal.text(), signal.where(), signal.path());
   check_signal(term.signal, robot, study.controllers, signal.path());
-  if (const auto reference = value.find("reference")) term.reference = read_reference(*reference, table, loader);
+  if (const auto reference = value.find("reference"))
+    term.reference = read_reference(*reference, table, loader);
   if (const auto weight = value.find("weight")) term.weight = read_quantity(*weight, table);
   return term;
 }
 
-std::vector<ObjectiveTerm> read_terms(const YamlValue& objective, const std::string& key, const RobotDescription& robot,
-                                      const ParameterTable& table, const TrajectoryLoader& loader, const Study& study) {
+std::vector<ObjectiveTerm> read_terms(const YamlValue& objective, const std::string& key,
+                                      const RobotDescription& robot, const ParameterTable& table,
+                                      const TrajectoryLoader& loader, const Study& study) {
   std::vector<ObjectiveTerm> terms;
   if (const auto list = objective.find(key))
-    for (const YamlValue& item : list->items()) terms.push_back(read_term(item, robot, table, loader, study));
+    for (const YamlValue& item : list->items())
+      terms.push_back(read_term(item, robot, table, loader, study));
   return terms;
 }
 
 }  // namespace
 
-void read_objective(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table,
-                    const TrajectoryLoader& loader, Study* study) {
+void read_objective(const YamlValue& study_value, const RobotDescription& robot,
+                    const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const auto objective = study_value.find("objective");
   if (!objective) return;
   objective->require_keys({}, {"integral", "terminal", "peak"});
@@ -61,20 +65,25 @@ struct Reader {
     const auto tolerance = value.find("tolerance");
     if (!tolerance) return;
     watched->tolerance = tolerance->number();
-    if (!(*watched->tolerance > 0.0)) tolerance->fail("a bound cannot be kept without any error", "more than 0, in the unit of the signal");
+    if (!(*watched->tolerance > 0.0))
+      tolerance->fail("a bound cannot be kept without any error",
+                      "more than 0, in the unit of the signal");
   }
 
   void read_interval(const YamlValue& value, WatchedSignal* watched) const {
     watched->before = study.duration;
     if (const auto after = value.find("after")) watched->after = after->number();
     if (const auto before = value.find("before")) watched->before = before->number();
-    if (watched->after < 0.0 || !(watched->after < watched->before) || watched->before > study.duration)
-      value.fail("the interval from " + to_decimal(watched->after) + " s to " + to_decimal(watched->before) + " s is not part of the study",
+    if (watched->after < 0.0 || !(watched->after < watched->before) ||
+        watched->before > study.duration)
+      value.fail("the interval from " + to_decimal(watched->after) + " s to " +
+                     to_decimal(watched->before) + " s is not part of the study",
                  "0 <= after < before <= " + to_decimal(study.duration) + " s");
   }
 
   /// A signal, found under `key`, and its reference. @param optional further keys.
-  WatchedSignal read_signal(const YamlValue& value, const char* key, Role role, std::vector<std::string> optional) const {
+  WatchedSignal read_signal(const YamlValue& value, const char* key, Role role,
+                            std::vector<std::string> optional) const {
     optional.emplace_back("reference");
     if (role != Role::kFinal) optional.insert(optional.end(), {"after", "before"});
     value.require_keys({key}, optional);
@@ -85,7 +94,8 @@ struct Reader {
     const YamlValue signal = value.at(key);
     watched.signal = parse_signal(signal.text(), signal.where(), signal.path());
     check_signal(watched.signal, robot, study.controllers, signal.path());
-    if (const auto reference = value.find("reference")) watched.reference = read_reference(*reference, table, loader);
+    if (const auto reference = value.find("reference"))
+      watched.reference = read_reference(*reference, table, loader);
     if (role == Role::kFinal) {
       watched.after = watched.before = study.duration;
     } else {
@@ -95,7 +105,8 @@ struct Reader {
   }
 
   WatchedSignal read_bounded(const YamlValue& value, Role role) const {
-    WatchedSignal watched = read_signal(value, "signal", role, {"between", "at_least", "at_most", "tolerance"});
+    WatchedSignal watched =
+        read_signal(value, "signal", role, {"between", "at_least", "at_most", "tolerance"});
     read_bounds(value, &watched);
     read_tolerance(value, &watched);
     return watched;
@@ -105,28 +116,34 @@ struct Reader {
     WatchedSignal watched = read_signal(value, "signal", Role::kPeak, {"weight"});
     if (const auto weight = value.find("weight")) {
       watched.weight = weight->number();
-      if (!(watched.weight > 0.0)) weight->fail("the weight of a peak must be positive", "more than 0");
+      if (!(watched.weight > 0.0))
+        weight->fail("the weight of a peak must be positive", "more than 0");
     }
     return watched;
   }
 
-  /// `{peak: signal, at_most: bound}` is |signal - reference| <= bound at all times, which is a bound on both sides.
+  /// `{peak: signal, at_most: bound}` is |signal - reference| <= bound at all times, which is a
+  /// bound on both sides.
   WatchedSignal read_bounded_peak(const YamlValue& value) const {
     WatchedSignal watched = read_signal(value, "peak", Role::kPath, {"at_most", "tolerance"});
     read_tolerance(value, &watched);
     const YamlValue at_most = value.at("at_most");
     const Quantity bound = read_quantity(at_most, table);
-    if (!(bound.nominal() > 0.0)) at_most.fail("a peak is the largest magnitude of a signal, so its bound must be positive", "more than 0");
+    if (!(bound.nominal() > 0.0))
+      at_most.fail("a peak is the largest magnitude of a signal, so its bound must be positive",
+                   "more than 0");
     watched.upper = bound;
     watched.lower =
-        bound.is_constant() ? Quantity(-bound.nominal()) : Quantity(-bound.nominal(), table.parse("-(" + bound.expression()->text() + ")"));
+        bound.is_constant()
+            ? Quantity(-bound.nominal())
+            : Quantity(-bound.nominal(), table.parse("-(" + bound.expression()->text() + ")"));
     return watched;
   }
 
   /// Adds what `read` makes of the items of a list that `is_meant`.
   template <class Read, class IsMeant>
-  static void add_items(const YamlValue& parent, const char* key, std::vector<WatchedSignal>* list, const Read& read,
-                        const IsMeant& is_meant) {
+  static void add_items(const YamlValue& parent, const char* key, std::vector<WatchedSignal>* list,
+                        const Read& read, const IsMeant& is_meant) {
     if (const auto items = parent.find(key))
       for (const YamlValue& item : items->items())
         if (is_meant(item)) list->push_back(read(item));
@@ -135,20 +152,24 @@ struct Reader {
 
 }  // namespace
 
-void read_watched(const YamlValue& study_value, const RobotDescription& robot, const ParameterTable& table, const TrajectoryLoader& loader,
-                  Study* study) {
+void read_watched(const YamlValue& study_value, const RobotDescription& robot,
+                  const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const Reader reader{robot, table, loader, *study};
   std::vector<WatchedSignal> watched;
   const auto every = [](const YamlValue&) { return true; };
   Reader::add_items(
-      study_value, "path", &watched, [&](const YamlValue& item) { return reader.read_bounded(item, Role::kPath); }, every);
+      study_value, "path", &watched,
+      [&](const YamlValue& item) { return reader.read_bounded(item, Role::kPath); }, every);
   Reader::add_items(
-      study_value, "final", &watched, [&](const YamlValue& item) { return reader.read_bounded(item, Role::kFinal); }, every);
+      study_value, "final", &watched,
+      [&](const YamlValue& item) { return reader.read_bounded(item, Role::kFinal); }, every);
   Reader::add_items(
-      study_value, "constraints", &watched, [&](const YamlValue& item) { return reader.read_bounded_peak(item); }, bounds_a_peak);
+      study_value, "constraints", &watched,
+      [&](const YamlValue& item) { return reader.read_bounded_peak(item); }, bounds_a_peak);
   if (const auto objective = study_value.find("objective"))
     Reader::add_items(
-        *objective, "peak", &watched, [&](const YamlValue& item) { return reader.read_objective_peak(item); }, every);
+        *objective, "peak", &watched,
+        [&](const YamlValue& item) { return reader.read_objective_peak(item); }, every);
   study->watched = std::move(watched);
 }
 

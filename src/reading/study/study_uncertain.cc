@@ -16,11 +16,13 @@ namespace {
 
 constexpr const char* kFrictionLaw = "friction_law";
 constexpr const char* kFrom = "from";
-constexpr const char* kForms = "one of uniform: [lower, upper], normal: [mean, deviation], choice: [a, b]";
+constexpr const char* kForms =
+    "one of uniform: [lower, upper], normal: [mean, deviation], choice: [a, b]";
 
 std::array<YamlValue, 2> pair_at(const YamlValue& value, const std::string& names) {
   const std::vector<YamlValue> items = value.items();
-  if (items.size() != 2) value.fail("two numbers are needed, found " + std::to_string(items.size()), "[" + names + "]");
+  if (items.size() != 2)
+    value.fail("two numbers are needed, found " + std::to_string(items.size()), "[" + names + "]");
   return {items[0], items[1]};
 }
 
@@ -28,7 +30,8 @@ void read_range(const YamlValue& value, const Parameter& parameter, Distribution
   const std::array<YamlValue, 2> range = pair_at(value, "lower, upper");
   distribution->lower = read_within_bounds(range[0], parameter);
   distribution->upper = read_within_bounds(range[1], parameter);
-  if (!(distribution->lower < distribution->upper)) range[0].fail("the lower end must lie below the upper one", "lower < upper");
+  if (!(distribution->lower < distribution->upper))
+    range[0].fail("the lower end must lie below the upper one", "lower < upper");
 }
 
 /// A normal distribution, truncated to `between`, or else to the bounds of the parameter.
@@ -38,18 +41,21 @@ void read_normal(const YamlValue& value, const Parameter& parameter, Distributio
   distribution->kind = DistributionKind::kNormal;
   distribution->mean = read_within_bounds(numbers[0], parameter);
   distribution->deviation = numbers[1].number();
-  if (!(distribution->deviation > 0.0)) numbers[1].fail("the standard deviation must be positive", "more than 0");
+  if (!(distribution->deviation > 0.0))
+    numbers[1].fail("the standard deviation must be positive", "more than 0");
   distribution->lower = parameter.lower;
   distribution->upper = parameter.upper;
   if (const auto between = value.find("between")) read_range(*between, parameter, distribution);
   if (distribution->mean < distribution->lower || distribution->mean > distribution->upper)
-    numbers[0].fail("the mean lies outside the range to which the distribution is truncated",
-                    "[" + to_decimal(distribution->lower) + ", " + to_decimal(distribution->upper) + "]");
+    numbers[0].fail(
+        "the mean lies outside the range to which the distribution is truncated",
+        "[" + to_decimal(distribution->lower) + ", " + to_decimal(distribution->upper) + "]");
 }
 
 std::vector<YamlValue> choices_at(const YamlValue& choice) {
   std::vector<YamlValue> items = choice.items();
-  if (items.size() < 2) choice.fail("found " + std::to_string(items.size()) + " to choose from", "at least two");
+  if (items.size() < 2)
+    choice.fail("found " + std::to_string(items.size()) + " to choose from", "at least two");
   return items;
 }
 
@@ -57,20 +63,23 @@ void read_values(const YamlValue& choice, const Parameter& parameter, Distributi
   std::set<double> seen;
   for (const YamlValue& item : choices_at(choice)) {
     distribution->choices.push_back(read_within_bounds(item, parameter));
-    if (!seen.insert(distribution->choices.back()).second) item.fail("repeated choice", "values that differ; each is equally likely");
+    if (!seen.insert(distribution->choices.back()).second)
+      item.fail("repeated choice", "values that differ; each is equally likely");
   }
 }
 
 void require_usable(FrictionModel law, const RobotDescription& robot, const YamlValue& at) {
   for (const JointDescription& joint : robot.joints)
     if (law->divides_by_mu_dynamic && joint.friction && joint.friction->mu_dynamic.nominal() == 0.0)
-      at.fail(std::string("the ") + law->title + " model divides by mu_dynamic, which is zero in the joint " + joint.name,
+      at.fail(std::string("the ") + law->title +
+                  " model divides by mu_dynamic, which is zero in the joint " + joint.name,
               "laws without states, or mu_dynamic > 0");
 }
 
 void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQuantity* quantity) {
   value.require_keys({"choice"}, {});
-  if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const JointDescription& joint) { return joint.friction.has_value(); }))
+  if (std::none_of(robot.joints.begin(), robot.joints.end(),
+                   [](const JointDescription& joint) { return joint.friction.has_value(); }))
     value.fail("no joint of the model has friction", "a model with <codesign:friction>");
   quantity->distribution.kind = DistributionKind::kChoice;
   for (const YamlValue& item : choices_at(value.at("choice"))) {
@@ -83,10 +92,13 @@ void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQ
   }
 }
 
-void read_distribution(const YamlValue& value, const Parameter& parameter, Distribution* distribution) {
+void read_distribution(const YamlValue& value, const Parameter& parameter,
+                       Distribution* distribution) {
   value.require_keys({}, {"uniform", "normal", "between", "choice"});
-  const auto uniform = value.find("uniform"), normal = value.find("normal"), choice = value.find("choice"), between = value.find("between");
-  if (uniform.has_value() + normal.has_value() + choice.has_value() != 1) value.fail("a parameter has one distribution", kForms);
+  const auto uniform = value.find("uniform"), normal = value.find("normal"),
+             choice = value.find("choice"), between = value.find("between");
+  if (uniform.has_value() + normal.has_value() + choice.has_value() != 1)
+    value.fail("a parameter has one distribution", kForms);
   if (between && !normal) between->fail("between belongs to normal", kForms);
   distribution->kind = choice ? DistributionKind::kChoice : DistributionKind::kUniform;
   if (uniform) read_range(*uniform, parameter, distribution);
@@ -94,17 +106,23 @@ void read_distribution(const YamlValue& value, const Parameter& parameter, Distr
   if (choice) read_values(*choice, parameter, distribution);
 }
 
-void refuse_set_by_run(const std::string& name, const YamlValue& value, const std::vector<RunDescription>& runs) {
+void refuse_set_by_run(const std::string& name, const YamlValue& value,
+                       const std::vector<RunDescription>& runs) {
   for (const RunDescription& run : runs)
     for (const auto& set : run.set)
       if (set.first == name)
-        throw InputError({value.where(), value.path(), "the run \"" + run.name + "\" sets this parameter, so it cannot be uncertain", name,
-                          "a parameter that no run sets"});
+        throw InputError(
+            {value.where(), value.path(),
+             "the run \"" + run.name + "\" sets this parameter, so it cannot be uncertain", name,
+             "a parameter that no run sets"});
 }
 
-UncertainQuantity read_quantity_entry(const std::string& name, const YamlValue& value, const RobotDescription& robot, const Study& study) {
+UncertainQuantity read_quantity_entry(const std::string& name, const YamlValue& value,
+                                      const RobotDescription& robot, const Study& study) {
   const std::vector<Parameter>& all = study.parameters;
-  const bool is_parameter = std::any_of(all.begin(), all.end(), [&name](const Parameter& parameter) { return parameter.name == name; });
+  const bool is_parameter =
+      std::any_of(all.begin(), all.end(),
+                  [&name](const Parameter& parameter) { return parameter.name == name; });
   UncertainQuantity quantity;
   quantity.name = name;
   quantity.where = value.where();
@@ -126,8 +144,10 @@ bool is_file(const std::string& name, const YamlValue& value, const Study& study
 
 }  // namespace
 
-std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const RobotDescription& robot, const Study& study,
-                                              const std::vector<RunDescription>& runs, const FileLoader& files) {
+std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain,
+                                              const RobotDescription& robot, const Study& study,
+                                              const std::vector<RunDescription>& runs,
+                                              const FileLoader& files) {
   std::set<std::string> own;
   for (const auto& [name, value] : uncertain.entries()) own.insert(name);
   std::vector<UncertainQuantity> quantities;
@@ -137,12 +157,14 @@ std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain, const 
       refuse_set_by_run(name, value, runs);
       continue;
     }
-    for (UncertainQuantity& identified : read_identified(value, study, own, files, quantities.size())) {
+    for (UncertainQuantity& identified :
+         read_identified(value, study, own, files, quantities.size())) {
       refuse_set_by_run(identified.name, value, runs);
       quantities.push_back(std::move(identified));
     }
   }
-  if (quantities.empty()) uncertain.fail("nothing is uncertain", "at least one PARAMETER: {uniform: [lower, upper]}");
+  if (quantities.empty())
+    uncertain.fail("nothing is uncertain", "at least one PARAMETER: {uniform: [lower, upper]}");
   return quantities;
 }
 

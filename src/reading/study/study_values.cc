@@ -19,7 +19,8 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
   return names;
 }
 
-int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others) {
+int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at,
+                      const std::vector<std::string>& others) {
   std::vector<std::string> allowed = others;
   const std::set<int> tuned(study.tuned.begin(), study.tuned.end());
   for (int index = 0; index < static_cast<int>(study.parameters.size()); ++index) {
@@ -35,7 +36,8 @@ int untuned_parameter(const std::string& name, const Study& study, const YamlVal
 double read_within_bounds(const YamlValue& value, const Parameter& parameter) {
   const double number = value.number();
   if (number < parameter.lower || number > parameter.upper)
-    value.fail("the value lies outside the bounds of the parameter " + parameter.name, range_of(parameter));
+    value.fail("the value lies outside the bounds of the parameter " + parameter.name,
+               range_of(parameter));
   return number;
 }
 
@@ -52,7 +54,8 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
     if (!std::isfinite(*number)) value.fail("not finite", kAllowed);
     return *number;
   }
-  if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}') value.fail("not a number", kAllowed);
+  if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}')
+    value.fail("not a number", kAllowed);
   std::shared_ptr<const Expression> expression;
   try {
     expression = table.parse(text.substr(2, text.size() - 3));
@@ -67,15 +70,19 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
 QuantityVector read_vector(const YamlValue& value, const ParameterTable& table) {
   if (!value.is_list()) value.fail("three components are needed", "[x, y, z]");
   const std::vector<YamlValue> items = value.items();
-  if (items.size() != 3) value.fail("three components are needed, found " + std::to_string(items.size()), "[x, y, z]");
-  return {read_quantity(items[0], table), read_quantity(items[1], table), read_quantity(items[2], table)};
+  if (items.size() != 3)
+    value.fail("three components are needed, found " + std::to_string(items.size()), "[x, y, z]");
+  return {read_quantity(items[0], table), read_quantity(items[1], table),
+          read_quantity(items[2], table)};
 }
 
-const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at) {
+const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot,
+                                     const YamlValue& at) {
   std::vector<std::string> known;
   for (const JointDescription& joint : robot.joints) {
     const bool scalar = has_one_coordinate(joint.type);
-    if (joint.name == name && !scalar) at.fail("this joint has no single coordinate", "a revolute, continuous or prismatic joint");
+    if (joint.name == name && !scalar)
+      at.fail("this joint has no single coordinate", "a revolute, continuous or prismatic joint");
     if (joint.name == name) return joint;
     if (scalar) known.push_back(joint.name);
   }
@@ -83,14 +90,17 @@ const JointDescription& scalar_joint(const std::string& name, const RobotDescrip
 }
 
 Between read_between(const YamlValue& value, const ParameterTable& table) {
-  const auto between = value.find("between"), at_least = value.find("at_least"), at_most = value.find("at_most");
+  const auto between = value.find("between"), at_least = value.find("at_least"),
+             at_most = value.find("at_most");
   if (between ? at_least || at_most : !at_least && !at_most)
     value.fail("a constraint needs bounds, either by between or by at_least and at_most",
                "between: [lower, upper]; or at_least, at_most or both");
   Between bounds;
   if (between) {
     const std::vector<YamlValue> items = between->items();
-    if (items.size() != 2) between->fail("two bounds are needed, found " + std::to_string(items.size()), "[lower, upper]");
+    if (items.size() != 2)
+      between->fail("two bounds are needed, found " + std::to_string(items.size()),
+                    "[lower, upper]");
     bounds.lower = read_quantity(items[0], table);
     bounds.upper = read_quantity(items[1], table);
   }

@@ -16,9 +16,11 @@ namespace codesign {
 /// The names of the parameters, in order.
 std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 
-/// The index of the parameter named `name`, which the study must not tune. @throws InputError, located at `at`.
+/// The index of the parameter named `name`, which the study must not tune. @throws InputError,
+/// located at `at`.
 /// @param others further allowed names, for the list in the message.
-int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at, const std::vector<std::string>& others = {});
+int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at,
+                      const std::vector<std::string>& others = {});
 
 /// A finite number within the bounds of a parameter. @throws InputError
 double read_within_bounds(const YamlValue& value, const Parameter& parameter);
@@ -26,21 +28,25 @@ double read_within_bounds(const YamlValue& value, const Parameter& parameter);
 /// A number above zero. @param unit for the message, for example " s". @throws InputError
 double read_above_zero(const YamlValue& value, const std::string& unit = "");
 
-/// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not finite at the parameters' start.
+/// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not
+/// finite at the parameters' start.
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
 
 /// A list of three quantities. @throws InputError
 QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 
-/// The joint or loop named `name`. @throws InputError, located at `at`, if there is none or it does not have exactly one coordinate.
-const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot, const YamlValue& at);
+/// The joint or loop named `name`. @throws InputError, located at `at`, if there is none or it does
+/// not have exactly one coordinate.
+const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot,
+                                     const YamlValue& at);
 
 /// The bounds of a constraint, at least one of them.
 struct Between {
   std::optional<Quantity> lower, upper;
 };
 
-/// Reads `between: [lower, upper]`, or `at_least` and `at_most` or one of these. Their order is not checked. @throws InputError
+/// Reads `between: [lower, upper]`, or `at_least` and `at_most` or one of these. Their order is not
+/// checked. @throws InputError
 Between read_between(const YamlValue& value, const ParameterTable& table);
 
 }  // namespace codesign

@@ -29,53 +29,89 @@ void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
 Names friction_attributes() {
   Names names;
   const FrictionNumbers<double> any;
-  visit_friction_numbers([&names](const FrictionNumberRule& rule, const double&) { names.emplace_back(rule.attribute); }, &any);
+  visit_friction_numbers([&names](const FrictionNumberRule& rule,
+                                  const double&) { names.emplace_back(rule.attribute); },
+                         &any);
   return names;
 }
 
 void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRule>* rules) {
   rules->push_back({path + "/axis", strict, {}, {"xyz"}, {}, {}});
   rules->push_back({path + "/dynamics", strict, {}, {"damping", "friction"}, {}, {}});
-  rules->push_back({path + "/codesign:friction", true, {"model", "transverse_axis"}, friction_attributes(), {}, {}});
-  rules->push_back({path + "/codesign:torsion_spring", true, {}, {"stiffness", "damping", "free_position"}, {}, {}});
-  rules->push_back({path + "/codesign:actuator", true, {}, {"gear_ratio", "rotor_inertia"}, {}, {}});
+  rules->push_back({path + "/codesign:friction",
+                    true,
+                    {"model", "transverse_axis"},
+                    friction_attributes(),
+                    {},
+                    {}});
+  rules->push_back({path + "/codesign:torsion_spring",
+                    true,
+                    {},
+                    {"stiffness", "damping", "free_position"},
+                    {},
+                    {}});
+  rules->push_back(
+      {path + "/codesign:actuator", true, {}, {"gear_ratio", "rotor_inertia"}, {}, {}});
 }
 
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
-  rules.push_back({"robot", false, {}, {}, {}, {"codesign:parameter", "codesign:set", "codesign:spring_damper"}});
-  rules.push_back({"robot/codesign:parameter", true, {"name", "value", "lower", "upper", "unit"}, {}, {}, {}});
-  rules.push_back({"robot/codesign:set", true, {"name", "value", "lower", "upper"}, {}, {}, {}});
+  rules.push_back({"robot",
+                   false,
+                   {},
+                   {},
+                   {},
+                   {"codesign:parameter", "codesign:set", "codesign:spring_damper"}});
   rules.push_back(
-      {"robot/codesign:spring_damper", true, {"name"}, {"stiffness", "damping", "free_length"}, {}, {"predecessor", "successor"}});
+      {"robot/codesign:parameter", true, {"name", "value", "lower", "upper", "unit"}, {}, {}, {}});
+  rules.push_back({"robot/codesign:set", true, {"name", "value", "lower", "upper"}, {}, {}, {}});
+  rules.push_back({"robot/codesign:spring_damper",
+                   true,
+                   {"name"},
+                   {"stiffness", "damping", "free_length"},
+                   {},
+                   {"predecessor", "successor"}});
   add_ends("robot/codesign:spring_damper", &rules);
 
   rules.push_back({"robot/link/inertial", false, {}, {}, {"density", "from", "inertia"}, {}});
   rules.push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
   rules.push_back({"robot/link/inertial/mass", false, {}, {"value"}, {}, {}});
-  rules.push_back({"robot/link/inertial/inertia", false, {}, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}});
+  rules.push_back({"robot/link/inertial/inertia",
+                   false,
+                   {},
+                   {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"},
+                   {},
+                   {}});
   add_shapes("robot/link/visual", &rules);
   add_shapes("robot/link/collision", &rules);
 
-  rules.push_back({"robot/joint", false, {}, {}, {}, {"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
+  rules.push_back({"robot/joint",
+                   false,
+                   {},
+                   {},
+                   {},
+                   {"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
   rules.push_back({"robot/joint/origin", false, {}, {"xyz", "rpy"}, {}, {}});
-  rules.push_back({"robot/joint/limit", false, {}, {"lower", "upper", "effort", "velocity"}, {}, {}});
+  rules.push_back(
+      {"robot/joint/limit", false, {}, {"lower", "upper", "effort", "velocity"}, {}, {}});
   rules.push_back({"robot/joint/mimic", false, {}, {"multiplier", "offset"}, {}, {}});
   add_joint_parts("robot/joint", false, &rules);
 
-  rules.push_back({"robot/loop",
-                   true,
-                   {"name", "type"},
-                   {},
-                   {},
-                   {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length", "codesign:friction",
-                    "codesign:torsion_spring", "codesign:actuator"}});
+  rules.push_back(
+      {"robot/loop",
+       true,
+       {"name", "type"},
+       {},
+       {},
+       {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length",
+        "codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
   add_ends("robot/loop", &rules);
   add_joint_parts("robot/loop", true, &rules);
   rules.push_back({"robot/loop/codesign:second_axis", true, {}, {"xyz"}, {}, {}});
   rules.push_back({"robot/loop/codesign:length", true, {}, {"value"}, {}, {}});
 
-  rules.push_back({"robot/coupling", true, {"name", "type"}, {}, {}, {"predecessor", "successor", "ratio"}});
+  rules.push_back(
+      {"robot/coupling", true, {"name", "type"}, {}, {}, {"predecessor", "successor", "ratio"}});
   add_ends("robot/coupling", &rules);
   rules.push_back({"robot/coupling/ratio", true, {}, {"value"}, {}, {}});
   return rules;
@@ -89,7 +125,8 @@ const std::vector<ElementRule>& rules() {
 }  // namespace
 
 const ElementRule* find_rule(const std::string& path) {
-  const auto found = std::find_if(rules().begin(), rules().end(), [&](const ElementRule& rule) { return rule.path == path; });
+  const auto found = std::find_if(rules().begin(), rules().end(),
+                                  [&](const ElementRule& rule) { return rule.path == path; });
   return found != rules().end() ? &*found : nullptr;
 }
 

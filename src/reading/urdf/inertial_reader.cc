@@ -16,7 +16,9 @@ ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& tabl
   shape.origin = read_origin(visual, table);
   const XmlElement geometry = visual.only("geometry");
   const std::vector<XmlElement> kinds = geometry.children();
-  if (kinds.size() != 1) geometry.fail("the geometry does not hold exactly one shape", "", "<box>, <cylinder> or <sphere>");
+  if (kinds.size() != 1)
+    geometry.fail("the geometry does not hold exactly one shape", "",
+                  "<box>, <cylinder> or <sphere>");
   const XmlElement& kind = kinds.front();
   if (kind.tag() == "box") {
     shape.kind = ShapeDescription::Kind::kBox;
@@ -31,14 +33,17 @@ ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& tabl
     shape.kind = ShapeDescription::Kind::kSphere;
     shape.size[0] = read_quantity(kind, "radius", Range::kPositive, table);
   } else {
-    kind.fail("mass cannot be computed from this shape", "<" + kind.tag() + ">", "<box>, <cylinder> or <sphere>");
+    kind.fail("mass cannot be computed from this shape", "<" + kind.tag() + ">",
+              "<box>, <cylinder> or <sphere>");
   }
   return shape;
 }
 
 /// The solids of a link's `<visual>` or `<collision>` elements.
-/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh, whose volume is not computed.
-std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag, const ParameterTable& table) {
+/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh,
+/// whose volume is not computed.
+std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag,
+                                          const ParameterTable& table) {
   std::vector<ShapeDescription> shapes;
   for (const XmlElement& visual : link.children(tag)) shapes.push_back(read_solid(visual, table));
   if (shapes.empty()) link.fail("the link has no <" + tag + "> to compute its mass from");
@@ -49,26 +54,31 @@ std::string as_xml(const MassProperties<double>& m) {
   const auto attribute = [&](const char* name, int i, int k) {
     return std::string(" ") + name + "=\"" + to_decimal(m.inertia(i, k)) + "\"";
   };
-  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) + "\"/> <mass value=\"" + to_decimal(m.mass) +
-         "\"/> <inertia" + attribute("ixx", 0, 0) + attribute("ixy", 0, 1) + attribute("ixz", 0, 2) + attribute("iyy", 1, 1) +
+  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) +
+         "\"/> <mass value=\"" + to_decimal(m.mass) + "\"/> <inertia" + attribute("ixx", 0, 0) +
+         attribute("ixy", 0, 1) + attribute("ixz", 0, 2) + attribute("iyy", 1, 1) +
          attribute("iyz", 1, 2) + attribute("izz", 2, 2) + "/>";
 }
 
-/// Checks that the written values agree with the values of the shapes to 1e-6 (relative). @throws InputError
-void check_agreement(const XmlElement& element, const InertialDescription& written, const InertialDescription& from_shapes,
-                     const ParameterTable& table) {
+/// Checks that the written values agree with the values of the shapes to 1e-6 (relative). @throws
+/// InputError
+void check_agreement(const XmlElement& element, const InertialDescription& written,
+                     const InertialDescription& from_shapes, const ParameterTable& table) {
   constexpr double kRelative = 1e-6;
-  const MassProperties<double> a = mass_properties(written, table.values), b = mass_properties(from_shapes, table.values);
+  const MassProperties<double> a = mass_properties(written, table.values),
+                               b = mass_properties(from_shapes, table.values);
   const double size = std::sqrt(b.inertia.trace() / b.mass);
   const bool agree = std::abs(a.mass - b.mass) <= kRelative * b.mass &&
                      (a.centre - b.centre).norm() <= kRelative * (size + b.centre.norm()) &&
                      (a.inertia - b.inertia).norm() <= kRelative * b.inertia.norm();
-  if (!agree) element.fail("mass, centre or inertia differ from those of the shapes", as_xml(a), as_xml(b));
+  if (!agree)
+    element.fail("mass, centre or inertia differ from those of the shapes", as_xml(a), as_xml(b));
 }
 
 /// Throws InputError; its allowed value is the computed inertial as XML, ready to be pasted.
-[[noreturn]] void fail_with_computed(const XmlElement& element, const InertialDescription& from_shapes, const ParameterTable& table,
-                                     const std::string& message) {
+[[noreturn]] void fail_with_computed(const XmlElement& element,
+                                     const InertialDescription& from_shapes,
+                                     const ParameterTable& table, const std::string& message) {
   element.fail(message, "", as_xml(mass_properties(from_shapes, table.values)));
 }
 
@@ -79,43 +89,53 @@ InertialDescription read_numbers(const XmlElement& inertial, const ParameterTabl
   result.where = inertial.where();
   result.origin = read_origin(inertial, table);
   const XmlElement mass = inertial.only("mass");
-  result.mass = read_quantity(mass, "value", mass.in_overlay("value") ? Range::kNonNegative : Range::kAny, table);
+  result.mass = read_quantity(mass, "value",
+                              mass.in_overlay("value") ? Range::kNonNegative : Range::kAny, table);
   const XmlElement inertia = inertial.only("inertia");
-  for (std::size_t k = 0; k < kInertia.size(); ++k) result.inertia[k] = read_quantity(inertia, kInertia[k], Range::kAny, table);
+  for (std::size_t k = 0; k < kInertia.size(); ++k)
+    result.inertia[k] = read_quantity(inertia, kInertia[k], Range::kAny, table);
   return result;
 }
 
 bool is_massless(const InertialDescription& inertial) {
   const auto is_zero = [](const Quantity& quantity) { return quantity.is_zero(); };
-  return inertial.mass.is_zero() && std::all_of(inertial.inertia.begin(), inertial.inertia.end(), is_zero);
+  return inertial.mass.is_zero() &&
+         std::all_of(inertial.inertia.begin(), inertial.inertia.end(), is_zero);
 }
 
-InertialDescription read_from_shapes(const XmlElement& link, const XmlElement& inertial, const ParameterTable& table) {
+InertialDescription read_from_shapes(const XmlElement& link, const XmlElement& inertial,
+                                     const ParameterTable& table) {
   InertialDescription result;
   result.where = inertial.where();
   const std::string from = inertial.find("codesign:from").value_or("visual");
-  if (from != "visual" && from != "collision") inertial.fail_at("codesign:from", "unknown kind of shapes", "visual or collision");
+  if (from != "visual" && from != "collision")
+    inertial.fail_at("codesign:from", "unknown kind of shapes", "visual or collision");
   result.density = parse_quantities(inertial, "codesign:density", 1, table).front();
-  if (result.density->nominal() <= 0.0) inertial.fail_at("codesign:density", "the density is not positive", "> 0");
+  if (result.density->nominal() <= 0.0)
+    inertial.fail_at("codesign:density", "the density is not positive", "> 0");
   result.shapes = read_solids(link, from, table);
   return result;
 }
 
 }  // namespace
 
-std::optional<InertialDescription> read_inertial(const XmlElement& link, const ParameterTable& table) {
+std::optional<InertialDescription> read_inertial(const XmlElement& link,
+                                                 const ParameterTable& table) {
   const std::optional<XmlElement> inertial = link.child("inertial");
   if (!inertial) return std::nullopt;
   if (!inertial->has("codesign:density")) {
     if (inertial->has("codesign:from"))
-      inertial->fail_at("codesign:from", "without codesign:density no mass can be computed from shapes; add it, or remove codesign:from");
+      inertial->fail_at("codesign:from",
+                        "without codesign:density no mass can be computed from shapes; add it, or "
+                        "remove codesign:from");
     InertialDescription result = read_numbers(*inertial, table);
     if (is_massless(result)) return std::nullopt;
     return result;
   }
   InertialDescription result = read_from_shapes(link, *inertial, table);
   if (!inertial->child("mass") || !inertial->child("inertia"))
-    fail_with_computed(*inertial, result, table, "mass or inertia is missing, which other readers of URDF need");
+    fail_with_computed(*inertial, result, table,
+                       "mass or inertia is missing, which other readers of URDF need");
   check_agreement(*inertial, read_numbers(*inertial, table), result, table);
   return result;
 }

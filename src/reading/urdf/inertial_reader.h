@@ -9,16 +9,22 @@
 
 namespace codesign {
 
-/// A link's `<inertial>`; std::nullopt if there is none, or if mass and inertia are all zero, as some exporters write massless links.
-/// Whether a body can have these numbers is checked later, when it is known which links form a body (check_bodies()).
-/// @throws InputError for missing or malformed values, and for plain values that disagree with the shapes.
-std::optional<InertialDescription> read_inertial(const XmlElement& link, const ParameterTable& table);
+/// A link's `<inertial>`; std::nullopt if there is none, or if mass and inertia are all zero, as
+/// some exporters write massless links. Whether a body can have these numbers is checked later,
+/// when it is known which links form a body (check_bodies()).
+/// @throws InputError for missing or malformed values, and for plain values that disagree with the
+/// shapes.
+std::optional<InertialDescription> read_inertial(const XmlElement& link,
+                                                 const ParameterTable& table);
 
-/// Writes out every `<inertial codesign:inertia="free">`: the document gets ten `<codesign:parameter>` LINK_alpha, LINK_d1 and so on (see
-/// kLogCholeskyNames), and mass, centre and inertia get twins, so that every value of the parameters is physically possible; theory (28e).
-/// The plain numbers do not change and are in the link's axes; a parameter that is declared already, with bounds of its own or by an
-/// overlay with identified values, keeps its value and the plain numbers follow. The attribute is removed.
-/// @throws InputError for another value than `free`, beside a density or a twin, and for numbers of a body without extent.
+/// Writes out every `<inertial codesign:inertia="free">`: the document gets ten
+/// `<codesign:parameter>` LINK_alpha, LINK_d1 and so on (see kLogCholeskyNames), and mass, centre
+/// and inertia get twins, so that every value of the parameters is physically possible; theory
+/// (28e). The plain numbers do not change and are in the link's axes; a parameter that is declared
+/// already, with bounds of its own or by an overlay with identified values, keeps its value and the
+/// plain numbers follow. The attribute is removed.
+/// @throws InputError for another value than `free`, beside a density or a twin, and for numbers of
+/// a body without extent.
 void write_out_free_inertias(XmlDocument* document);
 
 }  // namespace codesign

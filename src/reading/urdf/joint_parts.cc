@@ -16,11 +16,13 @@ namespace {
 FrictionModel read_model(const XmlElement& element, const Laws& laws) {
   const std::string name = element.find("model").value_or("brown_mcphee");
   if (const auto law = find_friction(laws, name)) return *law;
-  throw unknown_name(element.where("model"), element.label(), "friction model", name, names_of(laws.friction));
+  throw unknown_name(element.where("model"), element.label(), "friction model", name,
+                     names_of(laws.friction));
 }
 
 /// The number that counts where an attribute is missing.
-const Quantity& value_if_missing(const FrictionNumberRule& rule, const FrictionDescription& friction, const Quantity& standard) {
+const Quantity& value_if_missing(const FrictionNumberRule& rule,
+                                 const FrictionDescription& friction, const Quantity& standard) {
   switch (rule.missing) {
     case FrictionNumberRule::Missing::kPinRadius:
       return friction.pin_radius;
@@ -42,23 +44,28 @@ const Quantity& value_if_missing(const FrictionNumberRule& rule, const FrictionD
 std::string models_of(const FrictionNumberRule& rule, const Laws& laws) {
   std::string models;
   for (const FrictionModel& law : laws.friction)
-    if (law->uses(rule)) models += (models.empty() ? "with model=\"" : " or model=\"") + std::string(law->name) + "\"";
+    if (law->uses(rule))
+      models += (models.empty() ? "with model=\"" : " or model=\"") + std::string(law->name) + "\"";
   return models;
 }
 
-void require_ordered(const XmlElement& element, const std::string& dynamic_name, const Quantity& dynamic, const std::string& static_name,
+void require_ordered(const XmlElement& element, const std::string& dynamic_name,
+                     const Quantity& dynamic, const std::string& static_name,
                      const Quantity& at_rest) {
   if (dynamic.nominal() > at_rest.nominal())
-    element.fail_at(element.has(dynamic_name) ? dynamic_name : static_name, dynamic_name + " is above " + static_name,
+    element.fail_at(element.has(dynamic_name) ? dynamic_name : static_name,
+                    dynamic_name + " is above " + static_name,
                     "at most " + static_name + "=" + to_decimal(at_rest.nominal()));
 }
 
-/// A number of the element. An attribute that the model does not use is an error, since it would have no effect.
-void read_number(const XmlElement& element, const FrictionNumberRule& rule, const ReadContext& context, FrictionDescription* friction,
-                 Quantity* number) {
+/// A number of the element. An attribute that the model does not use is an error, since it would
+/// have no effect.
+void read_number(const XmlElement& element, const FrictionNumberRule& rule,
+                 const ReadContext& context, FrictionDescription* friction, Quantity* number) {
   if (!friction->model->uses(rule)) {
     if (element.has(rule.attribute))
-      element.fail_at(rule.attribute, std::string(rule.attribute) + " has no meaning for this friction model",
+      element.fail_at(rule.attribute,
+                      std::string(rule.attribute) + " has no meaning for this friction model",
                       models_of(rule, *context.laws));
     return;
   }
@@ -66,14 +73,17 @@ void read_number(const XmlElement& element, const FrictionNumberRule& rule, cons
   if (rule.missing == FrictionNumberRule::Missing::kRefused)
     *number = read_quantity(element, rule.attribute, range, context.table);
   else
-    *number = read_quantity_or(value_if_missing(rule, *friction, *number), element, rule.attribute, range, context.table);
+    *number = read_quantity_or(value_if_missing(rule, *friction, *number), element, rule.attribute,
+                               range, context.table);
   if (rule.is_backward() && element.has(rule.attribute)) friction->is_directional = true;
 }
 
 std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
-  const std::vector<Quantity> given = parse_quantities(element, "transverse_axis", 3, ParameterTable());
+  const std::vector<Quantity> given =
+      parse_quantities(element, "transverse_axis", 3, ParameterTable());
   const std::array<double, 3> result = {given[0].nominal(), given[1].nominal(), given[2].nominal()};
-  const Vector3<double> x(result[0], result[1], result[2]), z(axis[0].nominal(), axis[1].nominal(), axis[2].nominal());
+  const Vector3<double> x(result[0], result[1], result[2]),
+      z(axis[0].nominal(), axis[1].nominal(), axis[2].nominal());
   if (x.cross(z).norm() <= 1e-6 * x.norm() * z.norm())
     element.fail_at("transverse_axis", "the transverse axis is zero or parallel to the joint axis",
                     "a vector that is not parallel to the joint axis");
@@ -82,23 +92,32 @@ std::array<double, 3> read_transverse_axis(const XmlElement& element, const Quan
 
 }  // namespace
 
-FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ReadContext& context) {
+FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis,
+                                  const ReadContext& context) {
   FrictionDescription friction;
   friction.where = element.where();
   friction.model = read_model(element, *context.laws);
-  const auto read = [&](const FrictionNumberRule& rule, Quantity& number) { read_number(element, rule, context, &friction, &number); };
+  const auto read = [&](const FrictionNumberRule& rule, Quantity& number) {
+    read_number(element, rule, context, &friction, &number);
+  };
   visit_friction_numbers(read, &friction);
   require_ordered(element, "mu_dynamic", friction.mu_dynamic, "mu_static", friction.mu_static);
-  require_ordered(element, "mu_dynamic_backward", friction.mu_dynamic_backward, "mu_static_backward", friction.mu_static_backward);
+  require_ordered(element, "mu_dynamic_backward", friction.mu_dynamic_backward,
+                  "mu_static_backward", friction.mu_static_backward);
   if (friction.model->divides_by_mu_dynamic && friction.mu_dynamic.nominal() == 0.0)
-    element.fail_at("mu_dynamic", std::string("mu_dynamic is zero: the ") + friction.model->title + " model divides by it", "> 0");
-  if (element.has("transverse_axis")) friction.transverse_axis = read_transverse_axis(element, axis);
+    element.fail_at(
+        "mu_dynamic",
+        std::string("mu_dynamic is zero: the ") + friction.model->title + " model divides by it",
+        "> 0");
+  if (element.has("transverse_axis"))
+    friction.transverse_axis = read_transverse_axis(element, axis);
   return friction;
 }
 
 namespace {
 
-constexpr const char* kGearRatio = "<codesign:actuator gear_ratio=\"...\">, which makes the transmission irrelevant";
+constexpr const char* kGearRatio =
+    "<codesign:actuator gear_ratio=\"...\">, which makes the transmission irrelevant";
 
 /// The type of a transmission: `<type>NAME</type>`, or the attribute `type` as in PR2's files.
 std::string type_of(const XmlElement& transmission) {
@@ -108,17 +127,21 @@ std::string type_of(const XmlElement& transmission) {
 }
 
 bool is_simple(const XmlElement& transmission) {
-  return ends_with(type_of(transmission), "SimpleTransmission") && transmission.children("joint").size() == 1 &&
+  return ends_with(type_of(transmission), "SimpleTransmission") &&
+         transmission.children("joint").size() == 1 &&
          transmission.children("actuator").size() <= 1;
 }
 
-/// The reductions of a transmission in order of preference: of `<actuator>`, where ros_control reads it, of `<joint>`, then its own.
+/// The reductions of a transmission in order of preference: of `<actuator>`, where ros_control
+/// reads it, of `<joint>`, then its own.
 std::vector<XmlElement> reductions(const XmlElement& transmission) {
   std::vector<XmlElement> found;
   for (const char* tag : {"actuator", "joint"})
     for (const XmlElement& part : transmission.children(tag))
-      for (const XmlElement& reduction : part.children("mechanicalReduction")) found.push_back(reduction);
-  for (const XmlElement& reduction : transmission.children("mechanicalReduction")) found.push_back(reduction);
+      for (const XmlElement& reduction : part.children("mechanicalReduction"))
+        found.push_back(reduction);
+  for (const XmlElement& reduction : transmission.children("mechanicalReduction"))
+    found.push_back(reduction);
   return found;
 }
 
@@ -131,7 +154,9 @@ class TransmissionReader {
     std::optional<double> ratio;
     for (const XmlElement& transmission : transmissions_) {
       const std::vector<XmlElement> joints = transmission.children("joint");
-      if (std::none_of(joints.begin(), joints.end(), [&](const XmlElement& j) { return j.find("name") == joint->name; })) continue;
+      if (std::none_of(joints.begin(), joints.end(),
+                       [&](const XmlElement& j) { return j.find("name") == joint->name; }))
+        continue;
       const std::vector<XmlElement> found = reductions(transmission);
       if (!is_simple(transmission)) {
         if (!found.empty())
@@ -145,7 +170,8 @@ class TransmissionReader {
   }
 
  private:
-  void take(const XmlElement& reduction, const JointDescription& joint, std::optional<double>* ratio) {
+  void take(const XmlElement& reduction, const JointDescription& joint,
+            std::optional<double>* ratio) {
     const char* const text = reduction.node()->GetText();
     const std::vector<std::string> words = split_words(text != nullptr ? text : "");
     const std::optional<double> number = words.size() == 1 ? parse_number(words[0]) : std::nullopt;
@@ -156,11 +182,13 @@ class TransmissionReader {
       *ratio = *number;
     } else if (**ratio != *number) {
       doubt("transmission_contradicts", reduction, text,
-            "joint \"" + joint.name + "\" already has the reduction " + to_decimal(**ratio) + "; this one is ignored");
+            "joint \"" + joint.name + "\" already has the reduction " + to_decimal(**ratio) +
+                "; this one is ignored");
     }
   }
 
-  void doubt(const char* code, const XmlElement& at, const std::string& value, const std::string& message) {
+  void doubt(const char* code, const XmlElement& at, const std::string& value,
+             const std::string& message) {
     robot_->warnings.push_back(warn(code, {at.where(), at.label(), message, value, kGearRatio}));
   }
 
@@ -176,7 +204,8 @@ void read_transmissions(const XmlElement& element, RobotDescription* robot) {
     const std::optional<XmlElement> actuator = joint.child("codesign:actuator");
     if (!actuator || actuator->has("gear_ratio")) continue;
     for (JointDescription& description : robot->joints)
-      if (!description.is_loop && description.name == joint.find("name") && description.actuator) reader.read(&description);
+      if (!description.is_loop && description.name == joint.find("name") && description.actuator)
+        reader.read(&description);
   }
 }
 

@@ -13,50 +13,61 @@ namespace codesign {
 int ReadContext::link(const XmlElement& element, const std::string& attribute) const {
   const std::string name = element.text(attribute);
   const auto found = std::find(links.begin(), links.end(), name);
-  if (found == links.end()) throw unknown_name(element.where(attribute), element.label(), "link", name, links);
+  if (found == links.end())
+    throw unknown_name(element.where(attribute), element.label(), "link", name, links);
   return static_cast<int>(found - links.begin());
 }
 
 std::pair<int, int> ReadContext::ends(const XmlElement& element) const {
   const XmlElement successor = element.only("successor");
-  const std::pair<int, int> result = {link(element.only("predecessor"), "link"), link(successor, "link")};
-  if (result.first == result.second) successor.fail_at("link", "predecessor and successor are the same link", "two links");
+  const std::pair<int, int> result = {link(element.only("predecessor"), "link"),
+                                      link(successor, "link")};
+  if (result.first == result.second)
+    successor.fail_at("link", "predecessor and successor are the same link", "two links");
   return result;
 }
 
 namespace {
 
-/// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file it is taken as zero with a warning,
-/// since exporters write it for unknown values. @param meaning what zero means there.
-Quantity read_magnitude(const XmlElement& element, const std::string& attribute, const ReadContext& context,
-                        const char* meaning = "is taken as zero") {
-  const Quantity value =
-      read_quantity(element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny, context.table);
+/// A number that must not be negative. A negative one is an error in an overlay; in a vendor's file
+/// it is taken as zero with a warning, since exporters write it for unknown values. @param meaning
+/// what zero means there.
+Quantity read_magnitude(const XmlElement& element, const std::string& attribute,
+                        const ReadContext& context, const char* meaning = "is taken as zero") {
+  const Quantity value = read_quantity(
+      element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny,
+      context.table);
   if (value.nominal() >= 0.0) return value;
-  context.warnings->push_back(
-      element.warning_at("negative_value", attribute, attribute + " is negative and " + meaning, "write 0 or a positive number"));
+  context.warnings->push_back(element.warning_at("negative_value", attribute,
+                                                 attribute + " is negative and " + meaning,
+                                                 "write 0 or a positive number"));
   return 0.0;
 }
 
-Quantity read_magnitude_or_zero(const XmlElement& element, const std::string& attribute, const ReadContext& context) {
+Quantity read_magnitude_or_zero(const XmlElement& element, const std::string& attribute,
+                                const ReadContext& context) {
   return element.has(attribute) ? read_magnitude(element, attribute, context) : Quantity(0.0);
 }
 
-void check_bounds(const XmlElement& element, JointType type, const ReadContext& context, LimitDescription* limit) {
+void check_bounds(const XmlElement& element, JointType type, const ReadContext& context,
+                  LimitDescription* limit) {
   if (!limit->bounds_position()) return;
   if (type == JointType::kContinuous) {
-    context.warnings->push_back(element.warning("limit_ignored", "lower and upper are ignored, since a continuous joint turns without end",
-                                                element.find("lower").value_or("0") + " ... " + element.find("upper").value_or("0"),
-                                                "leave them out, or write type=\"revolute\""));
+    context.warnings->push_back(element.warning(
+        "limit_ignored", "lower and upper are ignored, since a continuous joint turns without end",
+        element.find("lower").value_or("0") + " ... " + element.find("upper").value_or("0"),
+        "leave them out, or write type=\"revolute\""));
     return;
   }
   if (limit->lower.nominal() <= limit->upper.nominal()) return;
   const std::string attribute = element.has("lower") ? "lower" : "upper";
   const std::string message = "the lower limit is above the upper limit";
-  if (element.in_overlay(attribute)) element.fail_at(attribute, message, "lower <= upper=" + to_decimal(limit->upper.nominal()));
-  context.warnings->push_back(element.warning_at("limits_reversed", attribute,
-                                                 message + " (" + to_decimal(limit->upper.nominal()) + "): the joint has no stops",
-                                                 "exchange the two, or leave them out"));
+  if (element.in_overlay(attribute))
+    element.fail_at(attribute, message, "lower <= upper=" + to_decimal(limit->upper.nominal()));
+  context.warnings->push_back(element.warning_at(
+      "limits_reversed", attribute,
+      message + " (" + to_decimal(limit->upper.nominal()) + "): the joint has no stops",
+      "exchange the two, or leave them out"));
   limit->lower = limit->upper = 0.0;
 }
 
@@ -81,25 +92,31 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
   return mimic;
 }
 
-ActuatorDescription read_actuator(const XmlElement& element, JointType type, const ParameterTable& table) {
+ActuatorDescription read_actuator(const XmlElement& element, JointType type,
+                                  const ParameterTable& table) {
   if (!has_one_coordinate(type))
-    element.fail("a joint of this type has no single coordinate for a rotor", "", "revolute, continuous or prismatic");
+    element.fail("a joint of this type has no single coordinate for a rotor", "",
+                 "revolute, continuous or prismatic");
   ActuatorDescription actuator;
   actuator.where = element.where();
   actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, table);
-  if (actuator.gear_ratio.nominal() == 0.0) element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
+  if (actuator.gear_ratio.nominal() == 0.0)
+    element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
   actuator.rotor_inertia = read_quantity(element, "rotor_inertia", Range::kNonNegative, table);
   return actuator;
 }
 
-void read_limit_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+void read_limit_of_joint(const XmlElement& element, const ReadContext& context,
+                         JointDescription* joint) {
   const std::optional<XmlElement> limit = element.child("limit");
   const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
   if (bounded && !limit) element.fail("a joint of this type needs a <limit>", element.text("type"));
-  if (limit && has_one_coordinate(joint->type)) joint->limit = read_limit(*limit, joint->type, context);
+  if (limit && has_one_coordinate(joint->type))
+    joint->limit = read_limit(*limit, joint->type, context);
 }
 
-void read_mimic_of_joint(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+void read_mimic_of_joint(const XmlElement& element, const ReadContext& context,
+                         JointDescription* joint) {
   const std::optional<XmlElement> mimic = element.child("mimic");
   if (!mimic) return;
   if (has_one_coordinate(joint->type)) {
@@ -107,22 +124,28 @@ void read_mimic_of_joint(const XmlElement& element, const ReadContext& context, 
     return;
   }
   const std::string message = "a joint of this type cannot mimic";
-  if (mimic->in_overlay()) mimic->fail(message, element.text("type"), "revolute, continuous or prismatic");
-  context.warnings->push_back(
-      mimic->warning("mimic_ignored", message + ": the element is ignored", element.text("type"), "remove it, or write another type"));
+  if (mimic->in_overlay())
+    mimic->fail(message, element.text("type"), "revolute, continuous or prismatic");
+  context.warnings->push_back(mimic->warning("mimic_ignored", message + ": the element is ignored",
+                                             element.text("type"),
+                                             "remove it, or write another type"));
 }
 
-/// Damping and dry friction of a joint. On planar and floating joints URDF gives them no meaning, and they are ignored.
-void read_dynamics(const XmlElement& dynamics, const ReadContext& context, JointDescription* joint) {
-  if (!dynamics.has("damping") && !dynamics.has("friction")) dynamics.fail("neither damping nor friction is given");
+/// Damping and dry friction of a joint. On planar and floating joints URDF gives them no meaning,
+/// and they are ignored.
+void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
+                   JointDescription* joint) {
+  if (!dynamics.has("damping") && !dynamics.has("friction"))
+    dynamics.fail("neither damping nor friction is given");
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
   const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
   if (!several || joint->is_loop || dynamics.in_overlay()) return;
   if (!joint->damping.is_zero() || !joint->dry_friction.is_zero())
-    context.warnings->push_back(dynamics.warning("dynamics_ignored",
-                                                 "damping and friction of a joint with several coordinates are ignored: it moves freely",
-                                                 "", "remove the element"));
+    context.warnings->push_back(dynamics.warning(
+        "dynamics_ignored",
+        "damping and friction of a joint with several coordinates are ignored: it moves freely", "",
+        "remove the element"));
   joint->damping = joint->dry_friction = 0.0;
 }
 
@@ -139,38 +162,52 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
     if (law->type == JointType::kOther) joint->own_kind = pair_of(*law);
     return;
   }
-  throw unknown_name(element.where("type"), element.label(), joint->is_loop ? "loop type" : "joint type", name, known);
+  throw unknown_name(element.where("type"), element.label(),
+                     joint->is_loop ? "loop type" : "joint type", name, known);
 }
 
-/// Reads the parts that joints and loops have in common: axis, dynamics, friction, actuator and torsion spring.
+/// Reads the parts that joints and loops have in common: axis, dynamics, friction, actuator and
+/// torsion spring.
 /// @param joint its type and links must be set. @throws InputError
-void read_joint_parts(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+void read_joint_parts(const XmlElement& element, const ReadContext& context,
+                      JointDescription* joint) {
   const ParameterTable& table = context.table;
-  const bool welded = joint->type == JointType::kFixed && !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
-  const std::optional<XmlElement> axis = element.child("axis"), dynamics = element.child("dynamics");
-  if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop)) joint->axis = read_axis(*axis, table);
+  const bool welded = joint->type == JointType::kFixed &&
+                      !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
+  const std::optional<XmlElement> axis = element.child("axis"),
+                                  dynamics = element.child("dynamics");
+  if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop))
+    joint->axis = read_axis(*axis, table);
   if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
-  const std::optional<XmlElement> friction = element.child("codesign:friction"), spring = element.child("codesign:torsion_spring");
+  const std::optional<XmlElement> friction = element.child("codesign:friction"),
+                                  spring = element.child("codesign:torsion_spring");
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, context);
   if (actuator) joint->actuator = read_actuator(*actuator, joint->type, table);
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
-    spring->fail("a joint of this type has no single coordinate for a spring", "", "revolute, continuous or prismatic");
-  joint->spring = TorsionSpringDescription{read_quantity(*spring, "stiffness", Range::kNonNegative, table),
-                                           read_quantity_or(0.0, *spring, "damping", Range::kNonNegative, table),
-                                           read_quantity_or(0.0, *spring, "free_position", Range::kAny, table)};
+    spring->fail("a joint of this type has no single coordinate for a spring", "",
+                 "revolute, continuous or prismatic");
+  joint->spring = TorsionSpringDescription{
+      read_quantity(*spring, "stiffness", Range::kNonNegative, table),
+      read_quantity_or(0.0, *spring, "damping", Range::kNonNegative, table),
+      read_quantity_or(0.0, *spring, "free_position", Range::kAny, table)};
 }
 
-void read_type_specific(const XmlElement& element, const ReadContext& context, JointDescription* loop) {
-  const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"), length = element.child("codesign:length");
+void read_type_specific(const XmlElement& element, const ReadContext& context,
+                        JointDescription* loop) {
+  const std::optional<XmlElement> second_axis = element.child("codesign:second_axis"),
+                                  length = element.child("codesign:length");
   if (second_axis) {
-    if (loop->type != JointType::kUniversal) second_axis->fail("only a loop of type codesign:universal has a second axis");
+    if (loop->type != JointType::kUniversal)
+      second_axis->fail("only a loop of type codesign:universal has a second axis");
     loop->second_axis = read_axis(*second_axis, context.table);
   }
-  if (length && loop->type != JointType::kDistance) length->fail("only a loop of type codesign:distance has a length");
+  if (length && loop->type != JointType::kDistance)
+    length->fail("only a loop of type codesign:distance has a length");
   if (loop->type == JointType::kDistance)
-    loop->distance = read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
+    loop->distance =
+        read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
 }
 
 }  // namespace
@@ -183,7 +220,8 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   const XmlElement child = element.only("child");
   joint.parent = context.link(element.only("parent"), "link");
   joint.child = context.link(child, "link");
-  if (joint.parent == joint.child) child.fail_at("link", "parent and child are the same link", "two links");
+  if (joint.parent == joint.child)
+    child.fail_at("link", "parent and child are the same link", "two links");
   joint.origin = read_origin(element, context.table);
   read_joint_parts(element, context, &joint);
   read_limit_of_joint(element, context, &joint);

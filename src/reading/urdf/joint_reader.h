@@ -18,14 +18,18 @@ struct ReadContext {
   Warnings* warnings = nullptr;         ///< never null while a robot is read
   const Laws* laws = &standard_laws();  ///< never null
 
-  /// Index of the link that `attribute` names. @throws InputError naming the link with the nearest name.
+  /// Index of the link that `attribute` names. @throws InputError naming the link with the nearest
+  /// name.
   int link(const XmlElement& element, const std::string& attribute) const;
-  /// The links of `<predecessor link>` and `<successor link>`. @throws InputError if they are the same.
+  /// The links of `<predecessor link>` and `<successor link>`. @throws InputError if they are the
+  /// same.
   std::pair<int, int> ends(const XmlElement& element) const;
 };
 
-/// Reads one `<codesign:friction>`. @param axis of the joint; the transverse axis must not be parallel to it. @throws InputError
-FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis, const ReadContext& context);
+/// Reads one `<codesign:friction>`. @param axis of the joint; the transverse axis must not be
+/// parallel to it. @throws InputError
+FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis,
+                                  const ReadContext& context);
 
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);
@@ -33,30 +37,38 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
 /// Reads a `<loop>`, of URDF+ or with one of our types. @throws InputError
 JointDescription read_loop(const XmlElement& element, const ReadContext& context);
 
-/// Sets the gear ratio of every `<codesign:actuator>` without `gear_ratio` to the mechanical reduction in the ROS `<transmission>` of its
-/// joint. A reduction that cannot be used is ignored with a warning: `transmission_not_read`, `transmission_contradicts` or
+/// Sets the gear ratio of every `<codesign:actuator>` without `gear_ratio` to the mechanical
+/// reduction in the ROS `<transmission>` of its joint. A reduction that cannot be used is ignored
+/// with a warning: `transmission_not_read`, `transmission_contradicts` or
 /// `transmission_not_simple`. Transmissions of joints without an actuator are not examined.
 /// @param element the `<robot>`. @param robot its joints must have been read.
 void read_transmissions(const XmlElement& element, RobotDescription* robot);
 
-/// The ratio of two links that roll on each other: the `<ratio>` given, else the ratio of the distances from the points of contact, the
-/// origins of predecessor and successor, to the axes of the joints above the links; 1 without such points.
-double rolling_ratio(const XmlElement& element, const CouplingDescription& coupling, const RobotDescription& robot,
-                     const ParameterTable& table);
+/// The ratio of two links that roll on each other: the `<ratio>` given, else the ratio of the
+/// distances from the points of contact, the origins of predecessor and successor, to the axes of
+/// the joints above the links; 1 without such points.
+double rolling_ratio(const XmlElement& element, const CouplingDescription& coupling,
+                     const RobotDescription& robot, const ParameterTable& table);
 
-/// Reads the `<constraint>` elements of mit-biomimetics/URDF-Parser. `type="position"` and `type="spherical_joint"`, where two points
-/// coincide, become a spherical loop; `type="rolling"` becomes a coupling with the ratio given or the ratio of the points' distances from
-/// the joint axes. A constraint that cannot be read is ignored with a warning (`loop_ignored`).
-void read_constraints(const XmlElement& robot, const ReadContext& context, RobotDescription* description);
+/// Reads the `<constraint>` elements of mit-biomimetics/URDF-Parser. `type="position"` and
+/// `type="spherical_joint"`, where two points coincide, become a spherical loop; `type="rolling"`
+/// becomes a coupling with the ratio given or the ratio of the points' distances from the joint
+/// axes. A constraint that cannot be read is ignored with a warning (`loop_ignored`).
+void read_constraints(const XmlElement& robot, const ReadContext& context,
+                      RobotDescription* description);
 
 /// Whether a loop of the description connects two links, named in either order.
 bool has_loop_between(const RobotDescription& robot, const std::string& a, const std::string& b);
 
-/// Warns (`loop_ignored`) of elements that close loops or couple joints in other tools and are not read here: `<loop_joint>`,
-/// `<gazebo><joint>`, mimic and DetachableJoint plugins, `drake:*_constraint`, `drake:joint`, `drake:linear_bushing_rpy`, MuJoCo's
-/// `<equality>`. Each warning shows the element to write instead, with `...` for values that the file does not give. There is no warning
-/// where the description has a loop between the two links, or a coupling or `<mimic>` of the joint, already.
+/// Warns (`loop_ignored`) of elements that close loops or couple joints in other tools and are not
+/// read here: `<loop_joint>`,
+/// `<gazebo><joint>`, mimic and DetachableJoint plugins, `drake:*_constraint`, `drake:joint`,
+/// `drake:linear_bushing_rpy`, MuJoCo's
+/// `<equality>`. Each warning shows the element to write instead, with `...` for values that the
+/// file does not give. There is no warning where the description has a loop between the two links,
+/// or a coupling or `<mimic>` of the joint, already.
 /// @param description must already contain the links and joints.
-void warn_of_foreign_loops(const XmlElement& robot, const RobotDescription& description, Warnings* warnings);
+void warn_of_foreign_loops(const XmlElement& robot, const RobotDescription& description,
+                           Warnings* warnings);
 
 }  // namespace codesign

@@ -32,10 +32,12 @@ Eigen::Vector3d plain_vector(const tinyxml2::XMLElement* element, const char* at
 Eigen::Isometry3d plain_origin(const tinyxml2::XMLElement* element) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (element == nullptr) return pose;
-  const bool is_origin = element->Attribute("xyz") != nullptr || element->Attribute("rpy") != nullptr;
+  const bool is_origin =
+      element->Attribute("xyz") != nullptr || element->Attribute("rpy") != nullptr;
   const tinyxml2::XMLElement* origin = is_origin ? element : element->FirstChildElement("origin");
   const Eigen::Vector3d rpy = plain_vector(origin, "rpy");
-  pose.linear() = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+  pose.linear() = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
                    Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
                       .toRotationMatrix();
   pose.translation() = plain_vector(origin, "xyz");
@@ -60,7 +62,8 @@ Eigen::Vector3d half_of(const XMLElement* geometry) {
 
 std::vector<SolidBox> boxes_of(const XMLElement* link) {
   std::vector<SolidBox> boxes;
-  for (const XMLElement* visual = link->FirstChildElement("visual"); visual != nullptr; visual = visual->NextSiblingElement("visual")) {
+  for (const XMLElement* visual = link->FirstChildElement("visual"); visual != nullptr;
+       visual = visual->NextSiblingElement("visual")) {
     const SolidBox box{plain_origin(visual), half_of(visual->FirstChildElement("geometry"))};
     if (box.half.minCoeff() > 0.0) boxes.push_back(box);
   }
@@ -72,7 +75,9 @@ std::vector<SolidBox> boxes_of(const XMLElement* link) {
 LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links) {
   LinkBoxes boxes(links.size());
   tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) return boxes;
+  if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS ||
+      document.RootElement() == nullptr)
+    return boxes;
   for (const XMLElement* link = document.RootElement()->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const char* name = link->Attribute("name");

@@ -17,13 +17,15 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// A folder of this name at most so many levels below `root`; the nearest one. Empty: there is none.
+/// A folder of this name at most so many levels below `root`; the nearest one. Empty: there is
+/// none.
 fs::path below(const fs::path& root, const std::string& name, int levels) {
   if (levels == 0) return {};
   if (is_folder(root / name)) return root / name;
   std::error_code ignored;
-  for (fs::directory_iterator entry(root, fs::directory_options::skip_permission_denied, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
+  for (fs::directory_iterator entry(root, fs::directory_options::skip_permission_denied, ignored),
+       end;
+       !ignored && entry != end; entry.increment(ignored)) {
     if (!is_folder(entry->path())) continue;
     const fs::path found = below(entry->path(), name, levels - 1);
     if (!found.empty()) return found;
@@ -46,13 +48,16 @@ fs::path find_package(const std::string& name) {
   return {};
 }
 
-bool begins_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool begins_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
 }  // namespace
 
 const fs::path& MeshFinder::folder_of(const std::string& package) {
   const auto found = folders_.find(package);
-  return found != folders_.end() ? found->second : folders_.emplace(package, find_package(package)).first->second;
+  return found != folders_.end() ? found->second
+                                 : folders_.emplace(package, find_package(package)).first->second;
 }
 
 bool MeshFinder::is_there(const std::string& uri) {

@@ -19,18 +19,22 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The first child of `parent` with the tag of `like` and, if `like` has a name, with that name; null if there is none.
+/// The first child of `parent` with the tag of `like` and, if `like` has a name, with that name;
+/// null if there is none.
 XMLElement* find_like(XMLElement* parent, const XMLElement* like) {
   const char* name = like->Attribute("name");
-  for (XMLElement* child = parent->FirstChildElement(like->Name()); child != nullptr; child = child->NextSiblingElement(like->Name())) {
+  for (XMLElement* child = parent->FirstChildElement(like->Name()); child != nullptr;
+       child = child->NextSiblingElement(like->Name())) {
     if (name == nullptr || child->Attribute("name", name) != nullptr) return child;
   }
   return nullptr;
 }
 
-void merge_element(const XMLElement* patch, const XmlDocument& overlay, XMLElement* target, XmlDocument* base) {
+void merge_element(const XMLElement* patch, const XmlDocument& overlay, XMLElement* target,
+                   XmlDocument* base) {
   base->copy_attributes(target, patch, overlay);
-  for (const XMLElement* child = patch->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const XMLElement* child = patch->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     XMLElement* like = find_like(target, child);
     const bool replaces = std::string(child->Name()).rfind(kPrefix, 0) == 0;
     if (like != nullptr && replaces) target->DeleteChild(like);
@@ -44,16 +48,20 @@ void merge_element(const XMLElement* patch, const XmlDocument& overlay, XMLEleme
 
 std::vector<std::string> names_of(const XMLElement* robot, const char* tag) {
   std::vector<std::string> names;
-  for (const XMLElement* child = robot->FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag)) {
+  for (const XMLElement* child = robot->FirstChildElement(tag); child != nullptr;
+       child = child->NextSiblingElement(tag)) {
     const char* name = child->Attribute("name");
     if (name != nullptr) names.emplace_back(name);
   }
   return names;
 }
 
-bool is_annotation(const std::string& tag) { return tag.rfind(kPrefix, 0) == 0 || tag == "loop" || tag == "coupling"; }
+bool is_annotation(const std::string& tag) {
+  return tag.rfind(kPrefix, 0) == 0 || tag == "loop" || tag == "coupling";
+}
 
-/// Whether an unknown link or joint is to be added: a link if a joint of the model or the overlay names it, a joint if it has a type.
+/// Whether an unknown link or joint is to be added: a link if a joint of the model or the overlay
+/// names it, a joint if it has a type.
 bool is_new(const XmlElement& patch, const XmlDocument& overlay, const XmlDocument& base) {
   if (patch.tag() == "joint") return patch.has("type");
   const std::string name = patch.text("name");
@@ -61,12 +69,15 @@ bool is_new(const XmlElement& patch, const XmlDocument& overlay, const XmlDocume
     const XmlElement robot(document->robot(), document);
     for (const XmlElement& joint : robot.children("joint"))
       for (const char* end : {"parent", "child"})
-        if (const std::optional<XmlElement> side = joint.child(end); side && side->find("link") == name) return true;
+        if (const std::optional<XmlElement> side = joint.child(end);
+            side && side->find("link") == name)
+          return true;
   }
   return false;
 }
 
-/// Merges the elements of one overlay and remembers their tags and names, so that an element that occurs twice is an error.
+/// Merges the elements of one overlay and remembers their tags and names, so that an element that
+/// occurs twice is an error.
 class Merger {
  public:
   Merger(const XmlDocument& overlay, XmlDocument* base) : overlay_(overlay), base_(base) {}
@@ -75,8 +86,9 @@ class Merger {
     const std::string tag = patch.tag();
     const bool known = is_annotation(tag) || tag == "link" || tag == "joint";
     if (!known)
-      patch.fail("an overlay cannot contain this element", "<" + tag + ">",
-                 "link, joint, loop, coupling, codesign:parameter, codesign:set, codesign:spring_damper");
+      patch.fail(
+          "an overlay cannot contain this element", "<" + tag + ">",
+          "link, joint, loop, coupling, codesign:parameter, codesign:set, codesign:spring_damper");
     const std::string name = patch.text("name");
     XMLElement* like = find_like(base_->robot(), patch.node());
     const bool merged_already = !seen_.insert(tag + " " + name).second;
@@ -87,19 +99,22 @@ class Merger {
       note_parts(patch, tag + " " + name);
       merge_element(patch.node(), overlay_, like, base_);
     } else if (!is_annotation(tag) && !is_new(patch, overlay_, *base_)) {
-      throw unknown_name(patch.where("name"), patch.label(), tag + " of " + base_->file(), name, names_of(base_->robot(), tag.c_str()));
+      throw unknown_name(patch.where("name"), patch.label(), tag + " of " + base_->file(), name,
+                         names_of(base_->robot(), tag.c_str()));
     } else {
       added_.insert(base_->append_copy(base_->robot(), patch.node(), overlay_));
     }
   }
 
  private:
-  /// The value of a parameter comes from its declaration or from a setting in an overlay; of several overlays the last one counts.
+  /// The value of a parameter comes from its declaration or from a setting in an overlay; of
+  /// several overlays the last one counts.
   void give_value_once(const XmlElement& patch, const std::string& name) {
     const bool declares = patch.tag() == kParameterTag;
     if (seen_.count(std::string(declares ? kSetTag : kParameterTag) + " " + name) != 0)
       patch.fail("the overlay declares this parameter and sets it, too", name, "one of the two");
-    XMLElement* set = declares && patch.has("value") ? find_named(base_->robot(), kSetTag, name) : nullptr;
+    XMLElement* set =
+        declares && patch.has("value") ? find_named(base_->robot(), kSetTag, name) : nullptr;
     if (set != nullptr) base_->robot()->DeleteChild(set);
   }
 
@@ -141,7 +156,8 @@ using tinyxml2::XMLElement;
 /// The index of the parameter that an element sets.
 std::size_t index_of(const XmlElement& set, const std::vector<Parameter>& parameters) {
   const std::string name = set.text("name");
-  const auto found = std::find_if(parameters.begin(), parameters.end(), [&name](const Parameter& known) { return known.name == name; });
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&name](const Parameter& known) { return known.name == name; });
   if (found != parameters.end()) return to_index(found - parameters.begin());
   std::vector<std::string> known;
   for (const Parameter& parameter : parameters) known.push_back(parameter.name);
@@ -151,24 +167,28 @@ std::size_t index_of(const XmlElement& set, const std::vector<Parameter>& parame
 /// Reads value and bounds into `parameter`, and writes the bounds into its declaration.
 void read_set(const XmlElement& set, XMLElement* declaration, Parameter* parameter) {
   parameter->value = read_number(set, "value", Range::kAny);
-  for (const auto& [name, bound] : {std::pair<const char*, double*>{"lower", &parameter->lower}, {"upper", &parameter->upper}}) {
+  for (const auto& [name, bound] : {std::pair<const char*, double*>{"lower", &parameter->lower},
+                                    {"upper", &parameter->upper}}) {
     if (!set.has(name)) continue;
     *bound = read_number(set, name, Range::kAny);
     declaration->SetAttribute(name, to_decimal(*bound).c_str());
   }
-  if (parameter->lower > parameter->upper) set.fail("the lower bound is above the upper bound", range_of(*parameter), "lower <= upper");
+  if (parameter->lower > parameter->upper)
+    set.fail("the lower bound is above the upper bound", range_of(*parameter), "lower <= upper");
   if (parameter->value < parameter->lower || parameter->value > parameter->upper)
     set.fail_at("value", "the value is outside the bounds of the parameter", range_of(*parameter));
 }
 
 /// Two hyphens end a comment in XML.
 std::string comment_of(std::string text) {
-  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at)) text.insert(at + 1, " ");
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at))
+    text.insert(at + 1, " ");
   return " " + text + " ";
 }
 
 void add_comment(const std::string& text, XMLElement* robot) {
-  if (!text.empty()) robot->InsertEndChild(robot->GetDocument()->NewComment(comment_of(text).c_str()));
+  if (!text.empty())
+    robot->InsertEndChild(robot->GetDocument()->NewComment(comment_of(text).c_str()));
 }
 
 }  // namespace
@@ -176,7 +196,8 @@ void add_comment(const std::string& text, XMLElement* robot) {
 void refuse_set_values(const XmlDocument& model) {
   const XmlElement robot(model.robot(), &model);
   for (const XmlElement& set : robot.children(kSetTag))
-    set.fail("only an overlay sets values of parameters", set.find("name").value_or(""), "the value in <codesign:parameter>");
+    set.fail("only an overlay sets values of parameters", set.find("name").value_or(""),
+             "the value in <codesign:parameter>");
 }
 
 void apply_set_values(XmlDocument* document, const Laws& laws) {
@@ -194,8 +215,8 @@ void apply_set_values(XmlDocument* document, const Laws& laws) {
   write_design(robot, values, document);
 }
 
-std::string write_set_overlay(const std::string& robot, const std::string& heading, const std::vector<SetValue>& values,
-                              const std::string& ending) {
+std::string write_set_overlay(const std::string& robot, const std::string& heading,
+                              const std::vector<SetValue>& values, const std::string& ending) {
   tinyxml2::XMLDocument document;
   document.InsertEndChild(document.NewDeclaration());
   XMLElement* const root = document.NewElement("robot");

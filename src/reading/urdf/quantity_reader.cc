@@ -41,32 +41,43 @@ std::string expression_inside(const std::string& word) {
   return word.substr(begin + 2, word.size() - begin - 3);
 }
 
-Quantity parse_expression(const XmlElement& element, const std::string& attribute, const std::string& word, const ParameterTable& table) {
+Quantity parse_expression(const XmlElement& element, const std::string& attribute,
+                          const std::string& word, const ParameterTable& table) {
   const std::string inner = expression_inside(word);
-  if (inner.empty()) element.fail_at(attribute, "'" + word + "' is not an expression", "a number, ${expression} or -${expression}");
+  if (inner.empty())
+    element.fail_at(attribute, "'" + word + "' is not an expression",
+                    "a number, ${expression} or -${expression}");
   std::shared_ptr<const Expression> expression;
   try {
-    // Check the expression by itself: unbalanced brackets in it could be balanced by those that are put around it for the sign.
+    // Check the expression by itself: unbalanced brackets in it could be balanced by those that are
+    // put around it for the sign.
     expression = table.parse(inner);
     if (word[0] == '-') expression = table.parse("-(" + inner + ")");
   } catch (const std::invalid_argument& error) {
-    element.fail_at(attribute, std::string(error.what()), "an expression of the model's parameters");
+    element.fail_at(attribute, std::string(error.what()),
+                    "an expression of the model's parameters");
   }
   const double nominal = expression->value(table.values);
-  if (!std::isfinite(nominal)) element.fail_at(attribute, "'" + word + "' is not finite at the default parameters", "a finite number");
+  if (!std::isfinite(nominal))
+    element.fail_at(attribute, "'" + word + "' is not finite at the default parameters",
+                    "a finite number");
   return {nominal, expression};
 }
 
-Quantity parse_constant(const XmlElement& element, const std::string& attribute, const std::string& word) {
+Quantity parse_constant(const XmlElement& element, const std::string& attribute,
+                        const std::string& word) {
   const std::optional<double> value = parse_number(word);
-  if (!value) element.fail_at(attribute, "'" + word + "' in " + attribute + " is not a number", "numbers");
-  if (!std::isfinite(*value)) element.fail_at(attribute, attribute + " is not finite", "finite numbers");
+  if (!value)
+    element.fail_at(attribute, "'" + word + "' in " + attribute + " is not a number", "numbers");
+  if (!std::isfinite(*value))
+    element.fail_at(attribute, attribute + " is not finite", "finite numbers");
   return *value;
 }
 
 bool agree(double plain, double twin) {
   constexpr double kRelative = 1e-6, kAbsolute = 1e-12;
-  return std::abs(plain - twin) <= std::max(kAbsolute, kRelative * std::max(std::abs(plain), std::abs(twin)));
+  return std::abs(plain - twin) <=
+         std::max(kAbsolute, kRelative * std::max(std::abs(plain), std::abs(twin)));
 }
 
 std::string nominal_text(const std::vector<Quantity>& quantities) {
@@ -77,23 +88,27 @@ std::string nominal_text(const std::vector<Quantity>& quantities) {
 
 }  // namespace
 
-std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
-                                       const ParameterTable& table) {
+std::vector<Quantity> parse_quantities(const XmlElement& element, const std::string& attribute,
+                                       std::size_t count, const ParameterTable& table) {
   std::vector<Quantity> result;
   for (const std::string& word : split_values(element, attribute)) {
     const bool is_expression = word.find("${") != std::string::npos;
-    result.push_back(is_expression ? parse_expression(element, attribute, word, table) : parse_constant(element, attribute, word));
+    result.push_back(is_expression ? parse_expression(element, attribute, word, table)
+                                   : parse_constant(element, attribute, word));
   }
   if (result.size() != count)
-    element.fail_at(attribute, attribute + " has the wrong number of values (" + std::to_string(result.size()) + ")",
-                    std::to_string(count) + (count == 1 ? " value" : " values"));
+    element.fail_at(
+        attribute,
+        attribute + " has the wrong number of values (" + std::to_string(result.size()) + ")",
+        std::to_string(count) + (count == 1 ? " value" : " values"));
   return result;
 }
 
-std::vector<Quantity> read_quantities(const XmlElement& element, const std::string& attribute, std::size_t count,
-                                      const ParameterTable& table) {
+std::vector<Quantity> read_quantities(const XmlElement& element, const std::string& attribute,
+                                      std::size_t count, const ParameterTable& table) {
   if (element.text(attribute).find("${") != std::string::npos)
-    element.fail_at(attribute, "a plain attribute contains an expression", "a number here, the expression in " + (kPrefix + attribute));
+    element.fail_at(attribute, "a plain attribute contains an expression",
+                    "a number here, the expression in " + (kPrefix + attribute));
   std::vector<Quantity> plain = parse_quantities(element, attribute, count, table);
   const std::string twin_name = kPrefix + attribute;
   if (!element.has(twin_name)) return plain;
@@ -101,7 +116,8 @@ std::vector<Quantity> read_quantities(const XmlElement& element, const std::stri
   for (std::size_t k = 0; k < count; ++k) {
     if (agree(plain[k].nominal(), twin[k].nominal())) continue;
     element.fail_at(twin_name,
-                    twin_name + " is " + nominal_text(twin) + " at the default parameters, " + attribute + " is " + nominal_text(plain),
+                    twin_name + " is " + nominal_text(twin) + " at the default parameters, " +
+                        attribute + " is " + nominal_text(plain),
                     "equal values");
   }
   return twin;
@@ -109,25 +125,30 @@ std::vector<Quantity> read_quantities(const XmlElement& element, const std::stri
 
 namespace {
 
-void check_range(const XmlElement& element, const std::string& attribute, Range range, double value) {
-  if (range == Range::kPositive && value <= 0.0) element.fail_at(attribute, attribute + " is not positive", "> 0");
-  if (range == Range::kNonNegative && value < 0.0) element.fail_at(attribute, attribute + " is negative", ">= 0");
+void check_range(const XmlElement& element, const std::string& attribute, Range range,
+                 double value) {
+  if (range == Range::kPositive && value <= 0.0)
+    element.fail_at(attribute, attribute + " is not positive", "> 0");
+  if (range == Range::kNonNegative && value < 0.0)
+    element.fail_at(attribute, attribute + " is negative", ">= 0");
 }
 
 }  // namespace
 
-Quantity read_quantity(const XmlElement& element, const std::string& attribute, Range range, const ParameterTable& table) {
+Quantity read_quantity(const XmlElement& element, const std::string& attribute, Range range,
+                       const ParameterTable& table) {
   Quantity quantity = read_quantities(element, attribute, 1, table).front();
   check_range(element, attribute, range, quantity.nominal());
   return quantity;
 }
 
-Quantity read_quantity_or(const Quantity& fallback, const XmlElement& element, const std::string& attribute, Range range,
-                          const ParameterTable& table) {
+Quantity read_quantity_or(const Quantity& fallback, const XmlElement& element,
+                          const std::string& attribute, Range range, const ParameterTable& table) {
   return element.has(attribute) ? read_quantity(element, attribute, range, table) : fallback;
 }
 
-QuantityVector read_vector(const XmlElement& element, const std::string& attribute, const ParameterTable& table) {
+QuantityVector read_vector(const XmlElement& element, const std::string& attribute,
+                           const ParameterTable& table) {
   const std::vector<Quantity> values = read_quantities(element, attribute, 3, table);
   return {values[0], values[1], values[2]};
 }
@@ -135,7 +156,8 @@ QuantityVector read_vector(const XmlElement& element, const std::string& attribu
 QuantityVector read_axis(const XmlElement& element, const ParameterTable& table) {
   QuantityVector axis = read_vector(element, "xyz", table);
   const double x = axis[0].nominal(), y = axis[1].nominal(), z = axis[2].nominal();
-  if (x * x + y * y + z * z < 1e-24) element.fail_at("xyz", "the axis is zero", "a vector that is not zero");
+  if (x * x + y * y + z * z < 1e-24)
+    element.fail_at("xyz", "the axis is zero", "a vector that is not zero");
   return axis;
 }
 
@@ -152,7 +174,8 @@ double read_number(const XmlElement& element, const std::string& attribute, Rang
   return read_quantity(element, attribute, range, ParameterTable()).nominal();
 }
 
-double read_number_or(double fallback, const XmlElement& element, const std::string& attribute, Range range) {
+double read_number_or(double fallback, const XmlElement& element, const std::string& attribute,
+                      Range range) {
   return element.has(attribute) ? read_number(element, attribute, range) : fallback;
 }
 
@@ -163,14 +186,17 @@ Parameter read_parameter(const XmlElement& element) {
   parameter.where = element.where();
   parameter.name = element.text("name");
   const std::string fault = identifier_fault(parameter.name);
-  if (!fault.empty()) element.fail_at("name", fault, "an identifier that is not the name of a function or constant");
+  if (!fault.empty())
+    element.fail_at("name", fault, "an identifier that is not the name of a function or constant");
   parameter.value = read_number(element, "value", Range::kAny);
   parameter.lower = read_number_or(parameter.lower, element, "lower", Range::kAny);
   parameter.upper = read_number_or(parameter.upper, element, "upper", Range::kAny);
   parameter.unit = element.find("unit").value_or("");
-  const std::string bounds = "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]";
+  const std::string bounds =
+      "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]";
   if (parameter.lower > parameter.upper)
-    element.fail_at("lower", "the lower bound is above the upper bound", "at most upper=" + *element.find("upper"));
+    element.fail_at("lower", "the lower bound is above the upper bound",
+                    "at most upper=" + *element.find("upper"));
   if (parameter.value < parameter.lower || parameter.value > parameter.upper)
     element.fail_at("value", "the default value is outside its bounds", bounds);
   return parameter;
@@ -183,7 +209,8 @@ std::vector<Parameter> read_parameters(const XmlElement& robot) {
   std::set<std::string> names;
   for (const XmlElement& element : robot.children("codesign:parameter")) {
     parameters.push_back(read_parameter(element));
-    if (!names.insert(parameters.back().name).second) element.fail_at("name", "a second parameter of this name", "unique names");
+    if (!names.insert(parameters.back().name).second)
+      element.fail_at("name", "a second parameter of this name", "unique names");
   }
   return parameters;
 }

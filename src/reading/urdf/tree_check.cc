@@ -15,8 +15,11 @@ namespace {
 
 std::string element_of(const LinkDescription& link) { return "<link name=\"" + link.name + "\">"; }
 
-void insert_unique(const std::string& name, const SourceLocation& where, const std::string& kind, std::set<std::string>* names) {
-  if (!names->insert(name).second) throw InputError({where, "<" + kind + ">", "a second " + kind + " of this name", name, "unique names"});
+void insert_unique(const std::string& name, const SourceLocation& where, const std::string& kind,
+                   std::set<std::string>* names) {
+  if (!names->insert(name).second)
+    throw InputError(
+        {where, "<" + kind + ">", "a second " + kind + " of this name", name, "unique names"});
 }
 
 /// The tree joint above each link, null for roots.
@@ -27,8 +30,9 @@ std::vector<const JointDescription*> joints_above(const RobotDescription& robot)
     const JointDescription*& slot = above[to_index(joint.child)];
     const std::string& link = robot.links[to_index(joint.child)].name;
     if (slot != nullptr)
-      throw InputError({joint.where, joint.element(), "its child " + link + " is already the child of the joint " + slot->name, link,
-                        "one joint above each link; close the ring with a <loop>"});
+      throw InputError({joint.where, joint.element(),
+                        "its child " + link + " is already the child of the joint " + slot->name,
+                        link, "one joint above each link; close the ring with a <loop>"});
     slot = &joint;
   }
   return above;
@@ -49,16 +53,19 @@ std::vector<bool> reached_first(const RobotDescription& robot, const std::vector
   return first;
 }
 
-/// The fault of the chain of joints that `joint` mimics, directly or through others: an unknown joint or a ring.
-std::optional<InputError> mimic_fault(const JointDescription& joint, const std::map<std::string, const JointDescription*>& targets,
+/// The fault of the chain of joints that `joint` mimics, directly or through others: an unknown
+/// joint or a ring.
+std::optional<InputError> mimic_fault(const JointDescription& joint,
+                                      const std::map<std::string, const JointDescription*>& targets,
                                       const std::vector<std::string>& names) {
   std::size_t steps = 0;
   for (const JointDescription* at = &joint; at->mimic; at = targets.at(at->mimic->joint)) {
     const std::string element = at->element() + " <mimic>";
-    if (targets.count(at->mimic->joint) == 0) return unknown_name(at->mimic->where, element, "joint to mimic", at->mimic->joint, names);
+    if (targets.count(at->mimic->joint) == 0)
+      return unknown_name(at->mimic->where, element, "joint to mimic", at->mimic->joint, names);
     if (++steps > names.size())
-      return InputError(
-          {joint.mimic->where, joint.element() + " <mimic>", "the joints mimic each other in a ring", joint.mimic->joint, ""});
+      return InputError({joint.mimic->where, joint.element() + " <mimic>",
+                         "the joints mimic each other in a ring", joint.mimic->joint, ""});
   }
   return std::nullopt;
 }
@@ -67,9 +74,12 @@ std::optional<InputError> mimic_fault(const JointDescription& joint, const std::
 
 void check_names(const RobotDescription& robot) {
   std::set<std::string> links, joints, couplings, springs;
-  for (const LinkDescription& link : robot.links) insert_unique(link.name, link.where, "link", &links);
-  for (const JointDescription& joint : robot.joints) insert_unique(joint.name, joint.where, joint.is_loop ? "loop" : "joint", &joints);
-  for (const CouplingDescription& coupling : robot.couplings) insert_unique(coupling.name, coupling.where, "coupling", &couplings);
+  for (const LinkDescription& link : robot.links)
+    insert_unique(link.name, link.where, "link", &links);
+  for (const JointDescription& joint : robot.joints)
+    insert_unique(joint.name, joint.where, joint.is_loop ? "loop" : "joint", &joints);
+  for (const CouplingDescription& coupling : robot.couplings)
+    insert_unique(coupling.name, coupling.where, "coupling", &couplings);
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     insert_unique(spring.name, spring.where, "codesign:spring_damper", &springs);
 }
@@ -81,17 +91,21 @@ void close_with_second_parents(RobotDescription* robot) {
   const std::vector<bool> in_tree = reached_first(*robot, parents);
   for (std::size_t k = 0; k < robot->joints.size(); ++k) {
     JointDescription& joint = robot->joints[k];
-    if (in_tree[k] || parents[to_index(joint.child)] < 2 || joint.where.file != robot->file) continue;
+    if (in_tree[k] || parents[to_index(joint.child)] < 2 || joint.where.file != robot->file)
+      continue;
     const std::string& child = robot->links[to_index(joint.child)].name;
-    robot->warnings.push_back(warn("second_parent", {joint.where, joint.element(),
-                                                     "its child is already the child of another joint, so this one is read as a loop; to "
-                                                     "silence this: write a <loop> with predecessor and successor",
-                                                     child, ""}));
+    robot->warnings.push_back(
+        warn("second_parent",
+             {joint.where, joint.element(),
+              "its child is already the child of another joint, so this one is read as a loop; to "
+              "silence this: write a <loop> with predecessor and successor",
+              child, ""}));
     joint.is_loop = true;
     joint.limit.reset();
     joint.mimic.reset();
   }
-  std::stable_partition(robot->joints.begin(), robot->joints.end(), [](const JointDescription& joint) { return !joint.is_loop; });
+  std::stable_partition(robot->joints.begin(), robot->joints.end(),
+                        [](const JointDescription& joint) { return !joint.is_loop; });
 }
 
 int find_root(const RobotDescription& robot) {
@@ -100,8 +114,10 @@ int find_root(const RobotDescription& robot) {
   for (std::size_t k = 0; k < robot.links.size(); ++k) {
     if (above[k] != nullptr) continue;
     if (root >= 0)
-      throw InputError({robot.links[k].where, element_of(robot.links[k]), "a second root: no joint has this link as its child",
-                        robot.links[to_index(root)].name + ", " + robot.links[k].name, "one root link"});
+      throw InputError({robot.links[k].where, element_of(robot.links[k]),
+                        "a second root: no joint has this link as its child",
+                        robot.links[to_index(root)].name + ", " + robot.links[k].name,
+                        "one root link"});
     root = static_cast<int>(k);
   }
   // Each link is passed twice at most: a walk ends at a link from which the root has been reached.
@@ -110,9 +126,11 @@ int find_root(const RobotDescription& robot) {
     std::size_t link = k, steps = 0;
     const auto goes_on = [&](std::size_t at) { return above[at] != nullptr && !reaches_root[at]; };
     while (goes_on(link) && steps++ <= robot.links.size()) link = to_index(above[link]->parent);
-    for (std::size_t at = k; !goes_on(link) && goes_on(at); at = to_index(above[at]->parent)) reaches_root[at] = true;
+    for (std::size_t at = k; !goes_on(link) && goes_on(at); at = to_index(above[at]->parent))
+      reaches_root[at] = true;
     if (goes_on(link))
-      throw InputError({above[k]->where, above[k]->element(), "the joints form a ring that is not connected to the root",
+      throw InputError({above[k]->where, above[k]->element(),
+                        "the joints form a ring that is not connected to the root",
                         robot.links[k].name, "a tree from one root link; close rings with <loop>"});
   }
   return root;
@@ -132,18 +150,24 @@ void check_mimics(RobotDescription* robot) {
     if (!fault) continue;
     if (joint.mimic->where.file != robot->file) throw *fault;
     InputFault told = fault->fault();
-    told.message += "; the element is ignored and the joint moves freely. Name the joint that it follows, or remove the element";
+    told.message +=
+        "; the element is ignored and the joint moves freely. Name the joint that it follows, or "
+        "remove the element";
     robot->warnings.push_back(warn("mimic_ignored", told));
     joint.mimic.reset();
   }
 }
 
 void check_friction(const RobotDescription& robot) {
-  const auto is_body = [&](int link) { return link == robot.root || robot.links[to_index(link)].inertial.has_value(); };
+  const auto is_body = [&](int link) {
+    return link == robot.root || robot.links[to_index(link)].inertial.has_value();
+  };
   for (const JointDescription& joint : robot.joints) {
     if (!joint.friction) continue;
     const bool ordinary = joint.is_loop || (is_body(joint.parent) && is_body(joint.child));
-    if (ordinary) check_friction_geometry(*joint.friction, kind_of(joint), joint.element() + " <codesign:friction>");
+    if (ordinary)
+      check_friction_geometry(*joint.friction, kind_of(joint),
+                              joint.element() + " <codesign:friction>");
   }
 }
 

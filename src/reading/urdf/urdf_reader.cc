@@ -15,7 +15,8 @@
 namespace codesign {
 namespace {
 
-/// Checks every twin, also the twins of visuals, which are not simulated: write_tuned_urdf() writes their values.
+/// Checks every twin, also the twins of visuals, which are not simulated: write_tuned_urdf() writes
+/// their values.
 void check_twins(const XmlElement& element, const std::string& path, const ParameterTable& table) {
   const ElementRule* rule = find_rule(path);
   if (rule != nullptr) {
@@ -25,7 +26,8 @@ void check_twins(const XmlElement& element, const std::string& path, const Param
       read_quantities(element, name, is_vector ? 3 : 1, table);
     }
   }
-  for (const XmlElement& child : element.children()) check_twins(child, path + "/" + child.tag(), table);
+  for (const XmlElement& child : element.children())
+    check_twins(child, path + "/" + child.tag(), table);
 }
 
 LinkDescription read_link(const XmlElement& element, const ParameterTable& table) {
@@ -36,23 +38,27 @@ LinkDescription read_link(const XmlElement& element, const ParameterTable& table
   return link;
 }
 
-CouplingDescription read_coupling(const XmlElement& element, const ReadContext& context, const RobotDescription& robot) {
+CouplingDescription read_coupling(const XmlElement& element, const ReadContext& context,
+                                  const RobotDescription& robot) {
   CouplingDescription coupling;
   coupling.where = element.where();
   coupling.name = element.text("name");
   std::tie(coupling.predecessor, coupling.successor) = context.ends(element);
   const bool rolls = element.has("type");
-  if (rolls && element.text("type") != "rolling") element.fail_at("type", "the type of the coupling is unknown", "rolling, or no type");
+  if (rolls && element.text("type") != "rolling")
+    element.fail_at("type", "the type of the coupling is unknown", "rolling, or no type");
   for (const char* end : {"predecessor", "successor"})
     if (const auto origin = element.only(end).child("origin"); origin && !rolls)
-      origin->fail("only a coupling of type rolling has points, and a ratio without them", "", "<ratio value=\"...\"/> alone");
+      origin->fail("only a coupling of type rolling has points, and a ratio without them", "",
+                   "<ratio value=\"...\"/> alone");
   if (rolls && !element.child("ratio")) {
     coupling.ratio = rolling_ratio(element, coupling, robot, context.table);
     return coupling;
   }
   const XmlElement ratio = element.only("ratio");
   coupling.ratio = read_quantity(ratio, "value", Range::kAny, context.table);
-  if (coupling.ratio.nominal() == 0.0) ratio.fail_at("value", "the ratio is zero", "any other number");
+  if (coupling.ratio.nominal() == 0.0)
+    ratio.fail_at("value", "the ratio is zero", "any other number");
   return coupling;
 }
 
@@ -65,7 +71,8 @@ SpringDamperDescription read_spring_damper(const XmlElement& element, const Read
   spring.successor_origin = read_origin(element.only("successor"), context.table);
   spring.stiffness = read_quantity(element, "stiffness", Range::kNonNegative, context.table);
   spring.damping = read_quantity_or(0.0, element, "damping", Range::kNonNegative, context.table);
-  spring.free_length = read_quantity_or(0.0, element, "free_length", Range::kNonNegative, context.table);
+  spring.free_length =
+      read_quantity_or(0.0, element, "free_length", Range::kNonNegative, context.table);
   return spring;
 }
 
@@ -77,7 +84,9 @@ XmlDocument load_overlay(SourceText source) {
   check_prefixes(overlay);
   refuse_text(overlay);
   append(check_surroundings(overlay), &beside);
-  if (!beside.empty()) throw InputError({beside.front().where, "", "something stands after </robot>", "", "one <robot> element"});
+  if (!beside.empty())
+    throw InputError(
+        {beside.front().where, "", "something stands after </robot>", "", "one <robot> element"});
   return overlay;
 }
 
@@ -92,7 +101,8 @@ void sort_by_place(const std::string& file, Warnings* warnings) {
 
 }  // namespace
 
-XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws) {
+XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                                const Laws& laws) {
   SourceText text = urdf;
   const Warnings trailing = cut_trailing_text(&text);
   XmlDocument document(text);
@@ -123,13 +133,17 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   robot.name = element.text("name");
   robot.parameters = read_parameters(element);
   ReadContext context{{}, ParameterTable(robot.parameters), &robot.warnings, &laws};
-  for (const XmlElement& link : element.children("link")) robot.links.push_back(read_link(link, context.table));
+  for (const XmlElement& link : element.children("link"))
+    robot.links.push_back(read_link(link, context.table));
   if (robot.links.empty()) element.fail("the robot has no links");
   for (const LinkDescription& link : robot.links) context.links.push_back(link.name);
-  for (const XmlElement& joint : element.children("joint")) robot.joints.push_back(read_joint(joint, context));
+  for (const XmlElement& joint : element.children("joint"))
+    robot.joints.push_back(read_joint(joint, context));
   close_with_second_parents(&robot);
-  for (const XmlElement& loop : element.children("loop")) robot.joints.push_back(read_loop(loop, context));
-  for (const XmlElement& coupling : element.children("coupling")) robot.couplings.push_back(read_coupling(coupling, context, robot));
+  for (const XmlElement& loop : element.children("loop"))
+    robot.joints.push_back(read_loop(loop, context));
+  for (const XmlElement& coupling : element.children("coupling"))
+    robot.couplings.push_back(read_coupling(coupling, context, robot));
   read_constraints(element, context, &robot);
   for (const XmlElement& spring : element.children("codesign:spring_damper"))
     robot.spring_dampers.push_back(read_spring_damper(spring, context));
@@ -147,7 +161,8 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   return robot;
 }
 
-RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const Laws& laws) {
+RobotDescription read_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                           const Laws& laws) {
   return read_robot(load_annotated_urdf(urdf, overlays, laws), laws);
 }
 

@@ -22,12 +22,14 @@ struct Design {
   std::vector<double> values;
 };
 
-std::vector<double> twin_values(const XmlElement& element, const std::string& twin, const Design& design) {
+std::vector<double> twin_values(const XmlElement& element, const std::string& twin,
+                                const Design& design) {
   const std::size_t count = split_words(element.text(twin.substr(sizeof(kPrefix) - 1))).size();
   std::vector<double> values;
   for (const Quantity& quantity : parse_quantities(element, twin, count, design.table)) {
     values.push_back(quantity.at(design.values));
-    if (!std::isfinite(values.back())) element.fail_at(twin, twin + " is not finite at the values to write");
+    if (!std::isfinite(values.back()))
+      element.fail_at(twin, twin + " is not finite at the values to write");
   }
   return values;
 }
@@ -38,18 +40,22 @@ void write_twins(XMLElement* node, const std::string& path, const Design& design
   if (rule != nullptr) {
     for (const std::string& name : rule->twins)
       if (element.has(kPrefix + name))
-        node->SetAttribute(name.c_str(), format_numbers(twin_values(element, kPrefix + name, design)).c_str());
+        node->SetAttribute(name.c_str(),
+                           format_numbers(twin_values(element, kPrefix + name, design)).c_str());
   }
-  for (XMLElement* child = node->FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+  for (XMLElement* child = node->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement())
     write_twins(child, path + "/" + child->Name(), design);
 }
 
-/// Writes the new defaults. A bound that a value exceeds, since a study has wider ones, is moved to the value, so that the file stays
-/// valid.
-void write_parameters(XMLElement* robot, const std::vector<Parameter>& parameters, const std::vector<double>& values) {
+/// Writes the new defaults. A bound that a value exceeds, since a study has wider ones, is moved to
+/// the value, so that the file stays valid.
+void write_parameters(XMLElement* robot, const std::vector<Parameter>& parameters,
+                      const std::vector<double>& values) {
   const char* tag = "codesign:parameter";
   std::size_t k = 0;
-  for (XMLElement* node = robot->FirstChildElement(tag); node != nullptr; node = node->NextSiblingElement(tag), ++k) {
+  for (XMLElement* node = robot->FirstChildElement(tag); node != nullptr;
+       node = node->NextSiblingElement(tag), ++k) {
     const std::string value = to_decimal(values[k]);
     node->SetAttribute("value", value.c_str());
     if (values[k] < parameters[k].lower) node->SetAttribute("lower", value.c_str());
@@ -64,28 +70,35 @@ void write_inertial(XMLElement* inertial, const MassProperties<double>& properti
   origin->SetAttribute("xyz", format_numbers({centre[0], centre[1], centre[2]}).c_str());
   origin->SetAttribute("rpy", "0 0 0");
   inertial->FirstChildElement("mass")->SetAttribute("value", to_decimal(properties.mass).c_str());
-  const std::array<std::array<const char*, 3>, 3> names = {{{"ixx", "ixy", "ixz"}, {"ixy", "iyy", "iyz"}, {"ixz", "iyz", "izz"}}};
+  const std::array<std::array<const char*, 3>, 3> names = {
+      {{"ixx", "ixy", "ixz"}, {"ixy", "iyy", "iyz"}, {"ixz", "iyz", "izz"}}};
   XMLElement* inertia = inertial->FirstChildElement("inertia");
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j)
-      inertia->SetAttribute(names[i][j], to_decimal(properties.inertia(static_cast<int>(i), static_cast<int>(j))).c_str());
+      inertia->SetAttribute(
+          names[i][j],
+          to_decimal(properties.inertia(static_cast<int>(i), static_cast<int>(j))).c_str());
 }
 
-void write_inertials(XMLElement* robot, const std::vector<LinkDescription>& links, const std::vector<double>& values) {
+void write_inertials(XMLElement* robot, const std::vector<LinkDescription>& links,
+                     const std::vector<double>& values) {
   std::size_t k = 0;
-  for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link"), ++k) {
+  for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link"), ++k) {
     const std::optional<InertialDescription>& inertial = links[k].inertial;
-    if (inertial && inertial->density) write_inertial(link->FirstChildElement("inertial"), mass_properties(*inertial, values));
+    if (inertial && inertial->density)
+      write_inertial(link->FirstChildElement("inertial"), mass_properties(*inertial, values));
   }
 }
 
 }  // namespace
 
-void write_design(const RobotDescription& robot, const std::vector<double>& values, XmlDocument* document) {
+void write_design(const RobotDescription& robot, const std::vector<double>& values,
+                  XmlDocument* document) {
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(values[k]))
-      throw InputError(
-          {robot.parameters[k].where, robot.parameters[k].name, "the value to write is not finite", to_decimal(values[k]), ""});
+      throw InputError({robot.parameters[k].where, robot.parameters[k].name,
+                        "the value to write is not finite", to_decimal(values[k]), ""});
   write_twins(document->robot(), "robot", {*document, ParameterTable(robot.parameters), values});
   write_inertials(document->robot(), robot.links, values);
   write_parameters(document->robot(), robot.parameters, values);
@@ -95,9 +108,11 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Gives each joint and loop with friction the law. Removes attributes that the law does not use, since a file with them could not be read.
+/// Gives each joint and loop with friction the law. Removes attributes that the law does not use,
+/// since a file with them could not be read.
 void write_friction_law(XMLElement* robot, const FrictionLaw& law) {
-  for (XMLElement* joint = robot->FirstChildElement(); joint != nullptr; joint = joint->NextSiblingElement()) {
+  for (XMLElement* joint = robot->FirstChildElement(); joint != nullptr;
+       joint = joint->NextSiblingElement()) {
     XMLElement* friction = joint->FirstChildElement("codesign:friction");
     if (friction == nullptr) continue;
     friction->SetAttribute("model", law.name);
@@ -111,7 +126,8 @@ void write_friction_law(XMLElement* robot, const FrictionLaw& law) {
 
 }  // namespace
 
-std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays, const std::vector<double>& parameters,
+std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                             const std::vector<double>& parameters,
                              std::optional<FrictionModel> law, const Laws& laws) {
   XmlDocument document = load_annotated_urdf(urdf, overlays, laws);
   const RobotDescription robot = read_robot(document, laws);

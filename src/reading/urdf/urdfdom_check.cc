@@ -11,13 +11,17 @@
 namespace codesign {
 namespace {
 
-/// Collects urdfdom's errors during its lifetime. Warnings, for example of a root link with inertia, are dropped.
+/// Collects urdfdom's errors during its lifetime. Warnings, for example of a root link with
+/// inertia, are dropped.
 class ErrorCollector : public console_bridge::OutputHandler {
  public:
-  ErrorCollector() : previous_(console_bridge::getOutputHandler()) { console_bridge::useOutputHandler(this); }
+  ErrorCollector() : previous_(console_bridge::getOutputHandler()) {
+    console_bridge::useOutputHandler(this);
+  }
   ~ErrorCollector() override { console_bridge::useOutputHandler(previous_); }
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_ += (errors_.empty() ? "" : "; ") + text;
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
+      errors_ += (errors_.empty() ? "" : "; ") + text;
   }
   const std::string& errors() const { return errors_; }
 
@@ -26,14 +30,18 @@ class ErrorCollector : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
-/// The last child of `above` whose name occurs in `words` in brackets or quotation marks, as urdfdom writes names. The last one, since of
-/// two elements with the same name the second is the fault.
-const tinyxml2::XMLElement* find_named(const tinyxml2::XMLElement* above, const std::string& words) {
+/// The last child of `above` whose name occurs in `words` in brackets or quotation marks, as
+/// urdfdom writes names. The last one, since of two elements with the same name the second is the
+/// fault.
+const tinyxml2::XMLElement* find_named(const tinyxml2::XMLElement* above,
+                                       const std::string& words) {
   const tinyxml2::XMLElement* found = nullptr;
-  for (const tinyxml2::XMLElement* child = above->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const tinyxml2::XMLElement* child = above->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     const char* name = child->Attribute("name");
     const std::string word = name != nullptr ? name : "";
-    const bool named = words.find("[" + word + "]") != std::string::npos || words.find("'" + word + "'") != std::string::npos ||
+    const bool named = words.find("[" + word + "]") != std::string::npos ||
+                       words.find("'" + word + "'") != std::string::npos ||
                        words.find("\"" + word + "\"") != std::string::npos;
     if (!word.empty() && named) found = child;
   }

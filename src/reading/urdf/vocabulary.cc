@@ -14,7 +14,8 @@ void add_shape(const std::string& path, Words* words) {
                     {},
                     {"box", "cylinder", "sphere", "mesh"},
                     {},
-                    {"capsule", "plane", "ellipsoid", "superellipsoid", "heightmap", "convex", "cone", "cdf", "image"},
+                    {"capsule", "plane", "ellipsoid", "superellipsoid", "heightmap", "convex",
+                     "cone", "cdf", "image"},
                     false});
   words->push_back({path + "/geometry/box", {"size"}, {}, {}, {}, false});
   words->push_back({path + "/geometry/cylinder", {"radius", "length"}, {}, {}, {}, false});
@@ -30,17 +31,24 @@ void add_material(const std::string& path, Words* words) {
 
 void add_link(Words* words) {
   const std::string link = "robot/link";
-  words->push_back({link,
-                    {"name"},
-                    {"inertial", "visual", "collision"},
-                    {"type", "concave"},
-                    {"contact", "sensor", "self_collision_checking", "self_collide", "verbose", "audio_source"},
-                    true});
+  words->push_back(
+      {link,
+       {"name"},
+       {"inertial", "visual", "collision"},
+       {"type", "concave"},
+       {"contact", "sensor", "self_collision_checking", "self_collide", "verbose", "audio_source"},
+       true});
   words->push_back({link + "/inertial", {}, {"origin", "mass", "inertia"}, {}, {}, false});
   words->push_back({link + "/inertial/origin", {"xyz", "rpy"}, {}, {"quat_xyzw"}, {}, false});
   words->push_back({link + "/inertial/mass", {"value"}, {}, {}, {}, false});
-  words->push_back({link + "/inertial/inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}, {}, false});
-  words->push_back({link + "/visual", {"name"}, {"origin", "geometry", "material"}, {"cast_shadows"}, {"meta", "transparency"}, false});
+  words->push_back(
+      {link + "/inertial/inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}, {}, false});
+  words->push_back({link + "/visual",
+                    {"name"},
+                    {"origin", "geometry", "material"},
+                    {"cast_shadows"},
+                    {"meta", "transparency"},
+                    false});
   words->push_back({link + "/collision",
                     {"name"},
                     {"origin", "geometry"},
@@ -56,7 +64,8 @@ void add_joint(Words* words) {
   const std::string joint = "robot/joint";
   words->push_back({joint,
                     {"name", "type"},
-                    {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic", "calibration", "safety_controller"},
+                    {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic",
+                     "calibration", "safety_controller"},
                     {"independent"},
                     {"joint_properties", "hardwareInterface", "actuator", "sensor", "compliance"},
                     false});
@@ -64,21 +73,34 @@ void add_joint(Words* words) {
   words->push_back({joint + "/parent", {"link"}, {}, {}, {}, false});
   words->push_back({joint + "/child", {"link"}, {}, {}, {}, false});
   words->push_back({joint + "/axis", {"xyz"}, {}, {}, {}, false});
-  words->push_back({joint + "/limit", {"lower", "upper", "effort", "velocity"}, {}, {"acceleration", "deceleration", "jerk"}, {}, false});
-  words->push_back({joint + "/dynamics", {"damping", "friction"}, {}, {"coulomb_window"}, {}, false});
+  words->push_back({joint + "/limit",
+                    {"lower", "upper", "effort", "velocity"},
+                    {},
+                    {"acceleration", "deceleration", "jerk"},
+                    {},
+                    false});
+  words->push_back(
+      {joint + "/dynamics", {"damping", "friction"}, {}, {"coulomb_window"}, {}, false});
   words->push_back({joint + "/mimic", {"joint", "multiplier", "offset"}, {}, {}, {}, false});
-  words->push_back({joint + "/calibration", {"rising", "falling", "reference_position"}, {}, {}, {}, false});
-  words->push_back({joint + "/safety_controller", {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"}, {}, {}, {}, false});
+  words->push_back(
+      {joint + "/calibration", {"rising", "falling", "reference_position"}, {}, {}, {}, false});
+  words->push_back({joint + "/safety_controller",
+                    {"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"},
+                    {},
+                    {},
+                    {},
+                    false});
 }
 
 Words make_words() {
   Words words;
-  words.push_back({"robot",
-                   {"name", "version"},
-                   {"link", "joint", "material", "loop", "coupling", "constraint"},
-                   {"xmlns"},
-                   {"transmission", "gazebo", "sensor", "mujoco", "loop_joint", "self_collision_checking"},
-                   true});
+  words.push_back(
+      {"robot",
+       {"name", "version"},
+       {"link", "joint", "material", "loop", "coupling", "constraint"},
+       {"xmlns"},
+       {"transmission", "gazebo", "sensor", "mujoco", "loop_joint", "self_collision_checking"},
+       true});
   add_material("robot/material", &words);
   add_link(&words);
   add_joint(&words);
@@ -93,16 +115,19 @@ const Words& all_words() {
 }  // namespace
 
 const Vocabulary* find_vocabulary(const std::string& path) {
-  const auto found = std::find_if(all_words().begin(), all_words().end(), [&path](const Vocabulary& words) { return words.path == path; });
+  const auto found = std::find_if(all_words().begin(), all_words().end(),
+                                  [&path](const Vocabulary& words) { return words.path == path; });
   return found != all_words().end() ? &*found : nullptr;
 }
 
 std::vector<std::string> elements_with(const std::string& child) {
   std::vector<std::string> elements;
   for (const Vocabulary& words : all_words()) {
-    if (std::find(words.children.begin(), words.children.end(), child) == words.children.end()) continue;
+    if (std::find(words.children.begin(), words.children.end(), child) == words.children.end())
+      continue;
     const std::string element = "<" + words.path.substr(words.path.rfind('/') + 1) + ">";
-    if (std::find(elements.begin(), elements.end(), element) == elements.end()) elements.push_back(element);
+    if (std::find(elements.begin(), elements.end(), element) == elements.end())
+      elements.push_back(element);
   }
   return elements;
 }

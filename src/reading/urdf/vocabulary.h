@@ -6,34 +6,44 @@
 
 namespace codesign {
 
-/// The attributes and children of one kind of URDF element, without our annotations (annotation_rules.h).
+/// The attributes and children of one kind of URDF element, without our annotations
+/// (annotation_rules.h).
 struct Vocabulary {
   using Names = std::vector<std::string>;
-  std::string path;              ///< tags from `robot` down, separated by slashes
-  Names attributes;              ///< that urdfdom reads
-  Names children;                ///< that urdfdom reads
-  Names other_attributes;        ///< that other tools read: Gazebo, Bullet, Drake, later releases of urdfdom
-  Names other_children;          ///< likewise
+  std::string path;        ///< tags from `robot` down, separated by slashes
+  Names attributes;        ///< that urdfdom reads
+  Names children;          ///< that urdfdom reads
+  Names other_attributes;  ///< that other tools read: Gazebo, Bullet, Drake, later releases of
+                           ///< urdfdom
+  Names other_children;    ///< likewise
   bool repeats_children = true;  ///< false: readers use only the first child with a tag
 };
 
-/// The vocabulary of a path such as `robot/joint/limit`; null for elements that are not URDF's, which may contain anything.
+/// The vocabulary of a path such as `robot/joint/limit`; null for elements that are not URDF's,
+/// which may contain anything.
 const Vocabulary* find_vocabulary(const std::string& path);
 
-/// The URDF elements that may have a child with this tag, for example "<visual>", "<collision>"; empty if URDF does not have the tag.
+/// The URDF elements that may have a child with this tag, for example "<visual>", "<collision>";
+/// empty if URDF does not have the tag.
 std::vector<std::string> elements_with(const std::string& child);
 
-/// The attributes and children that one kind of element may have; doc/annotations.md describes them for users.
+/// The attributes and children that one kind of element may have; doc/annotations.md describes them
+/// for users.
 struct ElementRule {
-  std::string path;                   ///< tags from `robot` down, separated by slashes
-  bool strict = false;                ///< only the listed names are allowed; else only names with the prefix `codesign:` are checked
-  std::vector<std::string> plain;     ///< attributes that cannot depend on parameters
-  std::vector<std::string> twins;     ///< attributes that may have a twin `codesign:...` with an expression
-  std::vector<std::string> own;       ///< attributes with the prefix that are not twins; listed without the prefix
-  std::vector<std::string> children;  ///< all allowed children if strict, else the allowed children with the prefix
+  std::string path;     ///< tags from `robot` down, separated by slashes
+  bool strict = false;  ///< only the listed names are allowed; else only names with the prefix
+                        ///< `codesign:` are checked
+  std::vector<std::string> plain;  ///< attributes that cannot depend on parameters
+  std::vector<std::string>
+      twins;  ///< attributes that may have a twin `codesign:...` with an expression
+  std::vector<std::string>
+      own;  ///< attributes with the prefix that are not twins; listed without the prefix
+  std::vector<std::string>
+      children;  ///< all allowed children if strict, else the allowed children with the prefix
 };
 
-/// The rule for a path such as `robot/joint/origin`; null if elements of this path have no annotations.
+/// The rule for a path such as `robot/joint/origin`; null if elements of this path have no
+/// annotations.
 const ElementRule* find_rule(const std::string& path);
 
 /// The names of all elements with the prefix `codesign:`.

@@ -19,7 +19,8 @@ using Names = std::vector<std::string>;
 bool has_prefix(const std::string& name) { return name.find(':') != std::string::npos; }
 bool is_ours(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 
-/// The annotation that is allowed here and whose name is `tag` with the prefix; empty if there is none.
+/// The annotation that is allowed here and whose name is `tag` with the prefix; empty if there is
+/// none.
 std::string forgotten_prefix(const std::string& tag, const ElementRule* rule) {
   const std::string prefixed = kPrefix + tag;
   return rule != nullptr && contains(rule->children, prefixed) ? prefixed : "";
@@ -32,7 +33,8 @@ class Check {
     const Vocabulary* words = find_vocabulary(path);
     check_repeats(element, rule, words);
     if (words != nullptr) {
-      for (const std::string& attribute : element.attributes()) check_attribute(element, attribute, path, *words);
+      for (const std::string& attribute : element.attributes())
+        check_attribute(element, attribute, path, *words);
       for (const XmlElement& child : element.children()) check_child(child, path, rule, *words);
     }
     for (const XmlElement& child : element.children()) visit(child, path + "/" + child.tag());
@@ -44,7 +46,8 @@ class Check {
     for (const Noted& noted : noted_) {
       all.push_back(noted.first);
       if (noted.further == 0) continue;
-      all.back().message += "; the same at " + std::to_string(noted.further) + (noted.further == 1 ? " further place" : " further places") +
+      all.back().message += "; the same at " + std::to_string(noted.further) +
+                            (noted.further == 1 ? " further place" : " further places") +
                             " of this file, the last in line " + std::to_string(noted.last_line);
     }
     return all;
@@ -59,25 +62,31 @@ class Check {
   };
 
   void note(const std::string& kind, const Warning& warning) {
-    const auto found = std::find_if(noted_.begin(), noted_.end(), [&](const Noted& noted) { return noted.kind == kind; });
+    const auto found = std::find_if(noted_.begin(), noted_.end(),
+                                    [&](const Noted& noted) { return noted.kind == kind; });
     if (found == noted_.end()) return noted_.push_back({kind, warning});
     ++found->further;
     found->last_line = warning.where.line;
   }
 
-  void check_attribute(const XmlElement& element, const std::string& attribute, const std::string& path, const Vocabulary& words) {
+  void check_attribute(const XmlElement& element, const std::string& attribute,
+                       const std::string& path, const Vocabulary& words) {
     if (contains(words.attributes, attribute) || has_prefix(attribute)) return;
     if (element.in_overlay(attribute))
-      throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute, attribute, words.attributes);
+      throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute,
+                         attribute, words.attributes);
     if (contains(words.other_attributes, attribute)) return;
     const std::string near = nearest_name(attribute, words.attributes);
-    note(path + " " + attribute,
-         element.warning_at("unknown_attribute", attribute,
-                            "the attribute " + attribute + " is ignored, since no reader of URDF knows it" + did_you_mean(near),
-                            near.empty() ? "remove it" : "write " + near + ", or remove it"));
+    note(
+        path + " " + attribute,
+        element.warning_at("unknown_attribute", attribute,
+                           "the attribute " + attribute +
+                               " is ignored, since no reader of URDF knows it" + did_you_mean(near),
+                           near.empty() ? "remove it" : "write " + near + ", or remove it"));
   }
 
-  void check_child(const XmlElement& child, const std::string& path, const ElementRule* rule, const Vocabulary& words) {
+  void check_child(const XmlElement& child, const std::string& path, const ElementRule* rule,
+                   const Vocabulary& words) {
     const std::string tag = child.tag();
     if (contains(words.children, tag) || is_ours(tag)) return;
     Names known = words.children;
@@ -85,16 +94,21 @@ class Check {
     std::string near = forgotten_prefix(tag, rule);
     if (near.empty()) near = nearest_name(tag, known);
     if (child.in_overlay())
-      throw InputError({child.where(), child.label(), "unknown element <" + tag + ">" + did_you_mean(near), tag, list_names(known)});
+      throw InputError({child.where(), child.label(),
+                        "unknown element <" + tag + ">" + did_you_mean(near), tag,
+                        list_names(known)});
     if (has_prefix(tag) || contains(words.other_children, tag)) return;
     if (const Names places = elements_with(tag); !places.empty()) {
-      note(path + "/" + tag, child.warning("unknown_element", "the element does not belong here and is ignored", "<" + tag + ">",
-                                           "move it into " + list_names(places) + ", or remove it"));
+      note(path + "/" + tag,
+           child.warning("unknown_element", "the element does not belong here and is ignored",
+                         "<" + tag + ">", "move it into " + list_names(places) + ", or remove it"));
       return;
     }
     if (near.empty()) return;
     note(path + "/" + tag,
-         child.warning("unknown_element", "the element is ignored, since no reader of URDF knows it, did you mean \"" + near + "\"?",
+         child.warning("unknown_element",
+                       "the element is ignored, since no reader of URDF knows it, did you mean \"" +
+                           near + "\"?",
                        "<" + tag + ">", "write <" + near + ">, or remove it"));
   }
 
@@ -103,13 +117,18 @@ class Check {
     for (const XmlElement& child : element.children()) {
       const std::string tag = child.tag();
       if (++count[tag] != 2) continue;
-      const bool strict = (rule != nullptr && rule->strict) || (is_ours(tag) && element.tag() != "robot");
-      const bool single = words != nullptr && !words->repeats_children && contains(words->children, tag);
+      const bool strict =
+          (rule != nullptr && rule->strict) || (is_ours(tag) && element.tag() != "robot");
+      const bool single =
+          words != nullptr && !words->repeats_children && contains(words->children, tag);
       const bool inertial = tag == "inertial" && element.tag() == "link";
-      if (strict || ((single || inertial) && child.in_overlay())) child.fail("a second <" + tag + ">", "", "one at most");
+      if (strict || ((single || inertial) && child.in_overlay()))
+        child.fail("a second <" + tag + ">", "", "one at most");
       if (single || inertial)
-        noted_.push_back({"", child.warning("repeated_element", "a second <" + tag + ">; the first one is used, as other readers do", "",
-                                            "remove one")});
+        noted_.push_back(
+            {"", child.warning("repeated_element",
+                               "a second <" + tag + ">; the first one is used, as other readers do",
+                               "", "remove one")});
     }
   }
 
@@ -126,7 +145,8 @@ std::string prefix_of(const std::string& name) {
 void check_prefix(const std::string& name, const SourceLocation& where, const XmlElement& element) {
   const std::string prefix = prefix_of(name), ours = "codesign";
   if (prefix.empty() || prefix == ours || nearest_name(prefix, {ours}).empty()) return;
-  throw InputError({where, element.label(), "unknown prefix, did you mean \"codesign\"?", name, "codesign:"});
+  throw InputError(
+      {where, element.label(), "unknown prefix, did you mean \"codesign\"?", name, "codesign:"});
 }
 
 void check_prefixes_in(const XmlElement& element) {
@@ -135,19 +155,26 @@ void check_prefixes_in(const XmlElement& element) {
     check_prefix(attribute, element.where(attribute), element);
     const bool declares = attribute.rfind("xmlns", 0) == 0 && attribute != "xmlns:codesign";
     if (declares && element.find(attribute) == "urn:mechanism_codesign")
-      element.fail_at(attribute, "the namespace urn:mechanism_codesign must have the prefix codesign",
+      element.fail_at(attribute,
+                      "the namespace urn:mechanism_codesign must have the prefix codesign",
                       "xmlns:codesign=\"urn:mechanism_codesign\"");
   }
   for (const XmlElement& child : element.children()) check_prefixes_in(child);
 }
 
-Warning after_robot(const SourceLocation& where, const std::string& what, const std::string& value) {
-  return warn("after_robot",
-              {where, "", what + " stands after </robot>; it is ignored, as other readers do; to silence this: remove it", value, ""});
+Warning after_robot(const SourceLocation& where, const std::string& what,
+                    const std::string& value) {
+  return warn(
+      "after_robot",
+      {where, "",
+       what +
+           " stands after </robot>; it is ignored, as other readers do; to silence this: remove it",
+       value, ""});
 }
 
 void refuse_text_in(const tinyxml2::XMLElement& element, const XmlDocument& document) {
-  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr;
+       node = node->NextSibling()) {
     if (node->ToText() != nullptr)
       throw InputError({{document.file(), node->GetLineNum()},
                         XmlElement(&element, &document).label(),
@@ -169,15 +196,19 @@ void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
   warnings->insert(warnings->end(), found.begin(), found.end());
 }
 
-void check_prefixes(const XmlDocument& document) { check_prefixes_in(XmlElement(document.robot(), &document)); }
+void check_prefixes(const XmlDocument& document) {
+  check_prefixes_in(XmlElement(document.robot(), &document));
+}
 
 Warnings check_surroundings(const XmlDocument& document) {
   Warnings warnings;
-  for (const tinyxml2::XMLNode* node = document.robot()->NextSibling(); node != nullptr; node = node->NextSibling()) {
+  for (const tinyxml2::XMLNode* node = document.robot()->NextSibling(); node != nullptr;
+       node = node->NextSibling()) {
     const std::string what = node->ToElement() != nullptr ? "a second root element" : "text";
     if (node->ToElement() == nullptr && node->ToText() == nullptr) continue;
-    const std::string value =
-        node->ToElement() != nullptr ? std::string("<") + node->Value() + ">" : std::string(node->Value()).substr(0, 40);
+    const std::string value = node->ToElement() != nullptr
+                                  ? std::string("<") + node->Value() + ">"
+                                  : std::string(node->Value()).substr(0, 40);
     warnings.push_back(after_robot({document.file(), node->GetLineNum()}, what, value));
   }
   return warnings;
@@ -191,7 +222,8 @@ Warnings cut_trailing_text(SourceText* source) {
   const std::string rest = source->text.substr(at);
   const std::size_t first = rest.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || rest.find_first_of("<>") != std::string::npos) return {};
-  const auto lines = std::count(source->text.begin(), source->text.begin() + to_signed(at + first), '\n');
+  const auto lines =
+      std::count(source->text.begin(), source->text.begin() + to_signed(at + first), '\n');
   source->text.resize(at);
   return {after_robot({source->name, static_cast<int>(lines) + 1}, "text", rest.substr(first, 40))};
 }

@@ -37,7 +37,8 @@ std::string parse_fault(tinyxml2::XMLError error) {
   }
 }
 
-/// Replaces an XML declaration before the root element by spaces, unless the text begins with it. @returns its line; 0 if there is none.
+/// Replaces an XML declaration before the root element by spaces, unless the text begins with it.
+/// @returns its line; 0 if there is none.
 int blank_late_declaration(std::string* text) {
   std::size_t at = 0;
   while (true) {
@@ -57,25 +58,34 @@ int blank_late_declaration(std::string* text) {
 
 }  // namespace
 
-XmlDocument::XmlDocument(const SourceText& source) : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
+XmlDocument::XmlDocument(const SourceText& source)
+    : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
   tinyxml2::XMLError fault = dom_->Parse(source.text.c_str(), source.text.size());
   if (fault == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
     std::string text = source.text;
     if (const int line = blank_late_declaration(&text); line > 0) {
       fault = dom_->Parse(text.c_str(), text.size());
-      warnings_.push_back(warn("late_declaration", {{file_, line},
-                                                    "",
-                                                    "the XML declaration stands after a comment; it is ignored, and other readers may "
-                                                    "refuse the file; to silence this: move it to the beginning of the file",
-                                                    "<?xml",
-                                                    ""}));
+      warnings_.push_back(
+          warn("late_declaration",
+               {{file_, line},
+                "",
+                "the XML declaration stands after a comment; it is ignored, and other readers may "
+                "refuse the file; to silence this: move it to the beginning of the file",
+                "<?xml",
+                ""}));
     }
   }
   if (fault != tinyxml2::XML_SUCCESS)
-    throw InputError({{file_, std::max(1, dom_->ErrorLineNum())}, "", "the text is not XML: " + parse_fault(dom_->ErrorID()), "", ""});
-  if (robot() == nullptr) throw InputError({{file_, 1}, "", "the text contains no XML element", "", "<robot>"});
+    throw InputError({{file_, std::max(1, dom_->ErrorLineNum())},
+                      "",
+                      "the text is not XML: " + parse_fault(dom_->ErrorID()),
+                      "",
+                      ""});
+  if (robot() == nullptr)
+    throw InputError({{file_, 1}, "", "the text contains no XML element", "", "<robot>"});
   if (std::string(robot()->Name()) != "robot")
-    throw InputError({location(robot()), "", "the root element is not a robot", std::string("<") + robot()->Name() + ">", "<robot>"});
+    throw InputError({location(robot()), "", "the root element is not a robot",
+                      std::string("<") + robot()->Name() + ">", "<robot>"});
 }
 
 std::string XmlDocument::text() const {
@@ -86,10 +96,12 @@ std::string XmlDocument::text() const {
 
 SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element) const {
   const auto found = foreign_elements_.find(element);
-  return found != foreign_elements_.end() ? found->second : SourceLocation{file_, element->GetLineNum()};
+  return found != foreign_elements_.end() ? found->second
+                                          : SourceLocation{file_, element->GetLineNum()};
 }
 
-SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element, const std::string& attribute) const {
+SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element,
+                                     const std::string& attribute) const {
   const auto found = foreign_attributes_.find({element, attribute});
   if (found != foreign_attributes_.end()) return found->second;
   const tinyxml2::XMLAttribute* own = element->FindAttribute(attribute.c_str());
@@ -97,26 +109,31 @@ SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element, const 
   return {file_, own->GetLineNum()};
 }
 
-tinyxml2::XMLElement* XmlDocument::append_new(tinyxml2::XMLElement* parent, const char* tag, const SourceLocation& where) {
+tinyxml2::XMLElement* XmlDocument::append_new(tinyxml2::XMLElement* parent, const char* tag,
+                                              const SourceLocation& where) {
   tinyxml2::XMLElement* element = dom_->NewElement(tag);
   parent->InsertEndChild(element);
   foreign_elements_[element] = where;
   return element;
 }
 
-tinyxml2::XMLElement* XmlDocument::append_copy(tinyxml2::XMLElement* parent, const tinyxml2::XMLElement* original,
+tinyxml2::XMLElement* XmlDocument::append_copy(tinyxml2::XMLElement* parent,
+                                               const tinyxml2::XMLElement* original,
                                                const XmlDocument& source) {
   tinyxml2::XMLElement* copy = dom_->NewElement(original->Name());
   parent->InsertEndChild(copy);
   foreign_elements_[copy] = source.location(original);
   copy_attributes(copy, original, source);
-  for (const tinyxml2::XMLElement* child = original->FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+  for (const tinyxml2::XMLElement* child = original->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement())
     append_copy(copy, child, source);
   return copy;
 }
 
-void XmlDocument::copy_attributes(tinyxml2::XMLElement* target, const tinyxml2::XMLElement* original, const XmlDocument& source) {
-  for (const tinyxml2::XMLAttribute* attribute = original->FirstAttribute(); attribute != nullptr; attribute = attribute->Next()) {
+void XmlDocument::copy_attributes(tinyxml2::XMLElement* target,
+                                  const tinyxml2::XMLElement* original, const XmlDocument& source) {
+  for (const tinyxml2::XMLAttribute* attribute = original->FirstAttribute(); attribute != nullptr;
+       attribute = attribute->Next()) {
     target->SetAttribute(attribute->Name(), attribute->Value());
     foreign_attributes_[{target, attribute->Name()}] = source.location(original, attribute->Name());
   }

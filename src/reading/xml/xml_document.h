@@ -14,7 +14,8 @@
 
 namespace codesign {
 
-/// A `<robot>` document that knows the file and line of every element and attribute, also of those merged in from overlays.
+/// A `<robot>` document that knows the file and line of every element and attribute, also of those
+/// merged in from overlays.
 class XmlDocument {
  public:
   /// @throws InputError if the text is not XML or its root element is not `<robot>`.
@@ -36,11 +37,17 @@ class XmlDocument {
   SourceLocation location(const tinyxml2::XMLElement* element, const std::string& attribute) const;
 
   /// Appends a new element to `parent`, to be located at `where`.
-  tinyxml2::XMLElement* append_new(tinyxml2::XMLElement* parent, const char* tag, const SourceLocation& where);
-  /// Appends to `parent` a copy of an element of another document, with its children and their locations; returns the copy.
-  tinyxml2::XMLElement* append_copy(tinyxml2::XMLElement* parent, const tinyxml2::XMLElement* original, const XmlDocument& source);
-  /// Copies all attributes of `original`, an element of another document, to `target`, with their locations.
-  void copy_attributes(tinyxml2::XMLElement* target, const tinyxml2::XMLElement* original, const XmlDocument& source);
+  tinyxml2::XMLElement* append_new(tinyxml2::XMLElement* parent, const char* tag,
+                                   const SourceLocation& where);
+  /// Appends to `parent` a copy of an element of another document, with its children and their
+  /// locations; returns the copy.
+  tinyxml2::XMLElement* append_copy(tinyxml2::XMLElement* parent,
+                                    const tinyxml2::XMLElement* original,
+                                    const XmlDocument& source);
+  /// Copies all attributes of `original`, an element of another document, to `target`, with their
+  /// locations.
+  void copy_attributes(tinyxml2::XMLElement* target, const tinyxml2::XMLElement* original,
+                       const XmlDocument& source);
 
  private:
   std::string file_;

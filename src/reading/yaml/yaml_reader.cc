@@ -29,14 +29,18 @@ const char* kind_of(const YAML::Node& node) {
   }
 }
 
-/// Counts the values; the values of an alias count each time the alias is used. A few lines with nested aliases can stand for more values
-/// than fit into memory.
+/// Counts the values; the values of an alias count each time the alias is used. A few lines with
+/// nested aliases can stand for more values than fit into memory.
 void count_values(const YAML::Node& node, int depth, const std::string& file, int* count) {
   constexpr int kMost = 2000000, kDeepest = 50;
   const SourceLocation where{file, node.Mark().line + 1};
-  if (depth > kDeepest) throw InputError({where, kRoot, "values are nested too deeply, or an alias contains itself", "", "50 levels"});
+  if (depth > kDeepest)
+    throw InputError({where, kRoot, "values are nested too deeply, or an alias contains itself", "",
+                      "50 levels"});
   if (++*count > kMost)
-    throw InputError({where, kRoot, "too many values, counting those of aliases each time they are used", "", "two million values"});
+    throw InputError({where, kRoot,
+                      "too many values, counting those of aliases each time they are used", "",
+                      "two million values"});
   for (const auto& part : node) {
     if (node.IsMap()) count_values(part.second, depth + 1, file, count);
     if (node.IsSequence()) count_values(part, depth + 1, file, count);
@@ -48,8 +52,11 @@ void check_extent(const YAML::Node& root, const std::string& file) {
   count_values(root, 0, file, &count);
 }
 
-/// Whether a text that parse_number() rejects looks like a number that is out of the range of doubles.
-bool is_out_of_range(const std::string& text) { return !text.empty() && text.find_first_not_of("+-.eE0123456789") == std::string::npos; }
+/// Whether a text that parse_number() rejects looks like a number that is out of the range of
+/// doubles.
+bool is_out_of_range(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("+-.eE0123456789") == std::string::npos;
+}
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -58,7 +65,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 std::optional<double> number_in(const std::string& text) {
-  if (text == ".inf" || text == "+.inf" || text == "-.inf") return std::copysign(HUGE_VAL, text[0] == '-' ? -1.0 : 1.0);
+  if (text == ".inf" || text == "+.inf" || text == "-.inf")
+    return std::copysign(HUGE_VAL, text[0] == '-' ? -1.0 : 1.0);
   if (text == ".nan") return std::nan("");
   return parse_number(text);
 }
@@ -66,16 +74,29 @@ std::optional<double> number_in(const std::string& text) {
 YamlValue YamlValue::parse(const SourceText& source) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(source.text);
-    if (documents.empty() || documents.front().IsNull()) throw InputError({{source.name, 1}, kRoot, "the file contains no YAML", "", ""});
+    if (documents.empty() || documents.front().IsNull())
+      throw InputError({{source.name, 1}, kRoot, "the file contains no YAML", "", ""});
     if (documents.size() > 1)
-      throw InputError({{source.name, documents[1].Mark().line + 1}, kRoot, "more than one YAML document", "", "one"});
+      throw InputError({{source.name, documents[1].Mark().line + 1},
+                        kRoot,
+                        "more than one YAML document",
+                        "",
+                        "one"});
     check_extent(documents.front(), source.name);
     return YamlValue(documents.front(), std::make_shared<const std::string>(source.name), "");
   } catch (const YAML::DeepRecursion& error) {
-    throw InputError({{source.name, error.mark.line + 1}, kRoot, "lists and maps are nested too deeply", "", ""});
+    throw InputError({{source.name, error.mark.line + 1},
+                      kRoot,
+                      "lists and maps are nested too deeply",
+                      "",
+                      ""});
   } catch (const YAML::Exception& error) {
     const std::string column = "column " + std::to_string(error.mark.column + 1);
-    throw InputError({{source.name, std::max(1, error.mark.line + 1)}, column, "not YAML: " + error.msg, "", ""});
+    throw InputError({{source.name, std::max(1, error.mark.line + 1)},
+                      column,
+                      "not YAML: " + error.msg,
+                      "",
+                      ""});
   }
 }
 
@@ -96,7 +117,8 @@ YamlValue YamlValue::child(const YAML::Node& node, const std::string& key) const
 }
 
 void YamlValue::require_map() const {
-  if (!node_.IsMap()) fail("expected a map of keys and values, found " + std::string(kind_of(node_)));
+  if (!node_.IsMap())
+    fail("expected a map of keys and values, found " + std::string(kind_of(node_)));
 }
 
 SourceLocation YamlValue::key_place(const std::string& key) const {
@@ -108,7 +130,9 @@ SourceLocation YamlValue::key_place(const std::string& key) const {
 YamlValue YamlValue::merged(const YamlValue& change) const {
   if (!is_map() || !change.is_map()) return change;
   const auto type = find("type"), new_type = change.find("type");
-  if (type && new_type && type->is_scalar() && new_type->is_scalar() && type->node_.Scalar() != new_type->node_.Scalar()) return change;
+  if (type && new_type && type->is_scalar() && new_type->is_scalar() &&
+      type->node_.Scalar() != new_type->node_.Scalar())
+    return change;
   YamlValue result = change;
   result.base_ = std::make_shared<const YamlValue>(*this);
   return result;
@@ -136,7 +160,8 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::own_entries() const {
   std::set<std::string> seen;
   for (const auto& entry : node_) {
     const YAML::Node& key_node = entry.first;
-    if (!key_node.IsScalar()) fail("a key must be a plain word, found " + std::string(kind_of(key_node)));
+    if (!key_node.IsScalar())
+      fail("a key must be a plain word, found " + std::string(kind_of(key_node)));
     const std::string key = key_node.Scalar();
     if (!seen.insert(key).second) child(key_node, key).fail("repeated key");
     result.emplace_back(key, child(entry.second, key));
@@ -144,13 +169,15 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::own_entries() const {
   return result;
 }
 
-void YamlValue::require_keys(const std::vector<std::string>& required, const std::vector<std::string>& optional) const {
+void YamlValue::require_keys(const std::vector<std::string>& required,
+                             const std::vector<std::string>& optional) const {
   std::vector<std::string> known = required;
   known.insert(known.end(), optional.begin(), optional.end());
   for (const auto& [key, value] : entries())
     if (!contains(known, key)) throw unknown_name(key_place(key), value.path(), "key", key, known);
   for (const std::string& key : required)
-    if (!find(key)) throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+    if (!find(key))
+      throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
 }
 
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
@@ -163,14 +190,16 @@ std::optional<YamlValue> YamlValue::find(const std::string& key) const {
 
 YamlValue YamlValue::at(const std::string& key) const {
   std::optional<YamlValue> value = find(key);
-  if (!value) throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+  if (!value)
+    throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
   return *value;
 }
 
 std::vector<YamlValue> YamlValue::items() const {
   if (!node_.IsSequence()) fail("expected a list, found " + std::string(kind_of(node_)));
   std::vector<YamlValue> result;
-  for (std::size_t i = 0; i < node_.size(); ++i) result.push_back(YamlValue(node_[i], file_, path_ + "[" + std::to_string(i) + "]"));
+  for (std::size_t i = 0; i < node_.size(); ++i)
+    result.push_back(YamlValue(node_[i], file_, path_ + "[" + std::to_string(i) + "]"));
   return result;
 }
 
@@ -181,9 +210,11 @@ std::string YamlValue::text() const {
 }
 
 double YamlValue::number() const {
-  if (!node_.IsScalar()) fail("expected a number, found " + std::string(kind_of(node_)), "a finite number");
+  if (!node_.IsScalar())
+    fail("expected a number, found " + std::string(kind_of(node_)), "a finite number");
   const std::optional<double> value = number_in(node_.Scalar());
-  if (!value && is_out_of_range(node_.Scalar())) fail("the number is out of the range of floating point", "a finite number");
+  if (!value && is_out_of_range(node_.Scalar()))
+    fail("the number is out of the range of floating point", "a finite number");
   if (!value) fail("not a number", "a finite number");
   if (!std::isfinite(*value)) fail("not finite", "a finite number");
   return *value;
@@ -201,7 +232,8 @@ bool YamlValue::boolean() const {
   return value;
 }
 
-std::string YamlValue::choice(const std::string& kind, const std::vector<std::string>& allowed) const {
+std::string YamlValue::choice(const std::string& kind,
+                              const std::vector<std::string>& allowed) const {
   std::string name = text();
   if (!contains(allowed, name)) throw unknown_name(where(), path_, kind, name, allowed);
   return name;

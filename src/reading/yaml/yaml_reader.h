@@ -16,10 +16,12 @@ namespace codesign {
 
 /// A value of a YAML text with its line and path.
 ///
-/// Every reading function throws InputError with file, line, path and value if the value does not have the expected type.
+/// Every reading function throws InputError with file, line, path and value if the value does not
+/// have the expected type.
 class YamlValue {
  public:
-  /// The root of a text that consists of one document. @throws InputError if it is not YAML, empty or too deeply nested.
+  /// The root of a text that consists of one document. @throws InputError if it is not YAML, empty
+  /// or too deeply nested.
   static YamlValue parse(const SourceText& source);
 
   YamlValue(const YamlValue&) = default;
@@ -38,7 +40,8 @@ class YamlValue {
   bool is_scalar() const { return node_.IsScalar(); }
 
   /// Checks that this is a map with all required keys, no unknown ones and none repeated.
-  void require_keys(const std::vector<std::string>& required, const std::vector<std::string>& optional) const;
+  void require_keys(const std::vector<std::string>& required,
+                    const std::vector<std::string>& optional) const;
   /// The value of a key of a map; std::nullopt if there is none.
   std::optional<YamlValue> find(const std::string& key) const;
   /// Likewise. @throws InputError if there is none.
@@ -48,9 +51,9 @@ class YamlValue {
   /// Keys and values of a map in the order written; a repeated key is an error.
   std::vector<std::pair<std::string, YamlValue>> entries() const;
 
-  /// This value with a change laid over it: maps are merged key by key, everything else is replaced, and so is a map whose `type` the
-  /// change gives another value. Values from the change, and each merged map, have line and path of the change; all other values keep their
-  /// own.
+  /// This value with a change laid over it: maps are merged key by key, everything else is
+  /// replaced, and so is a map whose `type` the change gives another value. Values from the change,
+  /// and each merged map, have line and path of the change; all other values keep their own.
   YamlValue merged(const YamlValue& change) const;
 
   /// The items of a list.
@@ -63,10 +66,12 @@ class YamlValue {
   int integer() const;
   /// `true` or `false`, in any of YAML's spellings.
   bool boolean() const;
-  /// A scalar that is one of `allowed`. @param kind the word for it in the message "unknown <kind>".
+  /// A scalar that is one of `allowed`. @param kind the word for it in the message "unknown
+  /// <kind>".
   std::string choice(const std::string& kind, const std::vector<std::string>& allowed) const;
 
-  /// Throws InputError with the place, path and value. @param allowed the allowed values; may be empty.
+  /// Throws InputError with the place, path and value. @param allowed the allowed values; may be
+  /// empty.
   [[noreturn]] void fail(const std::string& message, const std::string& allowed = "") const;
 
  private:
@@ -81,10 +86,12 @@ class YamlValue {
   YAML::Node node_;
   std::shared_ptr<const std::string> file_;
   std::string path_;
-  std::shared_ptr<const YamlValue> base_;  ///< the map over which this one is laid; null for a value as written
+  std::shared_ptr<const YamlValue>
+      base_;  ///< the map over which this one is laid; null for a value as written
 };
 
-/// The number that the whole text spells in YAML's notation (`.inf`, `.nan` included); std::nullopt if it is not a number.
+/// The number that the whole text spells in YAML's notation (`.inf`, `.nan` included); std::nullopt
+/// if it is not a number.
 std::optional<double> number_in(const std::string& text);
 
 }  // namespace codesign

@@ -21,7 +21,11 @@ constexpr double kLongestTime = 1e5;
 
 double checked_time(double value, const char* name, double fallback) {
   if (!(value >= 0.0 && value <= kLongestTime))
-    throw InputError({{"request", 0}, name, "not a time", to_decimal(value), "0 for the default, or up to 100000 s"});
+    throw InputError({{"request", 0},
+                      name,
+                      "not a time",
+                      to_decimal(value),
+                      "0 for the default, or up to 100000 s"});
   return value == 0.0 ? fallback : value;
 }
 
@@ -36,7 +40,8 @@ struct ApplyOption {
 ApplyOption number(const std::string& name, double ApplyRequest::*field) {
   return {true, [name, field](const std::string& text, ApplyArguments* to) {
             double value = 0.0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const auto [end, error] =
+                std::from_chars(text.data(), text.data() + text.size(), value);
             if (error != std::errc() || end != text.data() + text.size() || !(value > 0.0))
               throw ApplyUsageError(name + ": \"" + text + "\" is not a number above zero");
             to->request.*field = value;
@@ -44,7 +49,8 @@ ApplyOption number(const std::string& name, double ApplyRequest::*field) {
 }
 
 ApplyOption text(std::string ApplyRequest::*field) {
-  return {true, [field](const std::string& word, ApplyArguments* to) { to->request.*field = word; }};
+  return {true,
+          [field](const std::string& word, ApplyArguments* to) { to->request.*field = word; }};
 }
 
 ApplyOption flag(std::uint8_t ApplyRequest::*field) {
@@ -60,7 +66,9 @@ std::map<std::string, ApplyOption> apply_options() {
           {"--hold", number("--hold", &ApplyRequest::hold)},
           {"--max-age", number("--max-age", &ApplyRequest::max_age)},
           {"--deviation", number("--deviation", &ApplyRequest::deviation)},
-          {"--limit", {true, [](const std::string& word, ApplyArguments* to) { to->request.limits.push_back(word); }}},
+          {"--limit",
+           {true, [](const std::string& word,
+                     ApplyArguments* to) { to->request.limits.push_back(word); }}},
           {"--json", {false, [](const std::string&, ApplyArguments* to) { to->json = true; }}},
           {"--help", {false, [](const std::string&, ApplyArguments* to) { to->help = true; }}},
           {"-h", {false, [](const std::string&, ApplyArguments* to) { to->help = true; }}}};
@@ -80,10 +88,18 @@ WatchOptions watch_options(const mechanism_codesign::ApplyRequest& request) {
   if (!request.joint_states.empty()) options.joint_states = request.joint_states;
   options.max_age = checked_time(request.max_age, "max_age", options.max_age);
   if (!std::isfinite(request.deviation) || request.deviation < 0.0)
-    throw InputError({{"request", 0}, "deviation", "not a length or an angle", to_decimal(request.deviation), "0 for none, or more"});
+    throw InputError({{"request", 0},
+                      "deviation",
+                      "not a length or an angle",
+                      to_decimal(request.deviation),
+                      "0 for none, or more"});
   options.deviation = request.deviation;
   if (request.unwatched && (options.deviation > 0.0 || !request.joint_states.empty()))
-    throw InputError({{"request", 0}, "unwatched", "joint states are named and left unwatched", "", "one of both"});
+    throw InputError({{"request", 0},
+                      "unwatched",
+                      "joint states are named and left unwatched",
+                      "",
+                      "one of both"});
   if (request.unwatched) options.joint_states.clear();
   return options;
 }
@@ -94,7 +110,8 @@ ApplyArguments parse_apply_arguments(const std::vector<std::string>& words) {
   for (std::size_t k = 0; k < words.size(); ++k) {
     if (words[k].empty()) throw ApplyUsageError("an empty argument");
     if (words[k][0] != '-') {
-      if (!arguments.request.result.empty()) throw ApplyUsageError("unexpected \"" + words[k] + "\" after the job");
+      if (!arguments.request.result.empty())
+        throw ApplyUsageError("unexpected \"" + words[k] + "\" after the job");
       arguments.request.result = words[k];
       continue;
     }
@@ -104,19 +121,23 @@ ApplyArguments parse_apply_arguments(const std::vector<std::string>& words) {
     if (option == options.end()) {
       std::vector<std::string> known;
       for (const auto& [known_name, unused] : options) known.push_back(known_name);
-      throw ApplyUsageError("unknown option \"" + name + "\"" + did_you_mean(nearest_name(name, known)));
+      throw ApplyUsageError("unknown option \"" + name + "\"" +
+                            did_you_mean(nearest_name(name, known)));
     }
-    if (!option->second.has_value && equals != std::string::npos) throw ApplyUsageError(name + " takes no value");
+    if (!option->second.has_value && equals != std::string::npos)
+      throw ApplyUsageError(name + " takes no value");
     if (!option->second.has_value) {
       option->second.apply("", &arguments);
     } else if (equals != std::string::npos && equals + 1 < words[k].size()) {
       option->second.apply(words[k].substr(equals + 1), &arguments);
     } else {
-      if (equals != std::string::npos || k + 1 == words.size()) throw ApplyUsageError(name + " needs a value");
+      if (equals != std::string::npos || k + 1 == words.size())
+        throw ApplyUsageError(name + " needs a value");
       option->second.apply(words[++k], &arguments);
     }
   }
-  if (!arguments.help && arguments.request.result.empty()) throw ApplyUsageError("\"apply\" needs the DIR or BAG of an optimization");
+  if (!arguments.help && arguments.request.result.empty())
+    throw ApplyUsageError("\"apply\" needs the DIR or BAG of an optimization");
   return arguments;
 }
 
@@ -152,20 +173,24 @@ std::string apply_table(const mechanism_codesign::ApplyResponse& response) {
     server = std::max(server, change.server.size());
     name = std::max(name, change.name.size());
   }
-  const auto row = [&](const std::string& first, const std::string& second, const std::vector<std::string>& numbers) {
-    out << std::left << std::setw(static_cast<int>(server)) << first << "  " << std::setw(static_cast<int>(name)) << second << std::right;
+  const auto row = [&](const std::string& first, const std::string& second,
+                       const std::vector<std::string>& numbers) {
+    out << std::left << std::setw(static_cast<int>(server)) << first << "  "
+        << std::setw(static_cast<int>(name)) << second << std::right;
     for (const std::string& text : numbers) out << "  " << std::setw(13) << text;
     out << '\n';
   };
   if (!response.changes.empty()) row("server", "parameter", {"before", "after", "now"});
   for (const auto& change : response.changes)
-    row(change.server, change.name, {readable(change.before), readable(change.after), readable(change.now)});
+    row(change.server, change.name,
+        {readable(change.before), readable(change.after), readable(change.now)});
   if (response.success) out << response.message << '\n';
   return out.str();
 }
 
 std::string apply_json(const mechanism_codesign::ApplyResponse& response) {
-  ApplyRecord record{response.success != 0, response.code, response.message, {}, response.rollback_seconds};
+  ApplyRecord record{
+      response.success != 0, response.code, response.message, {}, response.rollback_seconds};
   for (const auto& change : response.changes)
     record.changes.push_back({change.server, change.name, change.before, change.after, change.now});
   return apply_text(record);

@@ -33,7 +33,11 @@ SafeRanges safe_ranges(const Request& request, const FinishedJob& job) {
   ranges.add_limits_of(job.problem, job.parameters);
   for (const std::string& text : request.limits) ranges.add(text, "limits");
   if (request.unwatched && !ranges.joint_signals().empty())
-    throw InputError({{"request", 0}, "limits", "joint states are not watched", ranges.joint_signals()[0], "ranges of topics, /NAME"});
+    throw InputError({{"request", 0},
+                      "limits",
+                      "joint states are not watched",
+                      ranges.joint_signals()[0],
+                      "ranges of topics, /NAME"});
   return ranges;
 }
 
@@ -65,13 +69,15 @@ class Application {
   void run(const std::string& path) {
     const RampOptions ramp = ramp_options(request_);
     const WatchOptions watch = watch_options(request_);
-    const FinishedJob job = read_finished_job(path, bag_trajectory_loader(folder_of_job(path)), &cancel_);
+    const FinishedJob job =
+        read_finished_job(path, bag_trajectory_loader(folder_of_job(path)), &cancel_);
     const SafeRanges ranges = safe_ranges(request_, job);
     const std::vector<GainOrder> orders = orders_of(job, request_.server);
     find_servers(orders);
     plan(orders);
     RobotWatch watcher(robot_.node(), ranges, watch);
-    if (const std::string fault = watcher.begin(kAnswerPatience); !fault.empty()) throw Refusal{"unsafe", "nothing was sent: " + fault};
+    if (const std::string fault = watcher.begin(kAnswerPatience); !fault.empty())
+      throw Refusal{"unsafe", "nothing was sent: " + fault};
     if (cancel_) throw Refusal{"cancelled", "cancelled before anything was sent"};
     if (request_.dry_run)
       response_.message = "tried only: " + amount() + " would change";
@@ -82,13 +88,16 @@ class Application {
  private:
   void find_servers(const std::vector<GainOrder>& orders) {
     for (const GainOrder& order : orders)
-      clients_.push_back(std::make_unique<ReconfigureClient>(robot_.node(), robot_.node().resolveName(order.server)));
+      clients_.push_back(std::make_unique<ReconfigureClient>(
+          robot_.node(), robot_.node().resolveName(order.server)));
     for (const std::unique_ptr<ReconfigureClient>& client : clients_) {
       const std::string missing = client->wait(kAnswerPatience, cancel_);
       if (cancel_) throw Refusal{"cancelled", "cancelled before anything was sent"};
       if (!missing.empty())
-        throw Refusal{"no_server", client->name() + " is no running server of dynamic_reconfigure: " + missing +
-                                       " is missing; rosservice list shows " + "the servers, as NAMESPACE/set_parameters"};
+        throw Refusal{"no_server", client->name() +
+                                       " is no running server of dynamic_reconfigure: " + missing +
+                                       " is missing; rosservice list shows " +
+                                       "the servers, as NAMESPACE/set_parameters"};
     }
   }
 
@@ -118,13 +127,16 @@ class Application {
     fill_now(outcome);
     response_.rollback_seconds = outcome.rollback_seconds;
     if (outcome.alarm.empty()) {
-      response_.message =
-          amount() + " changed within " + to_decimal(options.ramp) + " s, and watched for " + to_decimal(options.hold) + " s";
+      response_.message = amount() + " changed within " + to_decimal(options.ramp) +
+                          " s, and watched for " + to_decimal(options.hold) + " s";
       return;
     }
     if (!outcome.is_known())
-      throw Refusal{"rollback_failed", outcome.alarm + "; these servers have not confirmed their values before: " + unknown(outcome)};
-    throw Refusal{cancel_ ? "cancelled" : "aborted", outcome.alarm + "; all servers have their values before"};
+      throw Refusal{"rollback_failed",
+                    outcome.alarm + "; these servers have not confirmed their values before: " +
+                        unknown(outcome)};
+    throw Refusal{cancel_ ? "cancelled" : "aborted",
+                  outcome.alarm + "; all servers have their values before"};
   }
 
   void fill_now(const RampOutcome& outcome) {
@@ -132,7 +144,8 @@ class Application {
     for (std::size_t k = 0; k < servers_.size(); ++k)
       for (const auto& [name, value] : servers_[k].after) {
         const GainServer::Answer& now = outcome.now[k];
-        response_.changes[row++].now = now ? now->at(name).number : std::numeric_limits<double>::quiet_NaN();
+        response_.changes[row++].now =
+            now ? now->at(name).number : std::numeric_limits<double>::quiet_NaN();
       }
   }
 
@@ -145,8 +158,8 @@ class Application {
 
   std::string amount() const {
     const std::size_t values = response_.changes.size(), servers = servers_.size();
-    return std::to_string(values) + (values == 1 ? " value" : " values") + " of " + std::to_string(servers) +
-           (servers == 1 ? " server" : " servers");
+    return std::to_string(values) + (values == 1 ? " value" : " values") + " of " +
+           std::to_string(servers) + (servers == 1 ? " server" : " servers");
   }
 
   const Request& request_;

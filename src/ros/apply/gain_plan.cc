@@ -33,7 +33,8 @@ class Fitting {
     if (found == state_.now.end())
       throw InputError({{name_, 0},
                         parameter,
-                        "the server has no such parameter" + did_you_mean(nearest_name(parameter, names_of(state_.now))),
+                        "the server has no such parameter" +
+                            did_you_mean(nearest_name(parameter, names_of(state_.now))),
                         to_decimal(value.number),
                         listed(names_of(state_.now))});
     if (found->second.is_flag != value.is_flag)
@@ -63,12 +64,15 @@ class Fitting {
     const bool low = lower != state_.lower.end() && !(value >= lower->second.number);
     const bool high = upper != state_.upper.end() && !(value <= upper->second.number);
     if (!low && !high) return;
-    const auto bound = [](bool known, const auto& found, const char* none) { return known ? to_decimal(found->second.number) : none; };
+    const auto bound = [](bool known, const auto& found, const char* none) {
+      return known ? to_decimal(found->second.number) : none;
+    };
     throw InputError({{name_, 0},
                       parameter,
                       "the value is outside the limits of the server",
                       to_decimal(value),
-                      bound(lower != state_.lower.end(), lower, "-inf") + " to " + bound(upper != state_.upper.end(), upper, "inf")});
+                      bound(lower != state_.lower.end(), lower, "-inf") + " to " +
+                          bound(upper != state_.upper.end(), upper, "inf")});
   }
 
   const GainServerState& state_;
@@ -96,7 +100,8 @@ std::vector<GainOrder> orders_of(const FinishedJob& job, const std::string& serv
     GainOrder order{server, std::nullopt, {}};
     const std::vector<Parameter>& all = job.problem.all_parameters();
     for (std::size_t k = 0; k < all.size(); ++k)
-      if (std::count(job.tuned.begin(), job.tuned.end(), all[k].name) > 0) order.parameters[all[k].name] = {job.parameters[k], false};
+      if (std::count(job.tuned.begin(), job.tuned.end(), all[k].name) > 0)
+        order.parameters[all[k].name] = {job.parameters[k], false};
     orders.push_back(std::move(order));
     return orders;
   }
@@ -109,11 +114,13 @@ std::vector<GainOrder> orders_of(const FinishedJob& job, const std::string& serv
                       "hardware",
                       "the study does not say where the robot keeps its gains",
                       "",
-                      "an entry for each controller, or the namespace of a server that has the study's parameters (--server)"});
+                      "an entry for each controller, or the namespace of a server that has the "
+                      "study's parameters (--server)"});
   return orders;
 }
 
-GainValues wanted_values(const GainOrder& order, const GainServerState& state, const std::string& name) {
+GainValues wanted_values(const GainOrder& order, const GainServerState& state,
+                         const std::string& name) {
   Fitting fitting(state, name);
   for (const auto& [parameter, value] : order.parameters) fitting.set(parameter, value);
   if (order.gains) {
@@ -121,7 +128,8 @@ GainValues wanted_values(const GainOrder& order, const GainServerState& state, c
     fitting.set("i", {order.gains->i, false});
     fitting.set("d", {order.gains->d, false});
     fitting.set_clamp(*order.gains);
-    if (order.gains->antiwindup || fitting.has("antiwindup")) fitting.set("antiwindup", {order.gains->antiwindup ? 1.0 : 0.0, true});
+    if (order.gains->antiwindup || fitting.has("antiwindup"))
+      fitting.set("antiwindup", {order.gains->antiwindup ? 1.0 : 0.0, true});
   }
   return fitting.take();
 }

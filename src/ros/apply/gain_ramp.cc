@@ -16,16 +16,22 @@ using Clock = std::chrono::steady_clock;
 /// Pause between two calls of the guard.
 constexpr std::chrono::milliseconds kGlance{2};
 
-Clock::duration seconds(double value) { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value)); }
+Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+}
 
 }  // namespace
 
 bool RampOutcome::is_known() const {
-  return std::all_of(now.begin(), now.end(), [](const GainServer::Answer& answer) { return answer.has_value(); });
+  return std::all_of(now.begin(), now.end(),
+                     [](const GainServer::Answer& answer) { return answer.has_value(); });
 }
 
 GainRamp::GainRamp(std::vector<RampServer> servers, const RampOptions& options, Guard guard)
-    : servers_(std::move(servers)), options_(options), guard_(std::move(guard)), sent_(servers_.size()) {}
+    : servers_(std::move(servers)),
+      options_(options),
+      guard_(std::move(guard)),
+      sent_(servers_.size()) {}
 
 RampOutcome GainRamp::run() {
   for (const RampServer& one : servers_) outcome_.now.emplace_back(one.before);
@@ -33,7 +39,8 @@ RampOutcome GainRamp::run() {
   const Time start = Clock::now();
   bool goes_on = wait_until(start);
   for (int step = 1; goes_on && step <= steps; ++step)
-    goes_on = send_step(static_cast<double>(step) / steps) && wait_until(start + seconds(step * options_.ramp / steps));
+    goes_on = send_step(static_cast<double>(step) / steps) &&
+              wait_until(start + seconds(step * options_.ramp / steps));
   if (goes_on) goes_on = wait_until(Clock::now() + seconds(options_.hold));
   if (!goes_on) roll_back();
   return outcome_;
@@ -49,7 +56,8 @@ bool GainRamp::send_step(double share) {
 void GainRamp::send(std::size_t server, const GainValues& values) {
   const auto answered = std::make_shared<std::promise<GainServer::Answer>>();
   sent_[server] = {answered, answered->get_future().share()};
-  servers_[server].server->send(values, [answered](const GainServer::Answer& answer) { answered->set_value(answer); });
+  servers_[server].server->send(
+      values, [answered](const GainServer::Answer& answer) { answered->set_value(answer); });
 }
 
 /// Whether the last request of every server has been answered within a time.
@@ -87,7 +95,8 @@ bool GainRamp::confirm(const std::vector<GainValues>& sent) {
     const GainServer::Answer answer = sent_[k].last();
     if (!answer)
       alarm_ = RampAlarm{sent_[k].is_answered() ? name + " has refused the values or is gone"
-                                                : name + " has not answered within " + to_decimal(options_.patience) + " s"};
+                                                : name + " has not answered within " +
+                                                      to_decimal(options_.patience) + " s"};
     else if (const std::string difference = altered(sent[k], *answer); !difference.empty())
       alarm_ = RampAlarm{name + " has altered the values: " + difference};
     if (alarm_) return false;
@@ -103,7 +112,9 @@ void GainRamp::roll_back() {
       outcome_.now[k].reset();
       send(k, servers_[k].before);
     }
-  if (std::none_of(sent_.begin(), sent_.end(), [](const Request& request) { return request.was_sent(); })) return;
+  if (std::none_of(sent_.begin(), sent_.end(),
+                   [](const Request& request) { return request.was_sent(); }))
+    return;
   if (!wait_for_answers(seconds(options_.grace))) {
     for (std::size_t k = 0; k < servers_.size(); ++k)
       if (sent_[k].was_sent() && !sent_[k].is_answered()) servers_[k].server->overtake();
@@ -112,7 +123,8 @@ void GainRamp::roll_back() {
   outcome_.rollback_seconds = std::chrono::duration<double>(Clock::now() - alarm_->since).count();
   for (std::size_t k = 0; k < servers_.size(); ++k) {
     const GainServer::Answer answer = sent_[k].last();
-    if (answer && altered(servers_[k].before, *answer).empty()) outcome_.now[k] = servers_[k].before;
+    if (answer && altered(servers_[k].before, *answer).empty())
+      outcome_.now[k] = servers_[k].before;
   }
 }
 
@@ -129,9 +141,11 @@ GainValues between(const GainValues& before, const GainValues& after, double sha
 std::string altered(const GainValues& sent, const GainValues& answer) {
   for (const auto& [name, value] : sent) {
     const auto found = answer.find(name);
-    if (found == answer.end()) return name + " = " + to_decimal(value.number) + " was sent, and it has no " + name;
+    if (found == answer.end())
+      return name + " = " + to_decimal(value.number) + " was sent, and it has no " + name;
     if (!(found->second == value))
-      return name + " = " + to_decimal(value.number) + " was sent, and it has " + to_decimal(found->second.number);
+      return name + " = " + to_decimal(value.number) + " was sent, and it has " +
+             to_decimal(found->second.number);
   }
   return "";
 }

@@ -11,8 +11,10 @@ namespace codesign {
 
 GainValues values_of(const dynamic_reconfigure::Config& config) {
   GainValues values;
-  for (const dynamic_reconfigure::DoubleParameter& one : config.doubles) values[one.name] = {one.value, false};
-  for (const dynamic_reconfigure::BoolParameter& one : config.bools) values[one.name] = {one.value != 0 ? 1.0 : 0.0, true};
+  for (const dynamic_reconfigure::DoubleParameter& one : config.doubles)
+    values[one.name] = {one.value, false};
+  for (const dynamic_reconfigure::BoolParameter& one : config.bools)
+    values[one.name] = {one.value != 0 ? 1.0 : 0.0, true};
   return values;
 }
 
@@ -32,9 +34,11 @@ dynamic_reconfigure::Config config_of(const GainValues& values) {
   return config;
 }
 
-GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description, const dynamic_reconfigure::Config& now) {
+GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description,
+                         const dynamic_reconfigure::Config& now) {
   GainServerState state;
-  const GainValues all = values_of(now), lower = values_of(description.min), upper = values_of(description.max);
+  const GainValues all = values_of(now), lower = values_of(description.min),
+                   upper = values_of(description.max);
   for (const dynamic_reconfigure::Group& group : description.groups)
     for (const dynamic_reconfigure::ParamDescription& parameter : group.parameters) {
       const auto copy = [&parameter](const GainValues& from, GainValues* to) {
@@ -48,19 +52,22 @@ GainServerState state_of(const dynamic_reconfigure::ConfigDescription& descripti
   return state;
 }
 
-ReconfigureClient::ReconfigureClient(ros::NodeHandle node, std::string name_space) : node_(std::move(node)), name_(std::move(name_space)) {
+ReconfigureClient::ReconfigureClient(ros::NodeHandle node, std::string name_space)
+    : node_(std::move(node)), name_(std::move(name_space)) {
   descriptions_ = node_.subscribe<dynamic_reconfigure::ConfigDescription>(
-      name_ + "/parameter_descriptions", 1, [this](const dynamic_reconfigure::ConfigDescription::ConstPtr& message) {
+      name_ + "/parameter_descriptions", 1,
+      [this](const dynamic_reconfigure::ConfigDescription::ConstPtr& message) {
         const std::lock_guard<std::mutex> lock(mutex_);
         description_ = *message;
         changed_.notify_all();
       });
-  updates_ = node_.subscribe<dynamic_reconfigure::Config>(name_ + "/parameter_updates", 1,
-                                                          [this](const dynamic_reconfigure::Config::ConstPtr& message) {
-                                                            const std::lock_guard<std::mutex> lock(mutex_);
-                                                            now_ = *message;
-                                                            changed_.notify_all();
-                                                          });
+  updates_ = node_.subscribe<dynamic_reconfigure::Config>(
+      name_ + "/parameter_updates", 1,
+      [this](const dynamic_reconfigure::Config::ConstPtr& message) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        now_ = *message;
+        changed_.notify_all();
+      });
   thread_ = std::thread([this] { serve(); });
 }
 
@@ -85,8 +92,11 @@ std::string ReconfigureClient::wait(double patience, const std::atomic<bool>& ca
     if (cancel) return missing;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait_for(lock, std::chrono::milliseconds(50), [this] { return description_ && now_; });
-      missing = !description_ ? name_ + "/parameter_descriptions" : !now_ ? name_ + "/parameter_updates" : "";
+      changed_.wait_for(lock, std::chrono::milliseconds(50),
+                        [this] { return description_ && now_; });
+      missing = !description_ ? name_ + "/parameter_descriptions"
+                : !now_       ? name_ + "/parameter_updates"
+                              : "";
     }
     if (!missing.empty()) continue;
     if (ros::service::exists(service, false)) return "";
@@ -107,8 +117,9 @@ void ReconfigureClient::send(const GainValues& values, std::function<void(const 
   changed_.notify_all();
 }
 
-/// When its connection ends, a server of roscpp drops a request that it has not begun. It completes a request that it has begun before the
-/// next one, because dynamic_reconfigure serves one request at a time.
+/// When its connection ends, a server of roscpp drops a request that it has not begun. It completes
+/// a request that it has begun before the next one, because dynamic_reconfigure serves one request
+/// at a time.
 void ReconfigureClient::overtake() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_asking_ && !orders_.empty()) service_.shutdown();
@@ -136,7 +147,8 @@ ReconfigureClient::Answer ReconfigureClient::ask(const GainValues& values) {
     std::unique_lock<std::mutex> lock(mutex_);
     if (!service_.isValid()) {
       lock.unlock();
-      service = node_.serviceClient<dynamic_reconfigure::Reconfigure>(name_ + "/set_parameters", true);
+      service =
+          node_.serviceClient<dynamic_reconfigure::Reconfigure>(name_ + "/set_parameters", true);
       lock.lock();
       if (ending_) return {};
       service_ = service;

@@ -18,9 +18,10 @@
 
 namespace codesign {
 
-/// A server of dynamic_reconfigure in another process: the topics `parameter_descriptions` and `parameter_updates` and the service
-/// `set_parameters` below its namespace. It reads and sets numbers of type double and truth values, and leaves other parameters alone.
-/// Requests go out from a thread of their own, so that a server that does not answer does not delay other servers.
+/// A server of dynamic_reconfigure in another process: the topics `parameter_descriptions` and
+/// `parameter_updates` and the service `set_parameters` below its namespace. It reads and sets
+/// numbers of type double and truth values, and leaves other parameters alone. Requests go out from
+/// a thread of their own, so that a server that does not answer does not delay other servers.
 class ReconfigureClient : public GainServer {
  public:
   /// @param node whose callback queue is served by another thread. @param name_space resolved.
@@ -30,8 +31,8 @@ class ReconfigureClient : public GainServer {
   ReconfigureClient(const ReconfigureClient&) = delete;
   ReconfigureClient& operator=(const ReconfigureClient&) = delete;
 
-  /// Waits until the server has published its parameters and offers its service. @return the name of the missing topic or service; empty:
-  /// none is missing.
+  /// Waits until the server has published its parameters and offers its service. @return the name
+  /// of the missing topic or service; empty: none is missing.
   std::string wait(double patience, const std::atomic<bool>& cancel);
 
   /// The last published state of the server. Call it after wait() was successful.
@@ -67,6 +68,7 @@ class ReconfigureClient : public GainServer {
 GainValues values_of(const dynamic_reconfigure::Config& config);
 dynamic_reconfigure::Config config_of(const GainValues& values);
 /// @param now the last message of the topic `parameter_updates`.
-GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description, const dynamic_reconfigure::Config& now);
+GainServerState state_of(const dynamic_reconfigure::ConfigDescription& description,
+                         const dynamic_reconfigure::Config& now);
 
 }  // namespace codesign

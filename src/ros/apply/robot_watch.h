@@ -19,20 +19,23 @@
 
 namespace codesign {
 
-/// Ranges in which signals of a robot must stay: `JOINT/position`, `JOINT/velocity`, `JOINT/effort` of joint states, and topics of numbers,
-/// whose names begin with a slash.
+/// Ranges in which signals of a robot must stay: `JOINT/position`, `JOINT/velocity`, `JOINT/effort`
+/// of joint states, and topics of numbers, whose names begin with a slash.
 class SafeRanges {
  public:
-  /// Adds the `<limit>` of every joint: positions of joints with stops, velocities and efforts with a limit that is not zero.
+  /// Adds the `<limit>` of every joint: positions of joints with stops, velocities and efforts with
+  /// a limit that is not zero.
   /// @param parameters all named parameters.
   void add_limits_of(const Problem& problem, const std::vector<double>& parameters);
 
-  /// Adds a range given as `SIGNAL=LOW:HIGH`; LOW or HIGH may be empty for no limit. The range replaces the limit of the model.
+  /// Adds a range given as `SIGNAL=LOW:HIGH`; LOW or HIGH may be empty for no limit. The range
+  /// replaces the limit of the model.
   /// @throws InputError naming `element` for any other text.
   void add(const std::string& text, const std::string& element);
 
-  /// Why a value is not safe, as a sentence; empty if it is, or if there is no range for the signal. NaN is unsafe for a range that was
-  /// given; for a limit of the model it counts as not measured.
+  /// Why a value is not safe, as a sentence; empty if it is, or if there is no range for the
+  /// signal. NaN is unsafe for a range that was given; for a limit of the model it counts as not
+  /// measured.
   std::string check(const std::string& signal, double value) const;
 
   /// Signals of joints with a given range, which the robot must publish; likewise topics.
@@ -51,20 +54,23 @@ class SafeRanges {
 
 struct WatchOptions {
   std::string joint_states = "joint_states";  ///< topic; empty: joint states are not watched
-  /// Largest age of the last message of each watched topic, by its arrival and by its stamp [s]. A stamp more than an hour in the future is
-  /// an alarm, too.
+  /// Largest age of the last message of each watched topic, by its arrival and by its stamp [s]. A
+  /// stamp more than an hour in the future is an alarm, too.
   double max_age = 0.5;
-  double deviation = 0.0;  ///< largest change of a position since the first message [rad or m]; 0: not watched
+  double deviation =
+      0.0;  ///< largest change of a position since the first message [rad or m]; 0: not watched
 };
 
-/// Watches a running robot: joint states and topics of numbers must keep coming, and their values must stay in their ranges. Thread-safe.
+/// Watches a running robot: joint states and topics of numbers must keep coming, and their values
+/// must stay in their ranges. Thread-safe.
 class RobotWatch {
  public:
   /// Subscribes. @param node whose callback queue is served by another thread.
   RobotWatch(ros::NodeHandle node, SafeRanges ranges, WatchOptions options);
 
-  /// Waits until each topic has sent a message. @return why the robot must not be touched, as a sentence: a topic is silent, a joint with a
-  /// range is not in the joint states, a value is outside its range; empty: nothing is wrong.
+  /// Waits until each topic has sent a message. @return why the robot must not be touched, as a
+  /// sentence: a topic is silent, a joint with a range is not in the joint states, a value is
+  /// outside its range; empty: nothing is wrong.
   std::string begin(double patience);
 
   /// The first alarm, with the arrival time of its message; empty if there is none so far.

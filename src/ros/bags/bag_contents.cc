@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The format: https://wiki.ros.org/Bags/Format/2.0. A bag is a line, a file header and records. A record is a header of fields NAME=VALUE
-// and data; its kind is the field `op`. Chunks hold messages, and after each chunk an index record per connection counts its messages.
+// The format: https://wiki.ros.org/Bags/Format/2.0. A bag is a line, a file header and records. A
+// record is a header of fields NAME=VALUE and data; its kind is the field `op`. Chunks hold
+// messages, and after each chunk an index record per connection counts its messages.
 #include "ros/bags/bag_contents.h"
 
 #include <bzlib.h>
@@ -34,12 +35,15 @@ std::string unpack(std::string_view packed, std::uint64_t size, const Decompress
   std::string all, part(kPart, '\0');
   for (Part done; !done.is_last;) {
     done = decompress(packed, &part);
-    if (done.failed || (done.consumed == 0 && done.produced == 0 && !done.is_last)) throw BagFault("data that cannot be decompressed");
+    if (done.failed || (done.consumed == 0 && done.produced == 0 && !done.is_last))
+      throw BagFault("data that cannot be decompressed");
     packed.remove_prefix(done.consumed);
     all.append(part, 0, done.produced);
     if (all.size() > size) break;
   }
-  if (all.size() != size) throw BagFault("data that decompress to another size than the " + std::to_string(size) + " bytes announced");
+  if (all.size() != size)
+    throw BagFault("data that decompress to another size than the " + std::to_string(size) +
+                   " bytes announced");
   return all;
 }
 
@@ -53,18 +57,21 @@ std::string unpack_bz2(std::string_view packed, std::uint64_t size) {
     stream.next_out = part->data();
     stream.avail_out = static_cast<unsigned>(part->size());
     const int result = BZ2_bzDecompress(&stream);
-    return Part{source.size() - stream.avail_in, part->size() - stream.avail_out, result == BZ_STREAM_END,
-                result != BZ_OK && result != BZ_STREAM_END};
+    return Part{source.size() - stream.avail_in, part->size() - stream.avail_out,
+                result == BZ_STREAM_END, result != BZ_OK && result != BZ_STREAM_END};
   });
 }
 
 std::string unpack_lz4(std::string_view packed, std::uint64_t size) {
   LZ4F_dctx* context = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) throw std::bad_alloc();
-  const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> end(context, LZ4F_freeDecompressionContext);
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0)
+    throw std::bad_alloc();
+  const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> end(
+      context, LZ4F_freeDecompressionContext);
   return unpack(packed, size, [context](std::string_view source, std::string* part) {
     std::size_t consumed = source.size(), produced = part->size();
-    const std::size_t result = LZ4F_decompress(context, part->data(), &produced, source.data(), &consumed, nullptr);
+    const std::size_t result =
+        LZ4F_decompress(context, part->data(), &produced, source.data(), &consumed, nullptr);
     return Part{consumed, produced, result == 0, LZ4F_isError(result) != 0};
   });
 }
@@ -72,7 +79,14 @@ std::string unpack_lz4(std::string_view packed, std::uint64_t size) {
 constexpr std::string_view kFirstLine = "#ROSBAG V2.0\n";
 constexpr std::string_view kAnyVersion = "#ROS";
 constexpr std::uint64_t kMostHeader = 1U << 20U;  // fields are names and numbers of a few bytes
-enum : std::uint8_t { kMessage = 2, kFileHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7 };
+enum : std::uint8_t {
+  kMessage = 2,
+  kFileHeader = 3,
+  kIndex = 4,
+  kChunk = 5,
+  kChunkInfo = 6,
+  kConnection = 7
+};
 
 /// The value of a field.
 std::optional<std::string_view> find_field(ByteReader fields, std::string_view name) {
@@ -93,7 +107,9 @@ std::string_view field_of(const ByteReader& fields, std::string_view name) {
 template <class T>
 T number_of(const ByteReader& fields, std::string_view name) {
   const std::string_view value = field_of(fields, name);
-  if (value.size() != sizeof(T)) fields.fail("a field \"" + std::string(name) + "\" of " + std::to_string(value.size()) + " bytes");
+  if (value.size() != sizeof(T))
+    fields.fail("a field \"" + std::string(name) + "\" of " + std::to_string(value.size()) +
+                " bytes");
   return ByteReader(value).number<T>("");
 }
 
@@ -103,14 +119,17 @@ std::int64_t time_of(const ByteReader& fields) {
   return ByteReader(value, fields.place()).time("a time of reception");
 }
 
-/// Decompresses a chunk of a bag. The result grows with what is decompressed, so that a wrong `size` allocates nothing.
+/// Decompresses a chunk of a bag. The result grows with what is decompressed, so that a wrong
+/// `size` allocates nothing.
 /// @param compression none, bz2 or lz4. @param size of the result, which is checked.
 /// @throws BagFault without a place if the bytes are not such data of this size.
 std::string unpack_chunk(const std::string& compression, std::string packed, std::uint64_t size) {
   if (compression == "bz2") return unpack_bz2(packed, size);
   if (compression == "lz4") return unpack_lz4(packed, size);
   if (compression != "none") throw BagFault("an unknown compression \"" + compression + "\"");
-  if (packed.size() != size) throw BagFault(std::to_string(packed.size()) + " bytes of data instead of " + std::to_string(size));
+  if (packed.size() != size)
+    throw BagFault(std::to_string(packed.size()) + " bytes of data instead of " +
+                   std::to_string(size));
   return packed;
 }
 
@@ -132,18 +151,20 @@ BagContents::BagContents(const std::string& path) {
 /// Bytes of the file.
 std::string BagContents::read(std::uint64_t at, std::uint64_t count) {
   if (at > size_ || count > size_ - at)
-    throw BagFault("a record of " + std::to_string(count) + " bytes at byte " + std::to_string(at) + " of a file of " +
-                   std::to_string(size_) + " bytes");
+    throw BagFault("a record of " + std::to_string(count) + " bytes at byte " + std::to_string(at) +
+                   " of a file of " + std::to_string(size_) + " bytes");
   std::string bytes(to_index(count), '\0');
   file_.seekg(static_cast<std::streamoff>(at));
   if (!file_.read(bytes.data(), static_cast<std::streamsize>(count)))
-    throw BagFault("the file cannot be read at byte " + std::to_string(at) + ": " + std::strerror(errno));
+    throw BagFault("the file cannot be read at byte " + std::to_string(at) + ": " +
+                   std::strerror(errno));
   return bytes;
 }
 
 void BagContents::check_first_line() {
   const std::string line = read(0, std::min<std::uint64_t>(size_, kFirstLine.size()));
-  if (line.substr(0, kAnyVersion.size()) != kAnyVersion) throw BagFault("it is not a bag: its first line is not \"#ROSBAG V2.0\"");
+  if (line.substr(0, kAnyVersion.size()) != kAnyVersion)
+    throw BagFault("it is not a bag: its first line is not \"#ROSBAG V2.0\"");
   if (line != kFirstLine) throw BagFault("its format is not 2.0; `rosbag fix` converts older bags");
 }
 
@@ -153,7 +174,8 @@ void BagContents::read_file_header(const ByteReader& fields) {
   const auto index = number_of<std::uint64_t>(fields, "index_pos");
   if (index == 0) throw UnindexedBag("it has no index");
   if (index > size_)
-    throw BagFault("it is cut: its index is at byte " + std::to_string(index) + ", and the file has " + std::to_string(size_) + " bytes");
+    throw BagFault("it is cut: its index is at byte " + std::to_string(index) +
+                   ", and the file has " + std::to_string(size_) + " bytes");
   connections_expected_ = number_of<std::uint32_t>(fields, "conn_count");
   chunks_expected_ = number_of<std::uint32_t>(fields, "chunk_count");
 }
@@ -161,22 +183,29 @@ void BagContents::read_file_header(const ByteReader& fields) {
 /// Reads a record outside of chunks. @return the place of the next one.
 std::uint64_t BagContents::read_record(std::uint64_t at) {
   const std::uint32_t length = ByteReader(read(at, 4)).number<std::uint32_t>("");
-  if (length > kMostHeader) throw BagFault("a record's header of " + std::to_string(length) + " bytes at byte " + std::to_string(at));
+  if (length > kMostHeader)
+    throw BagFault("a record's header of " + std::to_string(length) + " bytes at byte " +
+                   std::to_string(at));
   const std::string header = read(at + 4, length);
   const ByteReader fields(header, at + 4);
   const std::uint64_t data_at = at + 4 + length + 4;
   const std::uint32_t size = ByteReader(read(data_at - 4, 4)).number<std::uint32_t>("");
   if (size > size_ - data_at)
-    throw BagFault("a record's data of " + std::to_string(size) + " bytes at byte " + std::to_string(data_at) + " of a file of " +
-                   std::to_string(size_) + " bytes");
+    throw BagFault("a record's data of " + std::to_string(size) + " bytes at byte " +
+                   std::to_string(data_at) + " of a file of " + std::to_string(size_) + " bytes");
   const auto kind = number_of<std::uint8_t>(fields, "op");
-  if ((kind == kFileHeader) != (at == kFirstLine.size())) fields.fail("a file header that is not the first record");
+  if ((kind == kFileHeader) != (at == kFirstLine.size()))
+    fields.fail("a file header that is not the first record");
   switch (kind) {
     case kFileHeader:
       read_file_header(fields);
       break;
     case kChunk:
-      chunks_.push_back({data_at, size, number_of<std::uint32_t>(fields, "size"), std::string(field_of(fields, "compression")), {}});
+      chunks_.push_back({data_at,
+                         size,
+                         number_of<std::uint32_t>(fields, "size"),
+                         std::string(field_of(fields, "compression")),
+                         {}});
       break;
     case kIndex:
       read_index(fields, data_at, read(data_at, size));
@@ -198,7 +227,8 @@ void BagContents::read_index(ByteReader fields, std::uint64_t at, const std::str
   const std::uint64_t count = number_of<std::uint32_t>(fields, "count");
   if (number_of<std::uint32_t>(fields, "ver") != 1) fields.fail("an index of an unknown version");
   if (data.size() != kEntry * count)
-    fields.fail("an index of " + std::to_string(count) + " messages in " + std::to_string(data.size()) + " bytes");
+    fields.fail("an index of " + std::to_string(count) + " messages in " +
+                std::to_string(data.size()) + " bytes");
   if (chunks_.empty()) fields.fail("an index before the first chunk");
   if (count == 0) return;
   const auto connection = number_of<std::uint32_t>(fields, "conn");
@@ -212,20 +242,23 @@ void BagContents::read_index(ByteReader fields, std::uint64_t at, const std::str
 
 void BagContents::read_connection(ByteReader fields, std::uint64_t at, const std::string& data) {
   const ByteReader more(data, at);
-  const BagConnection connection{std::string(field_of(fields, "topic")), std::string(field_of(more, "type")),
+  const BagConnection connection{std::string(field_of(fields, "topic")),
+                                 std::string(field_of(more, "type")),
                                  std::string(field_of(more, "md5sum"))};
   const auto id = number_of<std::uint32_t>(fields, "conn");
-  if (!connections_.emplace(id, connection).second) fields.fail("a second connection " + std::to_string(id));
+  if (!connections_.emplace(id, connection).second)
+    fields.fail("a second connection " + std::to_string(id));
 }
 
 void BagContents::check_counts() const {
   if (chunks_.size() != chunks_expected_ || connections_.size() != connections_expected_)
-    throw BagFault("its header announces " + std::to_string(chunks_expected_) + " chunks and " + std::to_string(connections_expected_) +
-                   " connections, but it has " + std::to_string(chunks_.size()) + " and " + std::to_string(connections_.size()));
+    throw BagFault("its header announces " + std::to_string(chunks_expected_) + " chunks and " +
+                   std::to_string(connections_expected_) + " connections, but it has " +
+                   std::to_string(chunks_.size()) + " and " + std::to_string(connections_.size()));
   for (const auto& [id, count] : counts_)
     if (connections_.count(id) == 0)
-      throw BagFault("its index lists " + std::to_string(count) + " messages of a connection " + std::to_string(id) +
-                     " that it does not have");
+      throw BagFault("its index lists " + std::to_string(count) + " messages of a connection " +
+                     std::to_string(id) + " that it does not have");
 }
 
 std::vector<BagConnection> BagContents::connections() const {
@@ -234,11 +267,15 @@ std::vector<BagConnection> BagContents::connections() const {
   return used;
 }
 
-void BagContents::visit(const std::string& topic, const std::atomic<bool>* cancel, const std::function<void(const BagMessage&)>& visit) {
+void BagContents::visit(const std::string& topic, const std::atomic<bool>* cancel,
+                        const std::function<void(const BagMessage&)>& visit) {
   for (const Chunk& chunk : chunks_) {
     if (is_set(cancel)) throw ReadingCancelled();
-    const auto has_topic = [&](const auto& count) { return connections_.at(count.first).topic == topic; };
-    if (std::any_of(chunk.counts.begin(), chunk.counts.end(), has_topic)) visit_chunk(chunk, topic, visit);
+    const auto has_topic = [&](const auto& count) {
+      return connections_.at(count.first).topic == topic;
+    };
+    if (std::any_of(chunk.counts.begin(), chunk.counts.end(), has_topic))
+      visit_chunk(chunk, topic, visit);
   }
 }
 
@@ -250,10 +287,12 @@ std::string BagContents::unpack(const Chunk& chunk) {
   }
 }
 
-void BagContents::visit_chunk(const Chunk& chunk, const std::string& topic, const std::function<void(const BagMessage&)>& visit) {
+void BagContents::visit_chunk(const Chunk& chunk, const std::string& topic,
+                              const std::function<void(const BagMessage&)>& visit) {
   const std::string bytes = unpack(chunk);
   const bool is_packed = chunk.compression != "none";
-  const std::string within = is_packed ? " of the chunk at byte " + std::to_string(chunk.at) + ", decompressed" : "";
+  const std::string within =
+      is_packed ? " of the chunk at byte " + std::to_string(chunk.at) + ", decompressed" : "";
   Counts found;
   for (ByteReader records(bytes, is_packed ? 0 : chunk.at, within); !records.at_end();) {
     const ByteReader fields = records.inner("a record's header");
@@ -263,11 +302,15 @@ void BagContents::visit_chunk(const Chunk& chunk, const std::string& topic, cons
     if (kind != kMessage) fields.fail("a record of kind " + std::to_string(kind) + " in a chunk");
     const auto id = number_of<std::uint32_t>(fields, "conn");
     const auto connection = connections_.find(id);
-    if (connection == connections_.end()) fields.fail("a message of a connection " + std::to_string(id) + " that the bag does not have");
+    if (connection == connections_.end())
+      fields.fail("a message of a connection " + std::to_string(id) +
+                  " that the bag does not have");
     ++found[id];
     if (connection->second.topic == topic) visit({connection->second, time_of(fields), data});
   }
-  if (found != chunk.counts) throw BagFault("a chunk at byte " + std::to_string(chunk.at) + " with other messages than its index lists");
+  if (found != chunk.counts)
+    throw BagFault("a chunk at byte " + std::to_string(chunk.at) +
+                   " with other messages than its index lists");
 }
 
 }  // namespace codesign

@@ -23,12 +23,14 @@ class BagFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads numbers and blocks one after the other, in the byte order of ROS, which is that of the processor. No length is believed: each is
-/// compared with the bytes that are left before anything is read or allocated.
+/// Reads numbers and blocks one after the other, in the byte order of ROS, which is that of the
+/// processor. No length is believed: each is compared with the bytes that are left before anything
+/// is read or allocated.
 class ByteReader {
  public:
-  /// @param first place of the first byte in the file, for messages. @param within what the place counts in if not in the file, such as
-  /// " of the chunk at byte 4117, decompressed"; must outlive the reader.
+  /// @param first place of the first byte in the file, for messages. @param within what the place
+  /// counts in if not in the file, such as " of the chunk at byte 4117, decompressed"; must outlive
+  /// the reader.
   explicit ByteReader(std::string_view bytes, std::uint64_t first = 0, std::string_view within = {})
       : bytes_(bytes), first_(first), within_(within) {}
 
@@ -37,7 +39,9 @@ class ByteReader {
 
   std::string_view bytes(std::uint64_t count, const char* what) {
     const std::size_t left = bytes_.size() - read_;
-    if (count > left) fail(std::string(what) + " of " + std::to_string(count) + " bytes, with " + std::to_string(left) + " bytes left,");
+    if (count > left)
+      fail(std::string(what) + " of " + std::to_string(count) + " bytes, with " +
+           std::to_string(left) + " bytes left,");
     read_ += to_index(count);
     return bytes_.substr(read_ - to_index(count), to_index(count));
   }
@@ -69,15 +73,18 @@ class ByteReader {
   }
   std::vector<std::string> strings(const char* what) {
     std::vector<std::string> values;
-    for (std::uint64_t left = number<std::uint32_t>(what); left > 0; --left) values.emplace_back(block(what));
+    for (std::uint64_t left = number<std::uint32_t>(what); left > 0; --left)
+      values.emplace_back(block(what));
     return values;
   }
 
   /// Seconds and nanoseconds as nanoseconds.
   std::int64_t time(const char* what) {
-    const std::int64_t seconds = number<std::uint32_t>(what), nanoseconds = number<std::uint32_t>(what);
+    const std::int64_t seconds = number<std::uint32_t>(what),
+                       nanoseconds = number<std::uint32_t>(what);
     constexpr std::int64_t kSecond = 1000000000;
-    if (nanoseconds >= kSecond) fail(std::string(what) + " with " + std::to_string(nanoseconds) + " nanoseconds");
+    if (nanoseconds >= kSecond)
+      fail(std::string(what) + " with " + std::to_string(nanoseconds) + " nanoseconds");
     return seconds * kSecond + nanoseconds;
   }
 
@@ -116,8 +123,10 @@ struct BagMessage {
   ByteReader content;
 };
 
-/// The messages of a bag of format 2.0, read for files of any content: rosbag_storage believes the lengths in a file, so that one changed
-/// byte can end the process. See doc/decisions/0074-bags-are-read-here.md. Chunks without messages of the wanted topic are skipped.
+/// The messages of a bag of format 2.0, read for files of any content: rosbag_storage believes the
+/// lengths in a file, so that one changed byte can end the process. See
+/// doc/decisions/0074-bags-are-read-here.md. Chunks without messages of the wanted topic are
+/// skipped.
 class BagContents {
  public:
   /// Reads the connections and the index. @throws BagFault
@@ -130,10 +139,12 @@ class BagContents {
   std::int64_t begin() const { return begin_; }
   /// Calls `visit` for all messages of a topic, in the order of the file.
   /// @throws BagFault, ReadingCancelled soon after `cancel` is set, and what `visit` throws.
-  void visit(const std::string& topic, const std::atomic<bool>* cancel, const std::function<void(const BagMessage&)>& visit);
+  void visit(const std::string& topic, const std::atomic<bool>* cancel,
+             const std::function<void(const BagMessage&)>& visit);
 
  private:
-  using Counts = std::map<std::uint32_t, std::uint64_t>;  // messages by the number of their connection
+  using Counts =
+      std::map<std::uint32_t, std::uint64_t>;  // messages by the number of their connection
   struct Chunk {
     std::uint64_t at;  ///< place of its data
     std::uint32_t packed, size;
@@ -149,7 +160,8 @@ class BagContents {
   void read_connection(ByteReader fields, std::uint64_t at, const std::string& data);
   void check_counts() const;
   std::string unpack(const Chunk& chunk);
-  void visit_chunk(const Chunk& chunk, const std::string& topic, const std::function<void(const BagMessage&)>& visit);
+  void visit_chunk(const Chunk& chunk, const std::string& topic,
+                   const std::function<void(const BagMessage&)>& visit);
 
   std::ifstream file_;
   std::uint64_t size_ = 0;

@@ -44,9 +44,12 @@ template <>
 struct Serializer<codesign::BagBytes> {
   template <class Stream>
   static void write(Stream& stream, const codesign::BagBytes& content) {
-    std::copy(content.bytes.begin(), content.bytes.end(), stream.advance(serializedLength(content)));
+    std::copy(content.bytes.begin(), content.bytes.end(),
+              stream.advance(serializedLength(content)));
   }
-  static std::uint32_t serializedLength(const codesign::BagBytes& content) { return static_cast<std::uint32_t>(content.bytes.size()); }
+  static std::uint32_t serializedLength(const codesign::BagBytes& content) {
+    return static_cast<std::uint32_t>(content.bytes.size());
+  }
 };
 
 }  // namespace serialization
@@ -64,7 +67,8 @@ void BagFile::guard(const Action& action) {
   }
 }
 
-BagFile::BagFile(const std::string& path) : path_(path), active_(path + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
+BagFile::BagFile(const std::string& path)
+    : path_(path), active_(path + ".active"), bag_(std::make_unique<rosbag::Bag>()) {
   if (access(path.c_str(), F_OK) == 0) throw OutputError::of_system(path, EEXIST);
   const int descriptor = open(active_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) throw OutputError::of_system(active_, errno);
@@ -104,7 +108,8 @@ void BagFile::fail(int cause) {
   throw OutputError::of_system(path_, cause);
 }
 
-/// Closes the bag after its descriptor was redirected to /dev/null, so that the writes of its destructor cannot fail.
+/// Closes the bag after its descriptor was redirected to /dev/null, so that the writes of its
+/// destructor cannot fail.
 void BagFile::abandon() noexcept {
   if (divert()) {
     try {
@@ -114,17 +119,19 @@ void BagFile::abandon() noexcept {
     } catch (const std::exception&) {
     }
   }
-  // The file was closed by a call that failed. The destructor would close it again and throw, so the object is leaked on purpose.
+  // The file was closed by a call that failed. The destructor would close it again and throw, so
+  // the object is leaked on purpose.
   static_cast<void>(bag_.release());
 }
 
-/// Redirects every open descriptor of the file to /dev/null; rosbag does not give access to its own. Returns whether there was any.
+/// Redirects every open descriptor of the file to /dev/null; rosbag does not give access to its
+/// own. Returns whether there was any.
 bool BagFile::divert() const noexcept {
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   bool found = false;
   std::error_code error;
-  for (std::filesystem::directory_iterator entry("/proc/self/fd", error), end; nowhere >= 0 && !error && entry != end;
-       entry.increment(error)) {
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", error), end;
+       nowhere >= 0 && !error && entry != end; entry.increment(error)) {
     const int descriptor = std::atoi(entry->path().filename().c_str());
     struct stat file {};
     if (fstat(descriptor, &file) != 0 || file.st_dev != device_ || file.st_ino != inode_) continue;
@@ -140,12 +147,13 @@ void BagWriter::write_text(const std::string& topic, const std::string& text) {
   write_latched(topic, 0.0, message);
 }
 
-void BagWriter::write_frame(const std::string& topic_prefix, const std::string& root_frame, const FrameNames& names, const Frame& frame,
-                            const MarkerStyle& style) {
+void BagWriter::write_frame(const std::string& topic_prefix, const std::string& root_frame,
+                            const FrameNames& names, const Frame& frame, const MarkerStyle& style) {
   const MessageContext context{stamp(frame.time), root_frame};
-  FrameMessages(names, frame, context, style).visit([&](const std::string& topic, const auto& message) {
-    write(topic_prefix + topic, frame.time, message);
-  });
+  FrameMessages(names, frame, context, style)
+      .visit([&](const std::string& topic, const auto& message) {
+        write(topic_prefix + topic, frame.time, message);
+      });
 }
 
 }  // namespace codesign

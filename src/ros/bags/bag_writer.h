@@ -27,8 +27,9 @@ struct BagBytes {
 
 /// A bag that is written as `path`.active and renamed to `path` when it is complete.
 ///
-/// With a full disk, the destructor of rosbag::Bag tries to write again and throws, which ends the program. Here a failure is an
-/// OutputError and the unfinished file is removed, so that the program can continue.
+/// With a full disk, the destructor of rosbag::Bag tries to write again and throws, which ends the
+/// program. Here a failure is an OutputError and the unfinished file is removed, so that the
+/// program can continue.
 class BagFile {
  public:
   /// @throws OutputError if the file cannot be created, or if `path` or `path`.active exists.
@@ -39,19 +40,23 @@ class BagFile {
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
 
-  // The message becomes bytes here, so that rosbag's own templates, which take seconds to compile, are compiled in one file.
+  // The message becomes bytes here, so that rosbag's own templates, which take seconds to compile,
+  // are compiled in one file.
   /// @throws OutputError; the bag is then removed and must not be used any more.
   template <class Message>
-  void write(const std::string& topic, const ros::Time& time, const Message& message, const boost::shared_ptr<ros::M_string>& header = {}) {
+  void write(const std::string& topic, const ros::Time& time, const Message& message,
+             const boost::shared_ptr<ros::M_string>& header = {}) {
     using namespace ros::message_traits;
     BagBytes content{datatype(message), md5sum(message), definition(message), {}};
     content.bytes.resize(ros::serialization::serializationLength(message));
-    ros::serialization::OStream stream(content.bytes.data(), static_cast<std::uint32_t>(content.bytes.size()));
+    ros::serialization::OStream stream(content.bytes.data(),
+                                       static_cast<std::uint32_t>(content.bytes.size()));
     ros::serialization::serialize(stream, message);
     write_bytes(topic, time, content, header);
   }
 
-  /// Writes the index and renames the bag to `path`, which must not exist. @throws OutputError; the bag is then removed.
+  /// Writes the index and renames the bag to `path`, which must not exist. @throws OutputError; the
+  /// bag is then removed.
   void finish();
 
  private:
@@ -69,8 +74,9 @@ class BagFile {
   std::unique_ptr<rosbag::Bag> bag_;
 };
 
-/// Writes runs into a bag. Recorded time is the time of the run plus 1 s, since rosbag refuses stamps near zero; header stamps are the
-/// same. Every member function throws OutputError if writing fails.
+/// Writes runs into a bag. Recorded time is the time of the run plus 1 s, since rosbag refuses
+/// stamps near zero; header stamps are the same. Every member function throws OutputError if
+/// writing fails.
 class BagWriter : public BagFile {
  public:
   using BagFile::BagFile;
@@ -82,7 +88,8 @@ class BagWriter : public BagFile {
     BagFile::write(topic, stamp(time), message);
   }
 
-  /// Writes a message with the connection header that `rosbag record` uses for latched topics, so that `rosbag play` latches it.
+  /// Writes a message with the connection header that `rosbag record` uses for latched topics, so
+  /// that `rosbag play` latches it.
   template <class Message>
   void write_latched(const std::string& topic, double time, const Message& message) {
     auto header = boost::make_shared<ros::M_string>();
@@ -97,8 +104,8 @@ class BagWriter : public BagFile {
 
   /// Writes one instant of a run to topics that begin with `topic_prefix`.
   /// @param root_frame TF frame of the root link.
-  void write_frame(const std::string& topic_prefix, const std::string& root_frame, const FrameNames& names, const Frame& frame,
-                   const MarkerStyle& style);
+  void write_frame(const std::string& topic_prefix, const std::string& root_frame,
+                   const FrameNames& names, const Frame& frame, const MarkerStyle& style);
 };
 
 }  // namespace codesign

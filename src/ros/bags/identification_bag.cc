@@ -42,16 +42,19 @@ std::vector<SeriesPart> parts_of(const IdentificationShow& show) {
 /// Writes one bag.
 class ShowWriter {
  public:
-  ShowWriter(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer)
+  ShowWriter(const std::string& path, const IdentificationShow& show,
+             const IdentificationAnswer* answer)
       : show_(show), answer_(answer), writer_(path), drawn_(with_sticks(show.urdf)) {
     const auto solids = std::make_shared<LinkBoxes>(link_boxes(drawn_, show.motion.names.links));
     std::vector<ShownRun> runs;
-    for (const ComparedRecording& recording : show.motion.recordings) runs.push_back({show.motion.names, recording.model, solids});
+    for (const ComparedRecording& recording : show.motion.recordings)
+      runs.push_back({show.motion.names, recording.model, solids});
     layout_ = lay_out(runs);
     efforts_ = effort_style(show.motion, layout_.size);
     efforts_.towards_viewer = layout_.view.towards_viewer();
     efforts_.solids = solids;
-    // The arrows of friction have the same scale, since the friction of a joint is a part of its effort.
+    // The arrows of friction have the same scale, since the friction of a joint is a part of its
+    // effort.
     if (!show.motion.joints.empty()) layout_.style = efforts_;
     layout_.style.solids = solids;
     legend_ = effort_legend(efforts_, show.motion);
@@ -74,17 +77,21 @@ class ShowWriter {
   }
 
  private:
-  std::string element(std::size_t k) const { return k < show_.motion.recordings.size() ? show_.motion.recordings[k].element : ""; }
+  std::string element(std::size_t k) const {
+    return k < show_.motion.recordings.size() ? show_.motion.recordings[k].element : "";
+  }
 
   void write_head() {
     writer_.write_text("study", show_.study);
     writer_.write_text("identification", show_.json);
     if (answer_) writer_.write_latched("request", 0.0, answer_->request);
     // The measured robot is shown with the identified dimensions.
-    for (const char* side : {"measured", "identified"}) writer_.write_text(std::string(side) + "/robot_description", drawn_);
+    for (const char* side : {"measured", "identified"})
+      writer_.write_text(std::string(side) + "/robot_description", drawn_);
     tf2_msgs::TFMessage places;
     for (const char* side : {"measured", "identified"})
-      places.transforms.push_back(place_in_world(side, Eigen::Vector3d::Zero(), BagWriter::stamp(0.0)));
+      places.transforms.push_back(
+          place_in_world(side, Eigen::Vector3d::Zero(), BagWriter::stamp(0.0)));
     writer_.write_latched("tf_static", 0.0, places);
     stage_.scene.header = header_of({BagWriter::stamp(0.0), "world"});
     writer_.write_latched("scene", 0.0, stage_.scene);
@@ -92,7 +99,8 @@ class ShowWriter {
 
   void write_tail() {
     if (!answer_) return;
-    const double spacing = end_ / static_cast<double>(std::max<std::size_t>(answer_->progress.size(), 2) - 1);
+    const double spacing =
+        end_ / static_cast<double>(std::max<std::size_t>(answer_->progress.size(), 2) - 1);
     double time = 0.0;
     for (mechanism_codesign::IdentificationProgress progress : answer_->progress) {
       progress.header.stamp = BagWriter::stamp(time);
@@ -106,13 +114,18 @@ class ShowWriter {
   void write_motion(const ComparedRecording& recording, double begin) {
     std::vector<CaptionLine> lines{plain_line(recording.element)};
     lines.insert(lines.end(), legend_.begin(), legend_.end());
-    writer_.write_latched("labels", begin, caption(lines, layout_, stage_.caption, {BagWriter::stamp(begin), "world"}));
+    writer_.write_latched(
+        "labels", begin,
+        caption(lines, layout_, stage_.caption, {BagWriter::stamp(begin), "world"}));
     for (std::size_t k = 0; k < recording.model.size(); ++k) {
       const double time = begin + recording.model[k].time - recording.model.front().time;
       write_measured(recording.measured[k], time);
       write_model(recording.model[k], time);
-      const MessageContext context{BagWriter::stamp(time), "identified/" + show_.motion.names.links[0]};
-      writer_.write("efforts", time, effort_markers(show_.motion, recording.measured[k], recording.model[k], context, efforts_));
+      const MessageContext context{BagWriter::stamp(time),
+                                   "identified/" + show_.motion.names.links[0]};
+      writer_.write("efforts", time,
+                    effort_markers(show_.motion, recording.measured[k], recording.model[k], context,
+                                   efforts_));
       end_ = std::max(end_, time);
     }
   }
@@ -120,15 +133,20 @@ class ShowWriter {
   void write_measured(const Frame& frame, double time) {
     const FrameNames& names = show_.motion.names;
     const ros::Time stamp = BagWriter::stamp(time);
-    writer_.write("measured/joint_states", time, joint_states(names, frame, {stamp, "measured/" + names.links[0]}));
-    writer_.write("tf", time, placed_link_transforms(names, show_.motion.link_parents, frame, stamp, "measured/"));
+    writer_.write("measured/joint_states", time,
+                  joint_states(names, frame, {stamp, "measured/" + names.links[0]}));
+    writer_.write(
+        "tf", time,
+        placed_link_transforms(names, show_.motion.link_parents, frame, stamp, "measured/"));
   }
 
   void write_model(Frame frame, double time) {
     const FrameNames& names = show_.motion.names;
     frame.time = time;
     writer_.write_frame("identified/", "identified/" + names.links[0], names, frame, layout_.style);
-    writer_.write("tf", time, placed_link_transforms(names, show_.motion.link_parents, frame, BagWriter::stamp(time), "identified/"));
+    writer_.write("tf", time,
+                  placed_link_transforms(names, show_.motion.link_parents, frame,
+                                         BagWriter::stamp(time), "identified/"));
   }
 
   void write_residuals(const SeriesPart& part, const std::string& recording, double begin) {
@@ -165,7 +183,8 @@ class ShowWriter {
 
 }  // namespace
 
-void write_identification_bag(const std::string& path, const IdentificationShow& show, const IdentificationAnswer* answer) {
+void write_identification_bag(const std::string& path, const IdentificationShow& show,
+                              const IdentificationAnswer* answer) {
   ShowWriter(path, show, answer).write();
 }
 

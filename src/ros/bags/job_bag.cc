@@ -46,13 +46,15 @@ class JobBagWriter {
  public:
   JobBagWriter(const std::string& path, const JobRecord& record) : record_(record), writer_(path) {
     const auto add = [this](const std::string& place, const BagRuns& runs) {
-      runs_.push_back({place, {ShownSide("initial", runs.initial), ShownSide("tuned", runs.tuned)}});
+      runs_.push_back(
+          {place, {ShownSide("initial", runs.initial), ShownSide("tuned", runs.tuned)}});
     };
     add("", record.nominal);
     if (record.worst) add("worst/", *record.worst);
     std::vector<ShownRun> shown;
     for (const ShownRuns& runs : runs_)
-      for (const ShownSide& side : runs.sides) shown.push_back({side.run.names, side.run.frames, side.solids});
+      for (const ShownSide& side : runs.sides)
+        shown.push_back({side.run.names, side.run.frames, side.solids});
     layout_ = lay_out(shown);
     legend_ = arrow_legend(layout_);
   }
@@ -74,18 +76,23 @@ class JobBagWriter {
  private:
   /// The arrangements of both mechanisms in rviz: side by side, and one over the other.
   void write_places() {
-    const Stage beside = write_place("", layout_.apart), over = write_place("overlay/", Eigen::Vector3d::Zero());
+    const Stage beside = write_place("", layout_.apart),
+                over = write_place("overlay/", Eigen::Vector3d::Zero());
     const std::string initial = with_objective("initial", record_.result.initial_objective);
     const std::string tuned = with_objective("tuned", record_.result.objective);
-    write_labels("", {label("initial", "initial", initial, beside, begin_), label("tuned", "tuned", tuned, beside, begin_)});
-    write_labels("overlay/", {label("tuned", "tuned", tuned + "; ghost: " + initial, over, begin_)});
+    write_labels("", {label("initial", "initial", initial, beside, begin_),
+                      label("tuned", "tuned", tuned, beside, begin_)});
+    write_labels("overlay/",
+                 {label("tuned", "tuned", tuned + "; ghost: " + initial, over, begin_)});
   }
 
   /// @param apart vector from the initial to the tuned mechanism. @returns the view of both.
   Stage write_place(const std::string& place, const Eigen::Vector3d& apart) {
-    Stage stage = stage_of(layout_, {-0.5 * apart, 0.5 * apart}, 1 + static_cast<int>(legend_.size()));
+    Stage stage =
+        stage_of(layout_, {-0.5 * apart, 0.5 * apart}, 1 + static_cast<int>(legend_.size()));
     tf2_msgs::TFMessage places;
-    places.transforms = {place_in_world("initial", -0.5 * apart, begin_), place_in_world("tuned", 0.5 * apart, begin_),
+    places.transforms = {place_in_world("initial", -0.5 * apart, begin_),
+                         place_in_world("tuned", 0.5 * apart, begin_),
                          place_in_world("caption", stage.caption, begin_)};
     writer_.write_latched(place + "tf_static", 0.0, places);
     stage.scene.header = header_of({begin_, "world"});
@@ -93,7 +100,8 @@ class JobBagWriter {
     return stage;
   }
 
-  void write_labels(const std::string& place, const std::vector<visualization_msgs::Marker>& markers) {
+  void write_labels(const std::string& place,
+                    const std::vector<visualization_msgs::Marker>& markers) {
     visualization_msgs::MarkerArray labels;
     labels.markers = markers;
     writer_.write_latched(place + "labels", 0.0, labels);
@@ -116,9 +124,11 @@ class JobBagWriter {
     const std::string prefix = side.name + "/";
     MarkerStyle style = layout_.style;
     style.solids = side.solids;
-    writer_.write_frame(place + prefix, prefix + side.run.names.links[0], side.run.names, frame, style);
+    writer_.write_frame(place + prefix, prefix + side.run.names.links[0], side.run.names, frame,
+                        style);
     writer_.write(place + "tf", frame.time,
-                  placed_link_transforms(side.run.names, side.run.link_parents, frame, BagWriter::stamp(frame.time), prefix));
+                  placed_link_transforms(side.run.names, side.run.link_parents, frame,
+                                         BagWriter::stamp(frame.time), prefix));
   }
 
   /// The text of an instant: time, the objective of each run so far, and the legend of the arrows.
@@ -132,14 +142,18 @@ class JobBagWriter {
     }
     std::vector<CaptionLine> lines{plain_line("t = " + readable(time, 4) + " s, " + text)};
     lines.insert(lines.end(), legend_.begin(), legend_.end());
-    writer_.write(runs.place + "caption", time, caption(lines, layout_, Eigen::Vector3d::Zero(), {BagWriter::stamp(time), "caption"}));
+    writer_.write(
+        runs.place + "caption", time,
+        caption(lines, layout_, Eigen::Vector3d::Zero(), {BagWriter::stamp(time), "caption"}));
   }
 
   void write_trials(double duration) {
-    const double spacing = duration / static_cast<double>(std::max<std::size_t>(record_.trials.size(), 2) - 1);
+    const double spacing =
+        duration / static_cast<double>(std::max<std::size_t>(record_.trials.size(), 2) - 1);
     double time = 0.0;
     for (const LoggedTrial& logged : record_.trials) {
-      mechanism_codesign::OptimizationProgress message = optimization_progress(logged.trial, record_.result.job, record_.result.parameters);
+      mechanism_codesign::OptimizationProgress message =
+          optimization_progress(logged.trial, record_.result.job, record_.result.parameters);
       set_progress(logged.progress, &message);
       message.header.stamp = BagWriter::stamp(time);
       writer_.write_latched("optimization_progress", time, message);
@@ -157,12 +171,16 @@ class JobBagWriter {
 
 }  // namespace
 
-void write_bag(const std::string& path, const JobRecord& record) { JobBagWriter(path, record).write(); }
+void write_bag(const std::string& path, const JobRecord& record) {
+  JobBagWriter(path, record).write();
+}
 
-std::vector<double> to_array(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
+std::vector<double> to_array(const Eigen::VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
 
-mechanism_codesign::OptimizationProgress optimization_progress(const Trial& trial, const std::string& job,
-                                                               const std::vector<std::string>& parameters) {
+mechanism_codesign::OptimizationProgress optimization_progress(
+    const Trial& trial, const std::string& job, const std::vector<std::string>& parameters) {
   mechanism_codesign::OptimizationProgress message;
   message.job = job;
   message.evaluation = static_cast<std::uint32_t>(trial.evaluation);

@@ -57,9 +57,15 @@ struct Group {
 /// One reading of a bag.
 class RecordingBag {
  public:
-  RecordingBag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints, Warnings* warnings,
+  RecordingBag(const RecordingDescription& description, const std::string& path,
+               const std::vector<std::string>& joints, Warnings* warnings,
                const std::atomic<bool>* cancel)
-      : description_(description), path_(path), known_(joints.begin(), joints.end()), warnings_(warnings), cancel_(cancel), bag_(path) {}
+      : description_(description),
+        path_(path),
+        known_(joints.begin(), joints.end()),
+        warnings_(warnings),
+        cancel_(cancel),
+        bag_(path) {}
 
   JointRecording read() {
     find_topic();
@@ -71,33 +77,41 @@ class RecordingBag {
     recording.element = description_.element;
     recording.where = description_.where;
     set_times(group, &recording);
-    for (const std::string& joint : group.joints) recording.joints.push_back(samples_of(joint, group));
+    for (const std::string& joint : group.joints)
+      recording.joints.push_back(samples_of(joint, group));
     return recording;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& key, const std::string& message, const std::string& value, const std::string& allowed) const {
-    throw InputError({description_.where, description_.element + key, message + " (" + path_ + ")", value, allowed});
+  [[noreturn]] void fail(const std::string& key, const std::string& message,
+                         const std::string& value, const std::string& allowed) const {
+    throw InputError({description_.where, description_.element + key, message + " (" + path_ + ")",
+                      value, allowed});
   }
-  [[noreturn]] void fail_at(std::size_t message, const std::string& what, const std::string& allowed) const {
+  [[noreturn]] void fail_at(std::size_t message, const std::string& what,
+                            const std::string& allowed) const {
     fail("", what + ", message " + std::to_string(message + 1) + " on " + topic_, "", allowed);
   }
   void warn_of(const std::string& code, const std::string& message, const std::string& allowed) {
-    warnings_->push_back(warn(code, {description_.where, description_.element, message + ": " + path_, "", allowed}));
+    warnings_->push_back(warn(
+        code, {description_.where, description_.element, message + ": " + path_, "", allowed}));
   }
 
   /// The topic as it stands in the bag, with or without the leading slash.
   void find_topic() {
     if (bag_.empty()) fail(".bag", "the bag is empty", "", "");
     std::map<std::string, std::string> types;
-    for (const BagConnection& connection : bag_.connections()) types.emplace(connection.topic, connection.type);
+    for (const BagConnection& connection : bag_.connections())
+      types.emplace(connection.topic, connection.type);
     const std::string& asked = description_.topic;
-    for (const std::string& name : {asked, "/" + asked, asked.substr(asked.empty() || asked.front() != '/' ? 0 : 1)}) {
+    for (const std::string& name :
+         {asked, "/" + asked, asked.substr(asked.empty() || asked.front() != '/' ? 0 : 1)}) {
       const auto found = types.find(name);
       if (found == types.end()) continue;
       topic_ = name;
       if (found->second != "sensor_msgs/JointState")
-        fail(".topic", "the topic holds no joint states but " + found->second, asked, "a topic of type sensor_msgs/JointState");
+        fail(".topic", "the topic holds no joint states but " + found->second, asked,
+             "a topic of type sensor_msgs/JointState");
       return;
     }
     std::vector<std::string> names, listed;
@@ -105,30 +119,40 @@ class RecordingBag {
       names.push_back(name);
       listed.push_back(name + " (" + type + ")");
     }
-    fail(".topic", "no message on this topic" + did_you_mean(nearest_name(asked, names)), asked, list_names(listed));
+    fail(".topic", "no message on this topic" + did_you_mean(nearest_name(asked, names)), asked,
+         list_names(listed));
   }
 
   void read_messages() {
     bag_.visit(topic_, cancel_, [this](const BagMessage& message) {
       if (message.connection.md5sum != ros::message_traits::md5sum<sensor_msgs::JointState>())
-        fail_at(messages_.size(), "the message has another definition of sensor_msgs/JointState", "");
+        fail_at(messages_.size(), "the message has another definition of sensor_msgs/JointState",
+                "");
       messages_.push_back(joint_states_of(message));
     });
-    std::stable_sort(messages_.begin(), messages_.end(),
-                     [](const JointStates& a, const JointStates& b) { return a.received < b.received; });
+    std::stable_sort(
+        messages_.begin(), messages_.end(),
+        [](const JointStates& a, const JointStates& b) { return a.received < b.received; });
     for (std::size_t k = 0; k < messages_.size(); ++k)
-      for (const std::vector<double>* array : {&messages_[k].position, &messages_[k].velocity, &messages_[k].effort})
+      for (const std::vector<double>* array :
+           {&messages_[k].position, &messages_[k].velocity, &messages_[k].effort})
         if (!array->empty() && array->size() != messages_[k].name.size())
-          fail_at(k, std::to_string(messages_[k].name.size()) + " names, and an array of " + std::to_string(array->size()) + " numbers",
+          fail_at(k,
+                  std::to_string(messages_[k].name.size()) + " names, and an array of " +
+                      std::to_string(array->size()) + " numbers",
                   "one number per name, or an empty array");
   }
 
   void refuse_other_robot() const {
     std::set<std::string> names;
-    for (const JointStates& message : messages_) names.insert(message.name.begin(), message.name.end());
-    const std::vector<std::string> found(names.begin(), names.end()), known(known_.begin(), known_.end());
-    fail(".topic", "the messages name no joint of the model, but " + list_names(found) + "; a bag of another robot?", description_.topic,
-         list_names(known));
+    for (const JointStates& message : messages_)
+      names.insert(message.name.begin(), message.name.end());
+    const std::vector<std::string> found(names.begin(), names.end()),
+        known(known_.begin(), known_.end());
+    fail(".topic",
+         "the messages name no joint of the model, but " + list_names(found) +
+             "; a bag of another robot?",
+         description_.topic, list_names(known));
   }
 
   /// The group of messages that name the most joints; of several such groups, the first one.
@@ -145,12 +169,15 @@ class RecordingBag {
       group.messages.push_back(k);
     }
     if (groups.empty()) refuse_other_robot();
-    const auto largest = std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) {
-      const Group &x = a.second, &y = b.second;
-      return x.joints.size() != y.joints.size() ? x.joints.size() < y.joints.size() : x.messages.size() < y.messages.size();
-    });
+    const auto largest =
+        std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) {
+          const Group &x = a.second, &y = b.second;
+          return x.joints.size() != y.joints.size() ? x.joints.size() < y.joints.size()
+                                                    : x.messages.size() < y.messages.size();
+        });
     std::set<std::string> left_out;
-    for (const auto& entry : groups) left_out.insert(entry.second.joints.begin(), entry.second.joints.end());
+    for (const auto& entry : groups)
+      left_out.insert(entry.second.joints.begin(), entry.second.joints.end());
     for (const std::string& joint : largest->second.joints) left_out.erase(joint);
     if (!left_out.empty())
       warn_of("recording_joints_left_out",
@@ -160,17 +187,21 @@ class RecordingBag {
     return largest->second;
   }
 
-  std::vector<double> column_of(const std::string& joint, const Group& group, MeasuredQuantity quantity) const {
+  std::vector<double> column_of(const std::string& joint, const Group& group,
+                                MeasuredQuantity quantity) const {
     std::vector<double> column;
     for (const std::size_t k : group.messages) {
       const JointStates& message = messages_[k];
-      const std::vector<double>& array = quantity == MeasuredQuantity::kPosition   ? message.position
-                                         : quantity == MeasuredQuantity::kVelocity ? message.velocity
-                                                                                   : message.effort;
+      const std::vector<double>& array = quantity == MeasuredQuantity::kPosition ? message.position
+                                         : quantity == MeasuredQuantity::kVelocity
+                                             ? message.velocity
+                                             : message.effort;
       if (array.empty() != column.empty() && k != group.messages.front())
         fail_at(k,
-                "the array of " + std::string(kMeasuredQuantityNames[to_index(quantity)]) + "s is " +
-                    (array.empty() ? "empty, but was not in the messages before" : "not empty, but was in the messages before"),
+                "the array of " + std::string(kMeasuredQuantityNames[to_index(quantity)]) +
+                    "s is " +
+                    (array.empty() ? "empty, but was not in the messages before"
+                                   : "not empty, but was in the messages before"),
                 "the same arrays in all messages");
       if (array.empty()) continue;
       const auto place = std::find(message.name.begin(), message.name.end(), joint);
@@ -179,10 +210,12 @@ class RecordingBag {
     return column;
   }
 
-  bool was_measured(const std::string& joint, MeasuredQuantity quantity, const std::vector<double>& column) {
+  bool was_measured(const std::string& joint, MeasuredQuantity quantity,
+                    const std::vector<double>& column) {
     const auto is_nan = [](double value) { return std::isnan(value); };
     if (std::all_of(column.begin(), column.end(), is_nan)) return false;
-    if (quantity != MeasuredQuantity::kPosition && std::all_of(column.begin(), column.end(), [](double value) { return value == 0.0; }))
+    if (quantity != MeasuredQuantity::kPosition &&
+        std::all_of(column.begin(), column.end(), [](double value) { return value == 0.0; }))
       warn_of("recording_all_zero",
               "the " + std::string(kMeasuredQuantityNames[to_index(quantity)]) + " of " + joint +
                   " is zero throughout, as drivers write it that do not measure it",
@@ -193,7 +226,8 @@ class RecordingBag {
   JointSamples samples_of(const std::string& joint, const Group& group) {
     JointSamples samples;
     samples.joint = joint;
-    for (const MeasuredQuantity quantity : {MeasuredQuantity::kPosition, MeasuredQuantity::kVelocity, MeasuredQuantity::kEffort}) {
+    for (const MeasuredQuantity quantity :
+         {MeasuredQuantity::kPosition, MeasuredQuantity::kVelocity, MeasuredQuantity::kEffort}) {
       std::vector<double> column = column_of(joint, group, quantity);
       if (was_measured(joint, quantity, column)) samples.of(quantity) = std::move(column);
     }
@@ -206,15 +240,19 @@ class RecordingBag {
     for (const std::size_t k : group.messages) {
       const JointStates& message = messages_[k];
       if (message.stamp == 0)
-        fail_at(k, "the stamp of the header is zero", "a publisher that sets it; or `stamp: receive`, if the load was low");
+        fail_at(k, "the stamp of the header is zero",
+                "a publisher that sets it; or `stamp: receive`, if the load was low");
       const double late = seconds(message.received - message.stamp);
       if (k == group.messages.front() ? std::abs(late) <= kOff : std::abs(late - before) <= kOff) {
         before = late;
         continue;
       }
       warn_of("recording_clock",
-              "message " + std::to_string(k + 1) + " was received " + readable(late, 6) + " s after its stamp" +
-                  (k == group.messages.front() ? "" : ", the one before " + readable(before, 6) + " s") + "; the stamps count",
+              "message " + std::to_string(k + 1) + " was received " + readable(late, 6) +
+                  " s after its stamp" +
+                  (k == group.messages.front() ? ""
+                                               : ", the one before " + readable(before, 6) + " s") +
+                  "; the stamps count",
               "clocks that agree; `stamp: receive` takes the times of reception");
       return;
     }
@@ -225,7 +263,9 @@ class RecordingBag {
     const double start = seconds(messages_[first].received - bag_.begin());
     const bool by_header = description_.stamp == StampKind::kHeader;
     if (by_header) check_clock(group);
-    const auto time_of = [&](std::size_t k) { return by_header ? messages_[k].stamp : messages_[k].received; };
+    const auto time_of = [&](std::size_t k) {
+      return by_header ? messages_[k].stamp : messages_[k].received;
+    };
     for (const std::size_t k : group.messages) {
       recording->times.push_back(start + seconds(time_of(k) - time_of(first)));
       recording->places.push_back(k + 1);
@@ -242,34 +282,45 @@ class RecordingBag {
   std::vector<JointStates> messages_;  ///< in the order in which they were received
 };
 
-JointRecording read(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
-                    Warnings* warnings, const std::atomic<bool>* cancel) {
+JointRecording read(const RecordingDescription& description, const std::string& path,
+                    const std::vector<std::string>& joints, Warnings* warnings,
+                    const std::atomic<bool>* cancel) {
   const auto refuse = [&](const std::string& cause, const std::string& allowed) {
-    return InputError({description.where, description.element + ".bag", "the bag cannot be read: " + cause, path, allowed});
+    return InputError({description.where, description.element + ".bag",
+                       "the bag cannot be read: " + cause, path, allowed});
   };
   try {
     return RecordingBag(description, path, joints, warnings, cancel).read();
   } catch (const UnindexedBag& error) {
-    throw refuse(error.what(), "a bag that was closed; `rosbag reindex` repairs one of a recorder that was killed");
+    throw refuse(
+        error.what(),
+        "a bag that was closed; `rosbag reindex` repairs one of a recorder that was killed");
   } catch (const BagFault& error) {
-    const bool is_recorded = access(path.c_str(), F_OK) != 0 && access((path + ".active").c_str(), F_OK) == 0;
-    throw refuse(error.what(), is_recorded ? "a bag that is complete; " + path + ".active is there: its recorder still runs, or was killed"
-                                           : "a whole bag; `rosbag reindex` repairs what there is of one that was cut");
+    const bool is_recorded =
+        access(path.c_str(), F_OK) != 0 && access((path + ".active").c_str(), F_OK) == 0;
+    throw refuse(error.what(),
+                 is_recorded
+                     ? "a bag that is complete; " + path +
+                           ".active is there: its recorder still runs, or was killed"
+                     : "a whole bag; `rosbag reindex` repairs what there is of one that was cut");
   } catch (const std::bad_alloc&) {
-    throw refuse("its messages on " + description.topic + " do not fit into the memory", "a shorter recording; `rosbag filter` writes one");
+    throw refuse("its messages on " + description.topic + " do not fit into the memory",
+                 "a shorter recording; `rosbag filter` writes one");
   }
 }
 
 }  // namespace
 
-JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
-                                  Warnings* warnings) {
+JointRecording read_recording_bag(const RecordingDescription& description, const std::string& path,
+                                  const std::vector<std::string>& joints, Warnings* warnings) {
   return read(description, path, joints, warnings, nullptr);
 }
 
 BagReader cancellable_bag_reader(const std::atomic<bool>& cancel) {
-  return [&cancel](const RecordingDescription& description, const std::string& path, const std::vector<std::string>& joints,
-                   Warnings* warnings) { return read(description, path, joints, warnings, &cancel); };
+  return [&cancel](const RecordingDescription& description, const std::string& path,
+                   const std::vector<std::string>& joints, Warnings* warnings) {
+    return read(description, path, joints, warnings, &cancel);
+  };
 }
 
 }  // namespace codesign

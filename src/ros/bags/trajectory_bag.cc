@@ -20,7 +20,8 @@
 namespace codesign {
 namespace {
 
-[[noreturn]] void fail(const TrajectoryAddress& address, const std::string& key, const std::string& message, const std::string& value,
+[[noreturn]] void fail(const TrajectoryAddress& address, const std::string& key,
+                       const std::string& message, const std::string& value,
                        const std::string& allowed) {
   throw InputError({address.where, address.element + "." + key, message, value, allowed});
 }
@@ -44,7 +45,8 @@ Trajectory trajectory_of(ByteReader content) {
   message.joints = content.strings("a joint's name");
   for (std::uint64_t left = content.number<std::uint32_t>("points"); left > 0; --left) {
     Point point;
-    for (std::vector<double>* numbers : {&point.positions, &point.velocities, &point.accelerations, &point.effort})
+    for (std::vector<double>* numbers :
+         {&point.positions, &point.velocities, &point.accelerations, &point.effort})
       *numbers = content.doubles("a point's numbers");
     const double seconds = content.number<std::int32_t>("a point's time");
     point.time = seconds + 1e-9 * content.number<std::int32_t>("a point's time");
@@ -55,7 +57,8 @@ Trajectory trajectory_of(ByteReader content) {
 }
 
 std::size_t index_of(const Trajectory& message, const std::string& joint) {
-  return to_index(std::find(message.joints.begin(), message.joints.end(), joint) - message.joints.begin());
+  return to_index(std::find(message.joints.begin(), message.joints.end(), joint) -
+                  message.joints.begin());
 }
 
 Trajectory find_message(const TrajectoryAddress& address, const std::string& path) {
@@ -63,21 +66,26 @@ Trajectory find_message(const TrajectoryAddress& address, const std::string& pat
   bool any = false;
   BagContents(path).visit(address.topic, nullptr, [&](const BagMessage& message) {
     any = true;
-    if (message.connection.md5sum != ros::message_traits::md5sum<trajectory_msgs::JointTrajectory>())
-      fail(address, "topic", "the topic does not hold trajectories but " + message.connection.type, address.topic,
-           "trajectory_msgs/JointTrajectory");
+    if (message.connection.md5sum !=
+        ros::message_traits::md5sum<trajectory_msgs::JointTrajectory>())
+      fail(address, "topic", "the topic does not hold trajectories but " + message.connection.type,
+           address.topic, "trajectory_msgs/JointTrajectory");
     Trajectory trajectory = trajectory_of(message.content);
-    if (index_of(trajectory, address.joint) < trajectory.joints.size()) found.push_back(std::move(trajectory));
+    if (index_of(trajectory, address.joint) < trajectory.joints.size())
+      found.push_back(std::move(trajectory));
   });
   if (!any) fail(address, "topic", "the bag holds no message on this topic", address.topic, "");
-  if (found.empty()) fail(address, "joint", "no trajectory on this topic names the joint", address.joint, "");
+  if (found.empty())
+    fail(address, "joint", "no trajectory on this topic names the joint", address.joint, "");
   if (found.size() > 1)
-    fail(address, "topic", std::to_string(found.size()) + " trajectories name the joint", address.topic, "one; rosbag filter keeps one");
+    fail(address, "topic", std::to_string(found.size()) + " trajectories name the joint",
+         address.topic, "one; rosbag filter keeps one");
   return std::move(found.front());
 }
 
 /// The entries of one joint at all points; empty if the points do not have this field.
-std::vector<double> column(const Trajectory& message, std::size_t joint, std::vector<double> Point::*member) {
+std::vector<double> column(const Trajectory& message, std::size_t joint,
+                           std::vector<double> Point::*member) {
   std::vector<double> values;
   for (const Point& point : message.points)
     if (joint < (point.*member).size()) values.push_back((point.*member)[joint]);
@@ -92,7 +100,8 @@ RecordedTrajectory load(const TrajectoryAddress& address, const std::string& pat
                                 column(message, joint, &Point::velocities),
                                 column(message, joint, &Point::accelerations)};
   for (const Point& point : message.points) trajectory.times.push_back(point.time);
-  if (trajectory.positions.empty()) fail(address, "topic", "the trajectory has no positions", address.topic, "one in each point");
+  if (trajectory.positions.empty())
+    fail(address, "topic", "the trajectory has no positions", address.topic, "one in each point");
   return trajectory;
 }
 
@@ -109,13 +118,15 @@ void remove_if_there(const std::string& path) {
 
 TrajectoryLoader bag_trajectory_loader(const std::string& folder) {
   return [folder](const TrajectoryAddress& address) {
-    const std::string path = path_of({address.bag, address.where, address.element + ".bag"}, folder);
+    const std::string path =
+        path_of({address.bag, address.where, address.element + ".bag"}, folder);
     try {
       return load(address, path);
     } catch (const BagFault& error) {
       fail(address, "bag", std::string("the bag cannot be read: ") + error.what(), path, "");
     } catch (const std::bad_alloc&) {
-      fail(address, "bag", "the bag cannot be read: its trajectories do not fit into the memory", path, "");
+      fail(address, "bag", "the bag cannot be read: its trajectories do not fit into the memory",
+           path, "");
     }
   };
 }
@@ -146,7 +157,9 @@ const codesign::BagFiles* codesign_bag_files() {
   using codesign::IdentificationShow;
   static const codesign::BagFiles files{
       codesign::read_recording_bag,
-      [](const std::string& path, const IdentificationShow& show) { codesign::write_identification_bag(path, show, nullptr); },
+      [](const std::string& path, const IdentificationShow& show) {
+        codesign::write_identification_bag(path, show, nullptr);
+      },
       codesign::write_joint_trajectory_bag};
   return &files;
 }

@@ -17,33 +17,38 @@
 
 namespace codesign {
 
-/// A service with a worker of its own. Each request is checked, refused while another one runs, computed by the worker, and answered.
-/// @tparam Goal, Result the fields of the request and of the response, as the computation takes and gives them. @tparam Progress the
-/// feedback.
-template <class Service, class Goal = typename Service::Request, class Result = typename Service::Response,
-          class Progress = std_msgs::Empty>
+/// A service with a worker of its own. Each request is checked, refused while another one runs,
+/// computed by the worker, and answered.
+/// @tparam Goal, Result the fields of the request and of the response, as the computation takes and
+/// gives them. @tparam Progress the feedback.
+template <class Service, class Goal = typename Service::Request,
+          class Result = typename Service::Response, class Progress = std_msgs::Empty>
 class Door {
  public:
   using Request = typename Service::Request;
   using Response = typename Service::Response;
   using Observer = std::function<void(const Progress&)>;
   /// Computes in the worker's thread; must not throw.
-  using Run = std::function<Result(const Goal& goal, const Observer& observer, const std::atomic<bool>& cancel)>;
+  using Run = std::function<Result(const Goal& goal, const Observer& observer,
+                                   const std::atomic<bool>& cancel)>;
 
-  /// Offers the service `name`. @param node whose callback queue has several threads, since a callback waits for the end of its job.
-  /// @param busy why a request is refused while another one runs. @param check called with each request before it is copied; an exception
-  /// refuses the request with `bad_input`.
+  /// Offers the service `name`. @param node whose callback queue has several threads, since a
+  /// callback waits for the end of its job.
+  /// @param busy why a request is refused while another one runs. @param check called with each
+  /// request before it is copied; an exception refuses the request with `bad_input`.
   template <class Check>
   Door(ros::NodeHandle node, const std::string& name, std::string busy, const Check& check, Run run)
       : node_(std::move(node)), busy_(std::move(busy)), run_(std::move(run)) {
-    service_ = node_.advertiseService<Request, Response>(name, [this, check](Request& request, Response& response) {
-      const auto done = std::make_shared<std::promise<Result>>();
-      Result result;
-      if (start(request, check, {{}, {}, [done](const Result& answer) { done->set_value(answer); }}, &result))
-        result = done->get_future().get();
-      response = same_fields<Response>(result);
-      return true;
-    });
+    service_ = node_.advertiseService<Request, Response>(
+        name, [this, check](Request& request, Response& response) {
+          const auto done = std::make_shared<std::promise<Result>>();
+          Result result;
+          if (start(request, check,
+                    {{}, {}, [done](const Result& answer) { done->set_value(answer); }}, &result))
+            result = done->get_future().get();
+          response = same_fields<Response>(result);
+          return true;
+        });
   }
 
   /// Cancels the running job. @returns whether a job runs that had not been cancelled before.
@@ -69,7 +74,8 @@ class Door {
       return false;
     }
     const auto result = std::make_shared<Result>();
-    const auto job = [this, goal = same_fields<Goal>(request), client, result](const std::atomic<bool>& cancel) {
+    const auto job = [this, goal = same_fields<Goal>(request), client,
+                      result](const std::atomic<bool>& cancel) {
       if (client.begin) client.begin();
       *result = run_(goal, client.progress, cancel);
     };
@@ -96,19 +102,24 @@ using FeedbackOf = typename Action::_action_feedback_type::_feedback_type;
 
 /// A service and an action of the same name, with one worker for both.
 template <class Action, class Service>
-class ActionDoor : public Door<Service, GoalOf<Action>, ResultOf<Action>, typename FeedbackOf<Action>::_progress_type> {
+class ActionDoor : public Door<Service, GoalOf<Action>, ResultOf<Action>,
+                               typename FeedbackOf<Action>::_progress_type> {
  public:
-  using Base = Door<Service, GoalOf<Action>, ResultOf<Action>, typename FeedbackOf<Action>::_progress_type>;
+  using Base =
+      Door<Service, GoalOf<Action>, ResultOf<Action>, typename FeedbackOf<Action>::_progress_type>;
 
   /// As Door().
   template <class Check>
-  ActionDoor(const ros::NodeHandle& node, const std::string& name, std::string busy, const Check& check, typename Base::Run run)
+  ActionDoor(const ros::NodeHandle& node, const std::string& name, std::string busy,
+             const Check& check, typename Base::Run run)
       : Base(node, name, std::move(busy), check, std::move(run)),
         action_(
             Base::node_, name, [this, check](const GoalHandle& goal) { on_goal(goal, check); },
             [this](const GoalHandle& goal) { on_cancel(goal); }, false),
-        // Subscribed in the action's namespace, so that a remapping of the action applies to this topic, too.
-        cancel_all_(ros::NodeHandle(Base::node_, name).subscribe("cancel", 10, &ActionDoor::on_cancel_all, this)) {}
+        // Subscribed in the action's namespace, so that a remapping of the action applies to this
+        // topic, too.
+        cancel_all_(ros::NodeHandle(Base::node_, name)
+                        .subscribe("cancel", 10, &ActionDoor::on_cancel_all, this)) {}
 
   /// Accepts goals from now on.
   void open() { action_.start(); }
@@ -134,15 +145,19 @@ class ActionDoor : public Door<Service, GoalOf<Action>, ResultOf<Action>, typena
         goal.setAborted(result, result.message);
     };
     Result refusal;
-    if (!Base::start(*goal.getGoal(), check, {begin, progress, end}, &refusal)) goal.setRejected(refusal, refusal.message);
+    if (!Base::start(*goal.getGoal(), check, {begin, progress, end}, &refusal))
+      goal.setRejected(refusal, refusal.message);
   }
 
   void on_cancel(const GoalHandle& goal) {
     const unsigned char status = goal.getGoalStatus().status;
-    if (status == actionlib_msgs::GoalStatus::RECALLING || status == actionlib_msgs::GoalStatus::PREEMPTING) Base::cancel();
+    if (status == actionlib_msgs::GoalStatus::RECALLING ||
+        status == actionlib_msgs::GoalStatus::PREEMPTING)
+      Base::cancel();
   }
 
-  /// In actionlib an empty identifier with a zero stamp cancels all goals; here it also cancels a job of the service.
+  /// In actionlib an empty identifier with a zero stamp cancels all goals; here it also cancels a
+  /// job of the service.
   void on_cancel_all(const actionlib_msgs::GoalID& goal) {
     if (goal.id.empty() && goal.stamp.isZero()) Base::cancel();
   }

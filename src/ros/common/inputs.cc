@@ -14,7 +14,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-[[noreturn]] void fail(const ros::NodeHandle& node, const std::string& key, const std::string& message, const std::string& allowed) {
+[[noreturn]] void fail(const ros::NodeHandle& node, const std::string& key,
+                       const std::string& message, const std::string& allowed) {
   throw InputError({{node.resolveName(key), 0}, key, message, "", allowed});
 }
 
@@ -23,28 +24,33 @@ SourceText read_model(const ros::NodeHandle& node, const ros::NodeHandle& privat
   if (!path.empty()) return read_source(path);
   XmlRpcValue value;
   if (!find_parameter(node, "robot_description", &value))
-    fail(private_node, "model", "no model given", "~model with the path of a URDF file, or robot_description with its text");
-  if (value.getType() != XmlRpcValue::TypeString) refuse_parameter(node, "robot_description", "not a text", value, "the text of a URDF");
+    fail(private_node, "model", "no model given",
+         "~model with the path of a URDF file, or robot_description with its text");
+  if (value.getType() != XmlRpcValue::TypeString)
+    refuse_parameter(node, "robot_description", "not a text", value, "the text of a URDF");
   return {node.resolveName("robot_description"), text_of(value)};
 }
 
 std::vector<SourceText> read_overlays(const ros::NodeHandle& private_node) {
   std::vector<SourceText> overlays;
-  for (const std::string& path : read_texts(private_node, "overlays")) overlays.push_back(read_source(expand_home(path)));
+  for (const std::string& path : read_texts(private_node, "overlays"))
+    overlays.push_back(read_source(expand_home(path)));
   return overlays;
 }
 
 void read_study_source(const ros::NodeHandle& private_node, Inputs* inputs) {
   XmlRpcValue value;
   if (!find_parameter(private_node, "study", &value))
-    fail(private_node, "study", "no study given", "the path of a study, or the study as a tree of parameters");
+    fail(private_node, "study", "no study given",
+         "the path of a study, or the study as a tree of parameters");
   inputs->study_is_tree = value.getType() == XmlRpcValue::TypeStruct;
   if (inputs->study_is_tree)
     inputs->study = {private_node.resolveName("study"), to_yaml(value)};
   else if (value.getType() == XmlRpcValue::TypeString)
     inputs->study = read_source(expand_home(text_of(value)));
   else
-    refuse_parameter(private_node, "study", "neither a path nor a tree", value, "a path, or the study as a tree of parameters");
+    refuse_parameter(private_node, "study", "neither a path nor a tree", value,
+                     "a path, or the study as a tree of parameters");
 }
 
 /// The values of `~set`.
@@ -66,7 +72,8 @@ ParameterSettings read_settings(const ros::NodeHandle& private_node) {
 std::string trimmed(const std::string& text) {
   const char* const kBlank = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kBlank);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+  return first == std::string::npos ? ""
+                                    : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
 bool has_the_values_of_its_model(const Problem& problem) {
@@ -106,28 +113,35 @@ void require_every_parameter(const Inputs& inputs, const RobotDescription& robot
     if (named && named[parameter.name]) continue;
     throw InputError({{inputs.study.name, 0},
                       "parameters." + parameter.name,
-                      "a study on the parameter server must name each parameter of the model, since an empty mapping {} is lost there",
+                      "a study on the parameter server must name each parameter of the model, "
+                      "since an empty mapping {} is lost there",
                       "",
                       "{tune: true}, {tune: false}, or the path of the study as ~study"});
   }
 }
 
-bool describes(const std::string& text, const Problem& problem, const std::string& effective, const std::string& drawn) {
+bool describes(const std::string& text, const Problem& problem, const std::string& effective,
+               const std::string& drawn) {
   if (trimmed(text) == trimmed(effective) || trimmed(text) == trimmed(drawn)) return true;
-  return problem.overlays().empty() && has_the_values_of_its_model(problem) && trimmed(text) == trimmed(problem.urdf().text);
+  return problem.overlays().empty() && has_the_values_of_its_model(problem) &&
+         trimmed(text) == trimmed(problem.urdf().text);
 }
 
-Warnings check_description(const ros::NodeHandle& node, const Problem& problem, const std::string& effective, const std::string& drawn) {
+Warnings check_description(const ros::NodeHandle& node, const Problem& problem,
+                           const std::string& effective, const std::string& drawn) {
   std::string text;
-  if (!node.getParam("robot_description", text) || describes(text, problem, effective, drawn)) return {};
+  if (!node.getParam("robot_description", text) || describes(text, problem, effective, drawn))
+    return {};
   const std::string name = node.resolveName("robot_description");
-  return {warn("description_differs", {{name, 0},
-                                       "robot_description",
-                                       "the parameter describes another mechanism than the simulated one, so robot_state_publisher and "
-                                       "rviz show the wrong one; the topic " +
-                                           name + " has the URDF of the simulated one, and `codesign urdf` prints it",
-                                       "",
-                                       ""})};
+  return {warn("description_differs",
+               {{name, 0},
+                "robot_description",
+                "the parameter describes another mechanism than the simulated one, so "
+                "robot_state_publisher and "
+                "rviz show the wrong one; the topic " +
+                    name + " has the URDF of the simulated one, and `codesign urdf` prints it",
+                "",
+                ""})};
 }
 
 }  // namespace codesign

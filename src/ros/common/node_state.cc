@@ -18,7 +18,8 @@ NodeState::NodeState(const std::string& subject) {
   updater_.setHardwareID("none");
   updater_.add(subject, this, &NodeState::report);
   // A wall timer, since simulated time may stand still and the state must be published then too.
-  timer_ = ros::NodeHandle().createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  timer_ = ros::NodeHandle().createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
 void NodeState::set(Level level, const std::string& sentence) {
@@ -57,10 +58,12 @@ void NodeState::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   std::size_t count = 0;
   for (const auto& [group, warnings] : warnings_) {
     for (const Warning& warning : warnings)
-      if (++count <= kMostShown) status.add("warning " + std::to_string(count) + ": " + warning.code, warning.message);
+      if (++count <= kMostShown)
+        status.add("warning " + std::to_string(count) + ": " + warning.code, warning.message);
   }
   const Level level = level_ == Level::kOk && count > 0 ? Level::kWarning : level_;
-  const std::string doubts = count == 0 ? "" : " (" + std::to_string(count) + (count == 1 ? " warning)" : " warnings)");
+  const std::string doubts =
+      count == 0 ? "" : " (" + std::to_string(count) + (count == 1 ? " warning)" : " warnings)");
   status.summary(static_cast<unsigned char>(level), sentence_ + doubts);
   for (const auto& [key, value] : values_) status.add(key, value);
 }

@@ -13,7 +13,8 @@
 
 namespace codesign {
 
-/// The state of a node: one sentence, written to its log and published once a second on /diagnostics. Thread-safe.
+/// The state of a node: one sentence, written to its log and published once a second on
+/// /diagnostics. Thread-safe.
 class NodeState {
  public:
   enum class Level {
@@ -28,8 +29,8 @@ class NodeState {
 
   void set(Level level, const std::string& sentence);
 
-  /// Sets the warnings of a group, which replace the group's earlier ones. Each warning is logged once and shown as a value; while there
-  /// are any, the level is at least kWarning.
+  /// Sets the warnings of a group, which replace the group's earlier ones. Each warning is logged
+  /// once and shown as a value; while there are any, the level is at least kWarning.
   void warn(const std::string& group, const Warnings& warnings);
 
   /// Sets a value of the entry in /diagnostics.

@@ -32,8 +32,8 @@ void refuse(const std::string& code, const std::string& message, Reply* reply) {
   reply->message = message;
 }
 
-/// Converts a message to another message type with the same fields, such as the request of a service to the goal of an action. Does not
-/// compile if the fields differ.
+/// Converts a message to another message type with the same fields, such as the request of a
+/// service to the goal of an action. Does not compile if the fields differ.
 template <class To, class From>
 To same_fields(const From& from) {
   if constexpr (std::is_same_v<To, From>) return from;
@@ -42,7 +42,8 @@ To same_fields(const From& from) {
                     traits::MD5Sum<To>::static_value2 == traits::MD5Sum<From>::static_value2,
                 "the two messages do not have the same fields");
   const ros::SerializedMessage wire = ros::serialization::serializeMessage(from);
-  ros::serialization::IStream stream(wire.message_start, static_cast<std::uint32_t>(wire.num_bytes - 4));
+  ros::serialization::IStream stream(wire.message_start,
+                                     static_cast<std::uint32_t>(wire.num_bytes - 4));
   To to;
   ros::serialization::deserialize(stream, to);
   return to;

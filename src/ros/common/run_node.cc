@@ -21,13 +21,15 @@ extern "C" void on_end_signal(int) { end_act.load()(); }
 
 /// @param words the caller's name and the reason, such as that another node has taken the name.
 void on_shutdown_call(XmlRpc::XmlRpcValue& words, XmlRpc::XmlRpcValue& result) {
-  if (words.getType() == XmlRpc::XmlRpcValue::TypeArray && words.size() > 1 && words[1].getType() == XmlRpc::XmlRpcValue::TypeString)
+  if (words.getType() == XmlRpc::XmlRpcValue::TypeArray && words.size() > 1 &&
+      words[1].getType() == XmlRpc::XmlRpcValue::TypeString)
     ROS_WARN_STREAM("asked to shut down: " << static_cast<std::string&>(words[1]));
   end_act.load()();
   result = ros::xmlrpc::responseInt(1, "", 0);
 }
 
-/// must_end: a request to end the node has come. has_last_act: the node must act before ROS is shut down.
+/// must_end: a request to end the node has come. has_last_act: the node must act before ROS is shut
+/// down.
 std::atomic<bool> must_end{false}, has_last_act{false};
 
 void end_node() {
@@ -35,7 +37,8 @@ void end_node() {
   if (!has_last_act) ros::requestShutdown();
 }
 
-/// Serves callbacks until RunningNode::before_shutdown has returned, since nothing can be sent after the shutdown of ROS.
+/// Serves callbacks until RunningNode::before_shutdown has returned, since nothing can be sent
+/// after the shutdown of ROS.
 void serve_callbacks(const RunningNode& node) {
   if (!node.before_shutdown) return ros::spin();
   has_last_act = true;
@@ -61,7 +64,8 @@ void on_end_request(void (*act)()) {
 
 bool is_ending() { return must_end || ros::isShuttingDown(); }
 
-int run_node(int argc, char** argv, const std::string& name, const std::string& help, const std::function<RunningNode()>& make) {
+int run_node(int argc, char** argv, const std::string& name, const std::string& help,
+             const std::function<RunningNode()>& make) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word != "--help" && word != "-h") continue;
@@ -70,7 +74,9 @@ int run_node(int argc, char** argv, const std::string& name, const std::string& 
   }
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   if (argc > 1) {
-    std::cerr << name << ": unexpected argument \"" << argv[1] << "\"; parameters are given as _name:=value\n\n" << help;
+    std::cerr << name << ": unexpected argument \"" << argv[1]
+              << "\"; parameters are given as _name:=value\n\n"
+              << help;
     return 2;
   }
   on_end_request(end_node);

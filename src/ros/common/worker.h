@@ -21,11 +21,12 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   /// Starts a job and returns true, or returns false at once if another job is running.
-  /// @param done called in the worker's thread when it is free for the next job, so that a client notified by it can start one at once.
-  /// Must not throw.
+  /// @param done called in the worker's thread when it is free for the next job, so that a client
+  /// notified by it can start one at once. Must not throw.
   bool try_start(Job job, std::function<void()> done);
 
-  /// Sets the flag of the running job, if any. @returns whether a job runs that had not been cancelled before.
+  /// Sets the flag of the running job, if any. @returns whether a job runs that had not been
+  /// cancelled before.
   bool cancel();
 
   /// Cancels the running job, waits for its end, and accepts no further jobs.

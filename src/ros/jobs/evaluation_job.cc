@@ -21,14 +21,18 @@ CheckMethod method_of(const std::string& check) {
 }
 
 /// Margins of the constraints on parameters, and the ranges of the watched signals.
-void add_constraints(const Problem& problem, const Ensemble& ensemble, const Eigen::VectorXd& rho, const std::vector<Extremes>& extremes,
+void add_constraints(const Problem& problem, const Ensemble& ensemble, const Eigen::VectorXd& rho,
+                     const std::vector<Extremes>& extremes,
                      mechanism_codesign::EvaluateResponse* reply) {
-  for (const ParameterConstraint& constraint : problem.study().constraints) reply->constraints.push_back(constraint.text);
+  for (const ParameterConstraint& constraint : problem.study().constraints)
+    reply->constraints.push_back(constraint.text);
   reply->margins = to_array(ParameterRows(problem.study(), ensemble.scenarios()).margins(rho));
-  reply->signals = watched_messages(SmoothProgram(ensemble).describe(extremes, extremes, rho), problem.study().ensemble.is_ensemble());
+  reply->signals = watched_messages(SmoothProgram(ensemble).describe(extremes, extremes, rho),
+                                    problem.study().ensemble.is_ensemble());
 }
 
-void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request, Dispatcher* ranks, const std::atomic<bool>& cancel,
+void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
+             Dispatcher* ranks, const std::atomic<bool>& cancel,
              mechanism_codesign::EvaluateResponse* reply) {
   const Eigen::VectorXd rho = design_of(problem, request);
   const Ensemble ensemble(problem, 1, {nullptr, nullptr, ranks});
@@ -42,7 +46,8 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   } else {
     check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
     // A check computes many runs, so that one more run per scenario for the signals is cheap.
-    if (check.status.ok() && !problem.study().watched.empty()) extremes = ensemble.evaluate(rho, false, &cancel).extremes;
+    if (check.status.ok() && !problem.study().watched.empty())
+      extremes = ensemble.evaluate(rho, false, &cancel).extremes;
   }
   set_status(check.status, reply);
   add_constraints(problem, ensemble, rho, extremes, reply);
@@ -63,8 +68,9 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
 
 }  // namespace
 
-mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
-                                                    const std::atomic<bool>& cancel, Dispatcher* ranks) {
+mechanism_codesign::EvaluateResponse run_evaluation(
+    const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
+    const std::atomic<bool>& cancel, Dispatcher* ranks) {
   mechanism_codesign::EvaluateResponse reply;
   try {
     compute(problem, request, ranks, cancel, &reply);

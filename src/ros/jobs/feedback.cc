@@ -10,8 +10,11 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The time left after `done` of `of` equal parts. @param seconds the time of the finished parts together
-double seconds_left(double seconds, int done, int of) { return done > 0 ? seconds * std::max(of - done, 0) / done : kUnknown; }
+/// The time left after `done` of `of` equal parts. @param seconds the time of the finished parts
+/// together
+double seconds_left(double seconds, int done, int of) {
+  return done > 0 ? seconds * std::max(of - done, 0) / done : kUnknown;
+}
 
 }  // namespace
 
@@ -27,11 +30,13 @@ void TrialLog::add(LoggedTrial trial) {
 }
 
 std::vector<LoggedTrial> TrialLog::take() {
-  if (!kept_.empty() && kept_.back().trial.evaluation != last_.trial.evaluation) kept_.push_back(last_);
+  if (!kept_.empty() && kept_.back().trial.evaluation != last_.trial.evaluation)
+    kept_.push_back(last_);
   return std::move(kept_);
 }
 
-JobFeedback::JobFeedback(std::string job, std::vector<std::string> parameters, FeedbackObserver observer)
+JobFeedback::JobFeedback(std::string job, std::vector<std::string> parameters,
+                         FeedbackObserver observer)
     : job_(std::move(job)), parameters_(std::move(parameters)), observer_(std::move(observer)) {
   last_.objective = last_.best_objective = last_.gradient_norm = kUnknown;
   last_.job = job_;
@@ -67,9 +72,13 @@ std::vector<LoggedTrial> JobFeedback::take() {
   return log_.take();
 }
 
-IdentificationFeedback::IdentificationFeedback(std::string job, std::vector<std::string> names, int most_evaluations,
+IdentificationFeedback::IdentificationFeedback(std::string job, std::vector<std::string> names,
+                                               int most_evaluations,
                                                IdentificationObserver observer)
-    : most_evaluations_(most_evaluations), observer_(std::move(observer)), begin_(ros::WallTime::now()), stage_begin_(begin_) {
+    : most_evaluations_(most_evaluations),
+      observer_(std::move(observer)),
+      begin_(ros::WallTime::now()),
+      stage_begin_(begin_) {
   last_.job = std::move(job);
   last_.names = std::move(names);
   last_.cost = kUnknown;
@@ -92,7 +101,8 @@ void IdentificationFeedback::begin(const std::string& stage) {
 void IdentificationFeedback::tell(const FitTrial& trial) {
   const bool is_fit = trial.profile == 0;
   set_stage(is_fit ? "fitting" : "profiling");
-  const int done = is_fit ? trial.evaluation : trial.profile - 1, of = is_fit ? most_evaluations_ : trial.profiles;
+  const int done = is_fit ? trial.evaluation : trial.profile - 1,
+            of = is_fit ? most_evaluations_ : trial.profiles;
   last_.done = static_cast<std::uint32_t>(done);
   last_.of = static_cast<std::uint32_t>(of);
   last_.seconds_left = seconds_left((ros::WallTime::now() - stage_begin_).toSec(), done, of);

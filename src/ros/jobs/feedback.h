@@ -22,8 +22,8 @@ namespace codesign {
 /// Called for each trial point, and about once a second between them, by one thread at a time.
 using FeedbackObserver = std::function<void(const mechanism_codesign::OptimizationProgress&)>;
 
-/// The trial points of a job in bounded memory: beyond `capacity` points, only every second, then every fourth, ... point is kept, and
-/// always the last one.
+/// The trial points of a job in bounded memory: beyond `capacity` points, only every second, then
+/// every fourth, ... point is kept, and always the last one.
 class TrialLog {
  public:
   /// @param capacity even, at least 2.
@@ -40,17 +40,19 @@ class TrialLog {
   LoggedTrial last_;
 };
 
-/// Makes the progress messages of a running job: one for each trial point, and between trial points messages that repeat the last trial
-/// point with new progress. Keeps the trial points for the bag. Thread-safe: trial points and progress come from different threads.
+/// Makes the progress messages of a running job: one for each trial point, and between trial points
+/// messages that repeat the last trial point with new progress. Keeps the trial points for the bag.
+/// Thread-safe: trial points and progress come from different threads.
 class JobFeedback {
  public:
-  /// @param job name of the job. @param parameters names of the tuned parameters. @param observer may be empty; called by one thread at a
-  /// time.
+  /// @param job name of the job. @param parameters names of the tuned parameters. @param observer
+  /// may be empty; called by one thread at a time.
   JobFeedback(std::string job, std::vector<std::string> parameters, FeedbackObserver observer);
 
-  /// Sends a trial point. @param progress of ProgressMeter::now(). The caller reads it before this call, since the meter itself calls the
-  /// function below. Workers that finish runs at the same time may call in another order than their runs were counted; a message never
-  /// goes back to an earlier count of runs.
+  /// Sends a trial point. @param progress of ProgressMeter::now(). The caller reads it before this
+  /// call, since the meter itself calls the function below. Workers that finish runs at the same
+  /// time may call in another order than their runs were counted; a message never goes back to an
+  /// earlier count of runs.
   void tell(const Trial& trial, const Progress& progress);
   void tell(const Progress& progress);
   /// Sends the last message, with no time left.
@@ -72,13 +74,17 @@ class JobFeedback {
 };
 
 /// Called by the worker's thread for each message of progress.
-using IdentificationObserver = std::function<void(const mechanism_codesign::IdentificationProgress&)>;
+using IdentificationObserver =
+    std::function<void(const mechanism_codesign::IdentificationProgress&)>;
 
-/// Makes the progress messages of a running identification, and keeps the messages of evaluations for the bag. Used by one thread.
+/// Makes the progress messages of a running identification, and keeps the messages of evaluations
+/// for the bag. Used by one thread.
 class IdentificationFeedback {
  public:
-  /// @param names of the fitted numbers. @param most_evaluations limit of the fit. @param observer may be empty.
-  IdentificationFeedback(std::string job, std::vector<std::string> names, int most_evaluations, IdentificationObserver observer);
+  /// @param names of the fitted numbers. @param most_evaluations limit of the fit. @param observer
+  /// may be empty.
+  IdentificationFeedback(std::string job, std::vector<std::string> names, int most_evaluations,
+                         IdentificationObserver observer);
 
   /// Begins a stage without evaluations: `reading` or `recording`.
   void begin(const std::string& stage);

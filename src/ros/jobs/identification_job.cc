@@ -25,16 +25,19 @@ namespace {
 /// One identification, from the changed problem to its files.
 class IdentificationJob {
  public:
-  IdentificationJob(Problem problem, const JobOptions& options, const IdentificationObserver& observer, IdentificationOutcome* outcome)
+  IdentificationJob(Problem problem, const JobOptions& options,
+                    const IdentificationObserver& observer, IdentificationOutcome* outcome)
       : problem_(std::move(problem)),
         options_(options),
         files_(options.output_directory, problem_.robot().name),
-        feedback_(files_.name(), FitVariables(problem_.study()).names(), problem_.optimizer_options().max_evaluations, observer),
+        feedback_(files_.name(), FitVariables(problem_.study()).names(),
+                  problem_.optimizer_options().max_evaluations, observer),
         outcome_(outcome) {}
 
   void fit(const std::string& folder, const std::atomic<bool>& cancel) {
     feedback_.begin("reading");
-    recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder, cancellable_bag_reader(cancel), &warnings_);
+    recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder,
+                                  cancellable_bag_reader(cancel), &warnings_);
     FitLines lines(problem_.optimizer_options().max_evaluations);
     const auto observe = [&](const FitTrial& trial) {
       const std::string line = lines.line(trial);
@@ -49,15 +52,20 @@ class IdentificationJob {
     set_warnings();
   }
 
-  /// Writes all files, if the result has a point. The bag comes last: after a cancel it gets the remaining time.
+  /// Writes all files, if the result has a point. The bag comes last: after a cancel it gets the
+  /// remaining time.
   void write(const mechanism_codesign::IdentifyGoal& request, const std::atomic<bool>& cancel) {
     if (result_.numbers.empty()) return;
     feedback_.begin("recording");
     Patience patience(cancel);
-    ComparedMotion motion = compare_motion(problem_, recordings_, result_, shown_rate(cancel), [&patience] { return patience(); });
+    ComparedMotion motion = compare_motion(problem_, recordings_, result_, shown_rate(cancel),
+                                           [&patience] { return patience(); });
     for (const ComparedRecording& recording : motion.recordings)
       if (!recording.status.ok())
-        warnings_.push_back({"run_ends_early", recording.element + " ends early in the bag: " + describe(recording.status), {}});
+        warnings_.push_back(
+            {"run_ends_early",
+             recording.element + " ends early in the bag: " + describe(recording.status),
+             {}});
     set_warnings();
     const std::string json = identification_report(problem_, result_, warnings_);
     write_texts(json);
@@ -67,16 +75,20 @@ class IdentificationJob {
   }
 
  private:
-  /// Rate of the instants in the bag. A cancelled job shows few instants, so that all recordings are written in the remaining time.
+  /// Rate of the instants in the bag. A cancelled job shows few instants, so that all recordings
+  /// are written in the remaining time.
   double shown_rate(bool is_cancelled) const {
     constexpr double kCancelledInstants = 1000.0;
     double seconds = 0.0;
     for (const std::vector<JointRecording>* list : {&recordings_.data, &recordings_.holdout})
-      for (const JointRecording& recording : *list) seconds += recording.times.back() - recording.times.front();
+      for (const JointRecording& recording : *list)
+        seconds += recording.times.back() - recording.times.front();
     return is_cancelled ? std::min(options_.rate, kCancelledInstants / seconds) : options_.rate;
   }
 
-  void set_warnings() { outcome_->result.warnings = warning_messages(problem_.warnings(), warnings_); }
+  void set_warnings() {
+    outcome_->result.warnings = warning_messages(problem_.warnings(), warnings_);
+  }
 
   /// The path of a file if it was written, else empty.
   template <class Write>
@@ -92,10 +104,11 @@ class IdentificationJob {
 
   void write_texts(const std::string& json) {
     mechanism_codesign::IdentifyResult& result = outcome_->result;
-    const std::pair<const char*, std::string*> told[] = {{"identification.json", &result.report},
-                                                         {"identified_overlay.urdf", &result.overlay},
-                                                         {"identified.urdf", &result.urdf},
-                                                         {"residuals.csv", &result.residuals}};
+    const std::pair<const char*, std::string*> told[] = {
+        {"identification.json", &result.report},
+        {"identified_overlay.urdf", &result.overlay},
+        {"identified.urdf", &result.urdf},
+        {"residuals.csv", &result.residuals}};
     for (const IdentificationFile& file : identification_files(problem_, result_, json)) {
       const std::string path = files_.stem() + "." + file.name;
       const std::string written = try_to([&] { write_whole_file(path, file.text()); }, path);
@@ -109,7 +122,8 @@ class IdentificationJob {
     IdentificationAnswer answer{request, outcome_->result, feedback_.take()};
     answer.request.version = version();
     answer.result.bag = files_.bag();
-    outcome_->result.bag = try_to([&] { write_identification_bag(files_.bag(), show, &answer); }, files_.bag());
+    outcome_->result.bag =
+        try_to([&] { write_identification_bag(files_.bag(), show, &answer); }, files_.bag());
   }
 
   const Problem problem_;
@@ -125,8 +139,10 @@ class IdentificationJob {
 
 }  // namespace
 
-IdentificationOutcome run_identification(const Problem& problem, const std::string& folder, const mechanism_codesign::IdentifyGoal& request,
-                                         const JobOptions& options, const IdentificationObserver& observer,
+IdentificationOutcome run_identification(const Problem& problem, const std::string& folder,
+                                         const mechanism_codesign::IdentifyGoal& request,
+                                         const JobOptions& options,
+                                         const IdentificationObserver& observer,
                                          const std::atomic<bool>& cancel) {
   IdentificationOutcome outcome;
   try {

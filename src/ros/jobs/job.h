@@ -19,7 +19,8 @@
 #include "ros/common/run_node.h"
 #include "ros/jobs/feedback.h"
 
-// The computations of the optimization node, without its communication. No ROS master is needed, and no function throws.
+// The computations of the optimization node, without its communication. No ROS master is needed,
+// and no function throws.
 
 namespace codesign {
 
@@ -36,17 +37,22 @@ struct OptimizationOutcome {
   std::string tuned_urdf;  ///< empty if the start could not be evaluated
 };
 
-/// Optimizes, records runs of the initial and of the tuned design, and writes the bag. A journal beside the bag makes the job resumable; it
-/// stays until the job has ended by itself. Bad input, numerical failures and a full disk are
-/// returned as code and message of the result.
-/// @param study text of the study, for the bag. @param cancel once set, the optimization ends with its best point so far.
-OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
-                                     const JobOptions& options, const FeedbackObserver& observer, const std::atomic<bool>& cancel);
+/// Optimizes, records runs of the initial and of the tuned design, and writes the bag. A journal
+/// beside the bag makes the job resumable; it stays until the job has ended by itself. Bad input,
+/// numerical failures and a full disk are returned as code and message of the result.
+/// @param study text of the study, for the bag. @param cancel once set, the optimization ends with
+/// its best point so far.
+OptimizationOutcome run_optimization(const Problem& problem, const std::string& study,
+                                     const mechanism_codesign::OptimizeGoal& request,
+                                     const JobOptions& options, const FeedbackObserver& observer,
+                                     const std::atomic<bool>& cancel);
 
-/// Computes objective, gradient and gradient check at one design. @param cancel once set, it ends soon with `cancelled`.
+/// Computes objective, gradient and gradient check at one design. @param cancel once set, it ends
+/// soon with `cancelled`.
 /// @param ranks as JobOptions::ranks.
-mechanism_codesign::EvaluateResponse run_evaluation(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
-                                                    const std::atomic<bool>& cancel, Dispatcher* ranks = nullptr);
+mechanism_codesign::EvaluateResponse run_evaluation(
+    const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
+    const std::atomic<bool>& cancel, Dispatcher* ranks = nullptr);
 
 /// The result of an identification, and the identified model.
 struct IdentificationOutcome {
@@ -54,24 +60,29 @@ struct IdentificationOutcome {
   std::string identified_urdf;  ///< empty if nothing was fitted
 };
 
-/// Reads the recordings of the study, fits, and writes report, identified model, residuals and bag beside each other. Bad input, numerical
-/// failures and a full disk are returned as code and message of the result; a file that cannot be written costs that file alone.
-/// No ROS master is needed, and it does not throw.
+/// Reads the recordings of the study, fits, and writes report, identified model, residuals and bag
+/// beside each other. Bad input, numerical failures and a full disk are returned as code and
+/// message of the result; a file that cannot be written costs that file alone. No ROS master is
+/// needed, and it does not throw.
 /// @param folder base of relative paths of recordings; empty: only absolute paths are accepted.
 /// @param cancel once set, the fit ends with its best point so far, whose files are written.
-IdentificationOutcome run_identification(const Problem& problem, const std::string& folder, const mechanism_codesign::IdentifyGoal& request,
-                                         const JobOptions& options, const IdentificationObserver& observer,
+IdentificationOutcome run_identification(const Problem& problem, const std::string& folder,
+                                         const mechanism_codesign::IdentifyGoal& request,
+                                         const JobOptions& options,
+                                         const IdentificationObserver& observer,
                                          const std::atomic<bool>& cancel);
 
-/// Limits the time for recording the motion of a job after it was cancelled (half a second, so that a cancel is answered within one) or the
-/// node is asked to end (8 s: roslaunch kills a node after 15 s).
+/// Limits the time for recording the motion of a job after it was cancelled (half a second, so that
+/// a cancel is answered within one) or the node is asked to end (8 s: roslaunch kills a node after
+/// 15 s).
 class Patience {
  public:
   explicit Patience(const std::atomic<bool>& cancel) : cancel_(cancel) {}
 
   bool operator()() {
     const ros::WallTime now = ros::WallTime::now();
-    // The end of the node cancels the job, too; a bag that is whole is then worth more than a quick answer.
+    // The end of the node cancels the job, too; a bag that is whole is then worth more than a quick
+    // answer.
     if (is_ending()) return is_over(true, 8.0, now, &shutdown_);
     return is_over(cancel_, 0.5, now, &cancelled_);
   }
@@ -84,7 +95,8 @@ class Patience {
   }
 
   const std::atomic<bool>& cancel_;
-  ros::WallTime shutdown_, cancelled_;  ///< times of the first calls that saw a shutdown and a cancel
+  ros::WallTime shutdown_,
+      cancelled_;  ///< times of the first calls that saw a shutdown and a cancel
 };
 
 }  // namespace codesign

@@ -81,8 +81,10 @@ mechanism_codesign::WatchedSignal to_message(const WatchedResult& result, bool i
   message.largest = result.largest;
   message.smallest_time = result.smallest_time;
   message.largest_time = result.largest_time;
-  message.smallest_scenario = is_ensemble ? static_cast<std::uint32_t>(result.smallest_scenario) + 1 : 0;
-  message.largest_scenario = is_ensemble ? static_cast<std::uint32_t>(result.largest_scenario) + 1 : 0;
+  message.smallest_scenario =
+      is_ensemble ? static_cast<std::uint32_t>(result.smallest_scenario) + 1 : 0;
+  message.largest_scenario =
+      is_ensemble ? static_cast<std::uint32_t>(result.largest_scenario) + 1 : 0;
   message.violation = result.violation;
   return message;
 }
@@ -102,9 +104,13 @@ mechanism_codesign::IdentifiedNumber to_message(const IdentifiedNumber& number) 
   message.deviation = number.is_on_bound ? kNotKnown : number.deviation;
   message.low = number.is_on_bound ? kNotKnown : number.low;
   message.high = number.is_on_bound ? kNotKnown : number.high;
-  const auto end = [&](ProfileEnd found, double value) { return found == ProfileEnd::kFailed ? kNotKnown : value; };
-  message.profile_low = number.profile ? end(number.profile->lower_end, number.profile->lower) : kNotKnown;
-  message.profile_high = number.profile ? end(number.profile->upper_end, number.profile->upper) : kNotKnown;
+  const auto end = [&](ProfileEnd found, double value) {
+    return found == ProfileEnd::kFailed ? kNotKnown : value;
+  };
+  message.profile_low =
+      number.profile ? end(number.profile->lower_end, number.profile->lower) : kNotKnown;
+  message.profile_high =
+      number.profile ? end(number.profile->upper_end, number.profile->upper) : kNotKnown;
   return message;
 }
 
@@ -125,7 +131,8 @@ std::vector<mechanism_codesign::OutputFit> to_messages(const std::vector<OutputF
 
 }  // namespace
 
-std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files, const Warnings& of_job) {
+std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_files,
+                                                          const Warnings& of_job) {
   Warnings warnings = of_files;
   append(of_job, &warnings);
   std::vector<mechanism_codesign::Warning> messages;
@@ -137,17 +144,21 @@ std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_fil
   return messages;
 }
 
-Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages, std::size_t of_files) {
+Warnings warnings_of_job(const std::vector<mechanism_codesign::Warning>& messages,
+                         std::size_t of_files) {
   Warnings warnings;
-  for (std::size_t k = of_files; k < messages.size(); ++k) warnings.push_back({messages[k].code, messages[k].message, {}});
+  for (std::size_t k = of_files; k < messages.size(); ++k)
+    warnings.push_back({messages[k].code, messages[k].message, {}});
   return warnings;
 }
 
-mechanism_codesign::OptimizeResult optimization_message(const Problem& problem, const OptimizationResult& result) {
+mechanism_codesign::OptimizeResult optimization_message(const Problem& problem,
+                                                        const OptimizationResult& result) {
   mechanism_codesign::OptimizeResult message;
   set_status(result.status, &message);
   message.parameters = problem.tuned_names();
-  for (const ParameterConstraint& constraint : problem.study().constraints) message.constraints.push_back(constraint.text);
+  for (const ParameterConstraint& constraint : problem.study().constraints)
+    message.constraints.push_back(constraint.text);
   message.margins = to_array(result.margins);
   message.initial = to_array(result.initial_rho);
   message.tuned = to_array(result.rho);
@@ -170,7 +181,8 @@ mechanism_codesign::OptimizeResult optimization_message(const Problem& problem, 
 }
 
 void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message) {
-  for (const ScenarioResult& scenario : result.scenarios) message->scenarios.push_back(to_message(scenario));
+  for (const ScenarioResult& scenario : result.scenarios)
+    message->scenarios.push_back(to_message(scenario));
   message->worst = count(worst_scenario(result) + 1);
   message->value_at_risk = result.value_at_risk.value_or(0.0);
   if (result.validation) message->validation.push_back(to_message(*result.validation));
@@ -180,22 +192,26 @@ void set_ensemble(const OptimizationResult& result, mechanism_codesign::Optimize
   message->unusable = count(result.unusable);
 }
 
-std::vector<mechanism_codesign::WatchedSignal> watched_messages(const std::vector<WatchedResult>& watched, bool is_ensemble) {
+std::vector<mechanism_codesign::WatchedSignal> watched_messages(
+    const std::vector<WatchedResult>& watched, bool is_ensemble) {
   std::vector<mechanism_codesign::WatchedSignal> messages;
   for (const WatchedResult& one : watched) messages.push_back(to_message(one, is_ensemble));
   return messages;
 }
 
-mechanism_codesign::IdentifyResult identification_message(const Problem& problem, const IdentificationResult& result) {
+mechanism_codesign::IdentifyResult identification_message(const Problem& problem,
+                                                          const IdentificationResult& result) {
   mechanism_codesign::IdentifyResult message;
   set_status(result.status, &message);
   message.message = result.status.cause;  // a fit has no time of its own
   const IntervalOptions& intervals = problem.study().identification->intervals;
   message.level = intervals.level;
   message.noise = kNoiseNames[to_index(intervals.noise)];
-  for (const IdentifiedNumber& number : result.numbers) message.numbers.push_back(to_message(number));
+  for (const IdentifiedNumber& number : result.numbers)
+    message.numbers.push_back(to_message(number));
   for (Eigen::Index row = 0; row < result.covariance.rows(); ++row)
-    for (Eigen::Index column = 0; column < result.covariance.cols(); ++column) message.covariance.push_back(result.covariance(row, column));
+    for (Eigen::Index column = 0; column < result.covariance.cols(); ++column)
+      message.covariance.push_back(result.covariance(row, column));
   message.rank = static_cast<std::uint32_t>(result.rank);
   message.undetermined = result.undetermined;
   message.samples = static_cast<std::uint64_t>(result.samples);
@@ -203,7 +219,8 @@ mechanism_codesign::IdentifyResult identification_message(const Problem& problem
   message.holdout_samples = static_cast<std::uint64_t>(result.holdout_samples);
   message.holdout = to_messages(result.holdout);
   if (!result.parameters.empty())
-    for (const Parameter& parameter : problem.all_parameters()) message.parameters.push_back(parameter.name);
+    for (const Parameter& parameter : problem.all_parameters())
+      message.parameters.push_back(parameter.name);
   message.values = result.parameters;
   message.termination = result.termination;
   message.iterations = static_cast<std::uint32_t>(result.iterations);

@@ -29,19 +29,24 @@
 namespace codesign {
 namespace {
 
-/// Records both designs of a result in one scenario; the tuned design first, since it matters more if time runs out.
-BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario, double rate, Patience* patience) {
+/// Records both designs of a result in one scenario; the tuned design first, since it matters more
+/// if time runs out.
+BagRuns run_both(const Problem& problem, const OptimizationResult& result, const Scenario& scenario,
+                 double rate, Patience* patience) {
   const auto side = [&](const Eigen::VectorXd& rho) {
     const std::vector<double> parameters = scenario.parameters(rho);
     const Laws& laws = problem.robot().laws;
-    return BagSide{write_tuned_urdf(problem.urdf(), problem.overlays(), parameters, find_friction(laws, scenario.friction_law), laws),
-                   record_run(scenario.system, parameters, rate, [patience] { return (*patience)(); })};
+    return BagSide{
+        write_tuned_urdf(problem.urdf(), problem.overlays(), parameters,
+                         find_friction(laws, scenario.friction_law), laws),
+        record_run(scenario.system, parameters, rate, [patience] { return (*patience)(); })};
   };
   BagSide tuned = side(result.rho);
   return {side(result.initial_rho), std::move(tuned)};
 }
 
-JobFiles files_of(const std::string& resume, const std::string& directory, const std::string& robot) {
+JobFiles files_of(const std::string& resume, const std::string& directory,
+                  const std::string& robot) {
   return resume.empty() ? JobFiles(directory, robot) : JobFiles::resume(directory, resume);
 }
 
@@ -49,8 +54,8 @@ JobFiles files_of(const std::string& resume, const std::string& directory, const
 class Job {
  public:
   /// @param resume name of the job to go on with; empty: a new job.
-  Job(const OptimizationRequest& request, const std::string& resume, const JobOptions& options, JobRecord* record,
-      OptimizationOutcome* outcome)
+  Job(const OptimizationRequest& request, const std::string& resume, const JobOptions& options,
+      JobRecord* record, OptimizationOutcome* outcome)
       : problem_(request.problem),
         optimizer_options_(request.options),
         options_(options),
@@ -61,7 +66,8 @@ class Job {
     open_journal(!resume.empty());
   }
 
-  /// Removes a journal without evaluations. After a cancel it stays, since the client knows the name of the job and may resume it.
+  /// Removes a journal without evaluations. After a cancel it stays, since the client knows the
+  /// name of the job and may resume it.
   ~Job() {
     const bool is_of_use = journal_ && (journal_->evaluations() > 0 || is_interrupted());
     if (has_ended_ || !is_of_use) unlink(files_.journal().c_str());
@@ -71,7 +77,8 @@ class Job {
 
   void optimize(const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
     JobFeedback feedback(files_.name(), problem_.tuned_names(), observer);
-    ProgressMeter meter(optimizer_options_.max_evaluations, [&](const Progress& progress) { feedback.tell(progress); });
+    ProgressMeter meter(optimizer_options_.max_evaluations,
+                        [&](const Progress& progress) { feedback.tell(progress); });
     TrialLines lines(problem_.study());
     const auto observe = [&](const Trial& trial) {
       const Progress now = meter.now();
@@ -80,7 +87,8 @@ class Job {
       feedback.tell(trial, now);
       return true;
     };
-    result_ = run_search(problem_, optimizer_options_, {observe, nullptr, journal_, options_.ranks, &meter}, &cancel);
+    result_ = run_search(problem_, optimizer_options_,
+                         {observe, nullptr, journal_, options_.ranks, &meter}, &cancel);
     feedback.finish(meter.now());
     record_->trials = feedback.take();
     outcome_->result = optimization_message(problem_, result_);
@@ -91,8 +99,9 @@ class Job {
     outcome_->result.setup_seconds = problem_.setup_seconds();
   }
 
-  /// Records the runs and writes the bag; after that the journal is not needed, unless the job was cancelled. A cancelled job is recorded
-  /// as well; before the first evaluation its tuned design is the start.
+  /// Records the runs and writes the bag; after that the journal is not needed, unless the job was
+  /// cancelled. A cancelled job is recorded as well; before the first evaluation its tuned design
+  /// is the start.
   void record(const std::atomic<bool>& cancel) {
     const bool is_evaluated = result_.gradient.size() > 0;
     has_ended_ = !is_evaluated && !is_interrupted();
@@ -100,13 +109,15 @@ class Job {
     constexpr double kUnevaluated = std::numeric_limits<double>::quiet_NaN();
     if (!is_evaluated) outcome_->result.initial_objective = kUnevaluated;
     // Screening computes objectives without gradients.
-    if (!is_evaluated && result_.screened <= result_.unusable) outcome_->result.objective = kUnevaluated;
+    if (!is_evaluated && result_.screened <= result_.unusable)
+      outcome_->result.objective = kUnevaluated;
     Patience patience(cancel);
     Scenario nominal;
     nominal.system = problem_.system();
     record_->nominal = run_both(problem_, result_, nominal, options_.rate, &patience);
     if (const int worst = worst_scenario(result_); worst >= 0)
-      record_->worst = run_both(problem_, result_, make_scenarios(problem_)[to_index(worst)], options_.rate, &patience);
+      record_->worst = run_both(problem_, result_, make_scenarios(problem_)[to_index(worst)],
+                                options_.rate, &patience);
     outcome_->tuned_urdf = record_->nominal.tuned.urdf;
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());
     record_->result = outcome_->result;
@@ -121,7 +132,8 @@ class Job {
   }
 
  private:
-  /// The folder beside the bag. It has no runs if the job was cancelled and a client waits for the answer.
+  /// The folder beside the bag. It has no runs if the job was cancelled and a client waits for the
+  /// answer.
   void write_folder(const std::atomic<bool>& cancel) {
     const ResultFolder folder(files_.folder(), problem_);
     const std::string json = optimization_report(problem_, result_, warnings());
@@ -130,8 +142,10 @@ class Job {
       folder_failures_ = folder.write_design(json, result_);
       const std::string convergence = folder.in_folder("convergence.csv");
       std::vector<std::vector<std::string>> rows;
-      for (const LoggedTrial& logged : record_->trials) rows.push_back(convergence_row(logged.trial));
-      write_whole_file(convergence, csv_text(convergence_columns(problem_.tuned_names()), rows, convergence));
+      for (const LoggedTrial& logged : record_->trials)
+        rows.push_back(convergence_row(logged.trial));
+      write_whole_file(convergence,
+                       csv_text(convergence_columns(problem_.tuned_names()), rows, convergence));
     } catch (const std::exception& error) {
       folder_failures_.push_back({"output_failed", error.what()});
     }
@@ -152,35 +166,42 @@ class Job {
       journal_failure_ = error.what();
       return;
     }
-    for (const std::string& sentence : journal_->notes()) ROS_INFO_STREAM(files_.name() << ": " << sentence);
+    for (const std::string& sentence : journal_->notes())
+      ROS_INFO_STREAM(files_.name() << ": " << sentence);
   }
 
   Warnings warnings() const {
     Warnings warnings = result_.warnings;
     if (!best_.failure().empty())
-      warnings.push_back({"best_point_not_on_disk", "the best point so far was not on disk while the job ran: " + best_.failure(), {}});
+      warnings.push_back(
+          {"best_point_not_on_disk",
+           "the best point so far was not on disk while the job ran: " + best_.failure(),
+           {}});
     if (journal_) append(journal_->warnings(), &warnings);
     const std::string failure = journal_ ? journal_->failure() : journal_failure_;
     if (!failure.empty())
-      warnings.push_back({"journal_incomplete",
-                          "finished evaluations are missing in the journal, so that they would be computed again "
-                          "if the job had to be resumed: " +
-                              failure,
-                          {}});
-    for (const Failure& failed : folder_failures_) warnings.push_back({"folder_incomplete", failed.message, {}});
+      warnings.push_back(
+          {"journal_incomplete",
+           "finished evaluations are missing in the journal, so that they would be computed again "
+           "if the job had to be resumed: " +
+               failure,
+           {}});
+    for (const Failure& failed : folder_failures_)
+      warnings.push_back({"folder_incomplete", failed.message, {}});
     add_early_ends("", record_->nominal, &warnings);
     if (record_->worst) add_early_ends("worst ", *record_->worst, &warnings);
     return warnings;
   }
 
   static void add_early_ends(const std::string& which, const BagRuns& runs, Warnings* warnings) {
-    const std::pair<const char*, const RecordedRun*> sides[] = {{"initial", &runs.initial.run}, {"tuned", &runs.tuned.run}};
+    const std::pair<const char*, const RecordedRun*> sides[] = {{"initial", &runs.initial.run},
+                                                                {"tuned", &runs.tuned.run}};
     for (const auto& [side, run] : sides)
       if (!run->status.ok())
-        warnings->push_back(
-            {"run_ends_early",
-             "the " + which + side + " run in the bag ends at t = " + std::to_string(run->status.time) + " s: " + run->status.cause,
-             {}});
+        warnings->push_back({"run_ends_early",
+                             "the " + which + side + " run in the bag ends at t = " +
+                                 std::to_string(run->status.time) + " s: " + run->status.cause,
+                             {}});
   }
 
   const Problem problem_;
@@ -199,13 +220,16 @@ class Job {
 
 }  // namespace
 
-OptimizationOutcome run_optimization(const Problem& problem, const std::string& study, const mechanism_codesign::OptimizeGoal& request,
-                                     const JobOptions& options, const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
+OptimizationOutcome run_optimization(const Problem& problem, const std::string& study,
+                                     const mechanism_codesign::OptimizeGoal& request,
+                                     const JobOptions& options, const FeedbackObserver& observer,
+                                     const std::atomic<bool>& cancel) {
   JobRecord record;
   record.request = request;
   record.request.version = version();
   record.study = study;
-  for (const LoadedFile& one : problem.contents().files) record.study_files.push_back(one.source.text);
+  for (const LoadedFile& one : problem.contents().files)
+    record.study_files.push_back(one.source.text);
   OptimizationOutcome outcome;
   try {
     Job job(apply_request(problem, request), request.resume, options, &record, &outcome);

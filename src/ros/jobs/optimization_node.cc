@@ -36,7 +36,9 @@ std::vector<std::string> optimization_parameters() {
 std::string default_output_directory() {
   const char* ros_home = std::getenv("ROS_HOME");
   const char* home = std::getenv("HOME");
-  return (ros_home != nullptr ? std::string(ros_home) : std::string(home != nullptr ? home : ".") + "/.ros") + "/mechanism_codesign";
+  return (ros_home != nullptr ? std::string(ros_home)
+                              : std::string(home != nullptr ? home : ".") + "/.ros") +
+         "/mechanism_codesign";
 }
 
 /// Publishes the URDF of a result, if there is one.
@@ -47,16 +49,21 @@ void publish_description(const std::string& urdf, const ros::Publisher& publishe
   publisher.publish(description);
 }
 
-std::string share_of(std::uint64_t done, std::uint64_t of) { return std::to_string(done) + " of " + std::to_string(of); }
+std::string share_of(std::uint64_t done, std::uint64_t of) {
+  return std::to_string(done) + " of " + std::to_string(of);
+}
 
 }  // namespace
 
-OptimizationNode::OptimizationNode(Dispatcher* ranks) : state_("optimization"), spinner_(kDoorThreads, &queue_) {
+OptimizationNode::OptimizationNode(Dispatcher* ranks)
+    : state_("optimization"), spinner_(kDoorThreads, &queue_) {
   options_.ranks = ranks;
-  optimization_progress_ = node_.advertise<mechanism_codesign::OptimizationProgress>("optimization_progress", 100, true);
+  optimization_progress_ =
+      node_.advertise<mechanism_codesign::OptimizationProgress>("optimization_progress", 100, true);
   tuned_ = node_.advertise<std_msgs::String>("tuned/robot_description", 1, true);
   load();
-  identification_progress_ = node_.advertise<mechanism_codesign::IdentificationProgress>("identification_progress", 100, true);
+  identification_progress_ = node_.advertise<mechanism_codesign::IdentificationProgress>(
+      "identification_progress", 100, true);
   identified_ = node_.advertise<std_msgs::String>("identified/robot_description", 1, true);
   doors_.setCallbackQueue(&queue_);
   open_doors();
@@ -84,7 +91,8 @@ void OptimizationNode::finish() {
 void OptimizationNode::load() {
   try {
     state_.warn("parameters", unknown_parameters(private_node_, optimization_parameters()));
-    options_.output_directory = read_path(private_node_, "output_directory", default_output_directory());
+    options_.output_directory =
+        read_path(private_node_, "output_directory", default_output_directory());
     options_.rate = read_positive(private_node_, "rate", options_.rate);
     const Inputs inputs = read_inputs(node_, private_node_);
     study_ = inputs.study.text;
@@ -93,13 +101,15 @@ void OptimizationNode::load() {
     require_every_parameter(inputs, problem.robot());
     require_engine(problem.study().ensemble.engine, options_.ranks);
     check_recording(problem, options_.rate, private_node_.resolveName("rate"));
-    for (const std::string& sentence : remove_leftovers(options_.output_directory)) ROS_WARN_STREAM(sentence);
+    for (const std::string& sentence : remove_leftovers(options_.output_directory))
+      ROS_WARN_STREAM(sentence);
     state_.warn("files", problem.warnings());
     problem_ = std::move(problem);
     state_.show("robot", problem_->robot().name);
     state_.show("output directory", options_.output_directory);
-    state_.set(NodeState::Level::kOk,
-               "ready: " + problem_->robot().name + ", " + std::to_string(problem_->study().tuned.size()) + " parameters to tune");
+    state_.set(NodeState::Level::kOk, "ready: " + problem_->robot().name + ", " +
+                                          std::to_string(problem_->study().tuned.size()) +
+                                          " parameters to tune");
   } catch (const InputError& error) {
     fault_ = error.what();
     state_.set(NodeState::Level::kError, "bad input: " + fault_);
@@ -107,41 +117,60 @@ void OptimizationNode::load() {
 }
 
 void OptimizationNode::open_doors() {
-  const auto has_start = [this](const auto& request) { check(request.parameters, request.start, "start"); };
-  const auto has_values = [this](const auto& request) { check(request.parameters, request.values, "values"); };
-  const auto names_job = [this](mechanism_codesign::ApplyRequest& request) { request.result = path_of(request.result); };
+  const auto has_start = [this](const auto& request) {
+    check(request.parameters, request.start, "start");
+  };
+  const auto has_values = [this](const auto& request) {
+    check(request.parameters, request.values, "values");
+  };
+  const auto names_job = [this](mechanism_codesign::ApplyRequest& request) {
+    request.result = path_of(request.result);
+  };
   optimization_ = std::make_unique<decltype(optimization_)::element_type>(
       doors_, "optimize", "another optimization is running", has_start,
-      [this](const auto& request, const auto& observer, const auto& cancel) { return optimize(request, observer, cancel); });
+      [this](const auto& request, const auto& observer, const auto& cancel) {
+        return optimize(request, observer, cancel);
+      });
   evaluation_ = std::make_unique<decltype(evaluation_)::element_type>(
       doors_, "evaluate", "another evaluation is running", has_values,
-      [this](const auto& request, const auto&, const auto& cancel) { return run_evaluation(*problem_, request, cancel, options_.ranks); });
+      [this](const auto& request, const auto&, const auto& cancel) {
+        return run_evaluation(*problem_, request, cancel, options_.ranks);
+      });
   identification_ = std::make_unique<decltype(identification_)::element_type>(
       doors_, "identify", "another identification is running", has_start,
-      [this](const auto& request, const auto& observer, const auto& cancel) { return identify(request, observer, cancel); });
+      [this](const auto& request, const auto& observer, const auto& cancel) {
+        return identify(request, observer, cancel);
+      });
   application_ = std::make_unique<decltype(application_)::element_type>(
       doors_, "apply", "gains are being sent already", names_job,
-      [this](const auto& request, const auto&, const auto& cancel) { return apply(request, cancel); });
-  // Subscribed in the service's namespace, so that a remapping of the service applies to this topic, too.
-  cancel_apply_ = ros::NodeHandle(doors_, "apply").subscribe<std_msgs::Empty>("cancel", 1, [this](const std_msgs::Empty::ConstPtr&) {
-    application_->cancel();
-  });
+      [this](const auto& request, const auto&, const auto& cancel) {
+        return apply(request, cancel);
+      });
+  // Subscribed in the service's namespace, so that a remapping of the service applies to this
+  // topic, too.
+  cancel_apply_ =
+      ros::NodeHandle(doors_, "apply")
+          .subscribe<std_msgs::Empty>(
+              "cancel", 1, [this](const std_msgs::Empty::ConstPtr&) { application_->cancel(); });
 }
 
-void OptimizationNode::check(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field) const {
+void OptimizationNode::check(const std::vector<std::string>& names,
+                             const std::vector<double>& values, const std::string& field) const {
   if (!problem_) throw std::runtime_error(fault_);
   check_size(*problem_, names, values, field);
 }
 
-OptimizationNode::OptimizeResult OptimizationNode::optimize(const mechanism_codesign::OptimizeGoal& request,
-                                                            const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
+OptimizationNode::OptimizeResult OptimizationNode::optimize(
+    const mechanism_codesign::OptimizeGoal& request, const FeedbackObserver& observer,
+    const std::atomic<bool>& cancel) {
   state_.set(NodeState::Level::kOk, "optimizing");
   const auto publish = [&](const mechanism_codesign::OptimizationProgress& progress) {
     optimization_progress_.publish(progress);
     tell_progress(progress);
     if (observer) observer(progress);
   };
-  const OptimizationOutcome outcome = run_optimization(*problem_, study_, request, options_, publish, cancel);
+  const OptimizationOutcome outcome =
+      run_optimization(*problem_, study_, request, options_, publish, cancel);
   publish_description(outcome.tuned_urdf, tuned_);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -152,23 +181,28 @@ OptimizationNode::OptimizeResult OptimizationNode::optimize(const mechanism_code
   return outcome.result;
 }
 
-OptimizationNode::IdentifyResult OptimizationNode::identify(const mechanism_codesign::IdentifyGoal& request,
-                                                            const IdentificationObserver& observer, const std::atomic<bool>& cancel) {
+OptimizationNode::IdentifyResult OptimizationNode::identify(
+    const mechanism_codesign::IdentifyGoal& request, const IdentificationObserver& observer,
+    const std::atomic<bool>& cancel) {
   state_.set(NodeState::Level::kOk, "identifying");
   const auto publish = [&](const mechanism_codesign::IdentificationProgress& progress) {
     identification_progress_.publish(progress);
     state_.show("identification", progress.job);
-    state_.show("identification stage", progress.stage + ", " + share_of(progress.done, progress.of));
+    state_.show("identification stage",
+                progress.stage + ", " + share_of(progress.done, progress.of));
     if (observer) observer(progress);
   };
-  const IdentificationOutcome outcome = run_identification(*problem_, folder_, request, options_, publish, cancel);
+  const IdentificationOutcome outcome =
+      run_identification(*problem_, folder_, request, options_, publish, cancel);
   publish_description(outcome.identified_urdf, identified_);
-  state_.warn("last identification", warnings_of_job(outcome.result.warnings, problem_->warnings().size()));
+  state_.warn("last identification",
+              warnings_of_job(outcome.result.warnings, problem_->warnings().size()));
   tell_result(outcome.result);
   return outcome.result;
 }
 
-OptimizationNode::ApplyResponse OptimizationNode::apply(const mechanism_codesign::ApplyRequest& request, const std::atomic<bool>& cancel) {
+OptimizationNode::ApplyResponse OptimizationNode::apply(
+    const mechanism_codesign::ApplyRequest& request, const std::atomic<bool>& cancel) {
   ApplyResponse response = apply_gains(request, cancel);
   state_.show("last apply", response.code + ": " + response.message);
   return response;
@@ -178,8 +212,11 @@ std::string OptimizationNode::path_of(const std::string& result) {
   if (!result.empty()) return path_in(options_.output_directory, result);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (last_bag_.empty())
-    throw InputError(
-        {{"request", 0}, "result", "this node has finished no optimization yet", "", "the name of a job in " + options_.output_directory});
+    throw InputError({{"request", 0},
+                      "result",
+                      "this node has finished no optimization yet",
+                      "",
+                      "the name of a job in " + options_.output_directory});
   return last_bag_;
 }
 
@@ -190,38 +227,46 @@ void OptimizationNode::tell_progress(const mechanism_codesign::OptimizationProgr
   state_.show("stage", progress.stage + ", " + share_of(progress.done, progress.of));
   state_.show("runs", std::to_string(progress.runs));
   state_.show("runs per second", std::to_string(progress.runs_per_second));
-  const std::string seconds = std::isnan(progress.seconds_left) ? "unknown" : std::to_string(progress.seconds_left);
+  const std::string seconds =
+      std::isnan(progress.seconds_left) ? "unknown" : std::to_string(progress.seconds_left);
   state_.show("seconds left", (progress.at_most ? "at most " : "") + seconds);
 }
 
 void OptimizationNode::tell_result(const OptimizeResult& result) {
   if (!result.success)
-    return state_.set(NodeState::Level::kWarning, "the last optimization ended with " + result.code + ": " + result.message);
+    return state_.set(NodeState::Level::kWarning,
+                      "the last optimization ended with " + result.code + ": " + result.message);
   std::ostringstream sentence;
-  sentence << "done: objective " << result.initial_objective << " -> " << result.objective << " (" << result.termination << "), "
-           << result.bag;
+  sentence << "done: objective " << result.initial_objective << " -> " << result.objective << " ("
+           << result.termination << "), " << result.bag;
   state_.set(NodeState::Level::kOk, sentence.str());
 }
 
 void OptimizationNode::tell_result(const IdentifyResult& result) {
   if (!result.success)
-    return state_.set(NodeState::Level::kWarning, "the last identification ended with " + result.code + ": " + result.message);
+    return state_.set(NodeState::Level::kWarning,
+                      "the last identification ended with " + result.code + ": " + result.message);
   std::ostringstream sentence;
   sentence << "identified:";
-  for (const auto& number : result.numbers) sentence << ' ' << number.name << " = " << number.value << ',';
+  for (const auto& number : result.numbers)
+    sentence << ' ' << number.name << " = " << number.value << ',';
   sentence << ' ' << result.bag;
   state_.set(NodeState::Level::kOk, sentence.str());
 }
 
-bool OptimizationNode::on_cancel_request(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+bool OptimizationNode::on_cancel_request(std_srvs::Trigger::Request& /*request*/,
+                                         std_srvs::Trigger::Response& response) {
   std::vector<std::string> cancelled;
   if (optimization_->cancel()) cancelled.emplace_back("the optimization");
   if (identification_->cancel()) cancelled.emplace_back("the identification");
   response.success = !cancelled.empty();
   if (cancelled.empty())
-    response.message = "nothing to cancel: no optimization and no identification is running, or it is cancelled already";
+    response.message =
+        "nothing to cancel: no optimization and no identification is running, or it is cancelled "
+        "already";
   else
-    response.message = "cancelled " + list_names(cancelled) + "; its answer has the best point so far";
+    response.message =
+        "cancelled " + list_names(cancelled) + "; its answer has the best point so far";
   return true;
 }
 

@@ -17,22 +17,25 @@ namespace {
 
 constexpr const char* kRequest = "request";
 
-[[noreturn]] void fail(const std::string& field, const std::string& message, const std::string& value, const std::string& allowed) {
+[[noreturn]] void fail(const std::string& field, const std::string& message,
+                       const std::string& value, const std::string& allowed) {
   throw InputError({{kRequest, 0}, field, message, value, allowed});
 }
 
-/// Refuses very long names, since the search for the nearest known name takes time proportional to their length.
+/// Refuses very long names, since the search for the nearest known name takes time proportional to
+/// their length.
 void check_length(const std::string& field, const std::string& text) {
   constexpr std::size_t kLongestName = 1000;
   if (text.size() > kLongestName)
-    fail(field, "too long for a name", text.substr(0, 20) + "...", "at most " + std::to_string(kLongestName) + " letters");
+    fail(field, "too long for a name", text.substr(0, 20) + "...",
+         "at most " + std::to_string(kLongestName) + " letters");
 }
 
 /// Refuses lists of names that are longer than the list of parameters, and very long names.
 void check_names(const std::vector<std::string>& names, std::size_t known) {
   if (names.size() > known)
-    fail("parameters", "more names than there are parameters", std::to_string(names.size()) + " names",
-         "at most " + std::to_string(known) + " names");
+    fail("parameters", "more names than there are parameters",
+         std::to_string(names.size()) + " names", "at most " + std::to_string(known) + " names");
   for (const std::string& name : names) check_length("parameters", name);
 }
 
@@ -45,18 +48,21 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
 
 std::size_t index_of(const std::string& name, const std::vector<std::string>& known) {
   const auto found = std::find(known.begin(), known.end(), name);
-  if (found == known.end()) throw unknown_name({kRequest, 0}, "parameters", "parameter", name, known);
+  if (found == known.end())
+    throw unknown_name({kRequest, 0}, "parameters", "parameter", name, known);
   return to_index(found - known.begin());
 }
 
 /// Pairs names with values. Both lists must have the same length, and no name may occur twice.
-ParameterSettings pair_up(const std::vector<std::string>& names, const std::vector<double>& values, const std::string& field) {
+ParameterSettings pair_up(const std::vector<std::string>& names, const std::vector<double>& values,
+                          const std::string& field) {
   if (values.size() != names.size())
     fail(field, "one value for each parameter is needed", std::to_string(values.size()) + " values",
          std::to_string(names.size()) + " values");
   ParameterSettings settings;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::count(names.begin(), names.end(), names[i]) > 1) fail("parameters", "parameter named twice", names[i], "each name once");
+    if (std::count(names.begin(), names.end(), names[i]) > 1)
+      fail("parameters", "parameter named twice", names[i], "each name once");
     settings.emplace_back(names[i], values[i]);
   }
   return settings;
@@ -65,14 +71,17 @@ ParameterSettings pair_up(const std::vector<std::string>& names, const std::vect
 void choose_tuned(const std::vector<std::string>& names, Study* study) {
   const std::vector<std::string> known = names_of(study->parameters);
   study->tuned.clear();
-  for (const std::string& name : names) study->tuned.push_back(static_cast<int>(index_of(name, known)));
+  for (const std::string& name : names)
+    study->tuned.push_back(static_cast<int>(index_of(name, known)));
 }
 
 template <class Request>
 void choose_limits(const Request& request, OptimizerOptions* options) {
   if (request.max_evaluations > static_cast<unsigned>(std::numeric_limits<int>::max()))
-    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations), "0 (take the study's value) to 2147483647");
-  if (request.max_evaluations > 0) options->max_evaluations = static_cast<int>(request.max_evaluations);
+    fail("max_evaluations", "count out of range", std::to_string(request.max_evaluations),
+         "0 (take the study's value) to 2147483647");
+  if (request.max_evaluations > 0)
+    options->max_evaluations = static_cast<int>(request.max_evaluations);
   if (!(request.relative_tolerance >= 0.0 && request.relative_tolerance < 1.0))
     fail("relative_tolerance", "tolerance out of range", to_decimal(request.relative_tolerance),
          "0 (take the study's value) or more, less than 1");
@@ -101,13 +110,13 @@ ParameterSettings choose_parameters(const Request& request, Study* study) {
 
 }  // namespace
 
-void check_size(const Problem& problem, const std::vector<std::string>& names, const std::vector<double>& values,
-                const std::string& values_field) {
+void check_size(const Problem& problem, const std::vector<std::string>& names,
+                const std::vector<double>& values, const std::string& values_field) {
   const std::size_t known = problem.study().parameters.size();
   check_names(names, known);
   if (values.size() > known)
-    fail(values_field, "more values than there are parameters", std::to_string(values.size()) + " values",
-         "at most " + std::to_string(known) + " values");
+    fail(values_field, "more values than there are parameters",
+         std::to_string(values.size()) + " values", "at most " + std::to_string(known) + " values");
 }
 
 std::string path_in(const std::string& directory, const std::string& result) {
@@ -116,11 +125,13 @@ std::string path_in(const std::string& directory, const std::string& result) {
   const fs::path path = fs::weakly_canonical(given.is_absolute() ? given : folder / given);
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   if (end != folder.end() || rest == path.end())
-    fail("result", "not a job of the output directory", result, "a name or a path in " + folder.string());
+    fail("result", "not a job of the output directory", result,
+         "a name or a path in " + folder.string());
   return path.string();
 }
 
-OptimizationRequest apply_request(const Problem& problem, const mechanism_codesign::OptimizeGoal& request) {
+OptimizationRequest apply_request(const Problem& problem,
+                                  const mechanism_codesign::OptimizeGoal& request) {
   require_objective(problem);
   OptimizerOptions options = problem.optimizer_options();
   choose_options(request, &options);
@@ -140,7 +151,8 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Identify
   return with_study(problem, std::move(study), starts);
 }
 
-Eigen::VectorXd design_of(const Problem& problem, const mechanism_codesign::EvaluateRequest& request) {
+Eigen::VectorXd design_of(const Problem& problem,
+                          const mechanism_codesign::EvaluateRequest& request) {
   require_objective(problem);
   require_differentiable(problem.study());
   const std::vector<std::string> tuned = problem.tuned_names();

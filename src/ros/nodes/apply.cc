@@ -23,9 +23,12 @@ int apply(const codesign::ApplyArguments& arguments) {
     return kFailure;
   }
   ros::start();
-  const mechanism_codesign::ApplyResponse response = codesign::apply_gains(arguments.request, is_cancelled);
-  std::cout << (arguments.json ? codesign::apply_json(response) : codesign::apply_table(response)) << std::flush;
-  if (!response.success) std::cerr << "codesign apply: " << response.code << ": " << response.message << std::endl;
+  const mechanism_codesign::ApplyResponse response =
+      codesign::apply_gains(arguments.request, is_cancelled);
+  std::cout << (arguments.json ? codesign::apply_json(response) : codesign::apply_table(response))
+            << std::flush;
+  if (!response.success)
+    std::cerr << "codesign apply: " << response.code << ": " << response.message << std::endl;
   ros::shutdown();
   return response.success ? kSuccess : response.code == "bad_input" ? kMistake : kFailure;
 }
@@ -35,10 +38,12 @@ int apply(const codesign::ApplyArguments& arguments) {
 /// The program that `codesign apply` starts with its arguments.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "codesign_apply",
-            ros::init_options::AnonymousName | ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+            ros::init_options::AnonymousName | ros::init_options::NoSigintHandler |
+                ros::init_options::NoRosout);
   codesign::on_end_request([] { is_cancelled = true; });
   try {
-    const codesign::ApplyArguments arguments = codesign::parse_apply_arguments({argv + 1, argv + argc});
+    const codesign::ApplyArguments arguments =
+        codesign::parse_apply_arguments({argv + 1, argv + argc});
     if (!arguments.help) return apply(arguments);
     std::cout << codesign::apply_usage();
     return kSuccess;

@@ -4,7 +4,8 @@
 
 namespace {
 
-const char* const kHelp = R"(usage: rosrun mechanism_codesign optimization _study:=PATH [_PARAMETER:=VALUE ...]
+const char* const kHelp =
+    R"(usage: rosrun mechanism_codesign optimization _study:=PATH [_PARAMETER:=VALUE ...]
 
 Tunes a mechanism, or fits it to recordings, on request: services and actions `optimize` and `identify`, services `evaluate`, `apply` and
 `~cancel`. doc/ros_api.md has more.
@@ -23,6 +24,7 @@ parameters
 
 int main(int argc, char** argv) {
   return codesign::run_on_ranks("optimization", [&](codesign::Dispatcher* ranks) {
-    return codesign::run_node(argc, argv, "optimization", kHelp, [ranks] { return codesign::make_optimization_node(ranks); });
+    return codesign::run_node(argc, argv, "optimization", kHelp,
+                              [ranks] { return codesign::make_optimization_node(ranks); });
   });
 }

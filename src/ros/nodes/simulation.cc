@@ -3,7 +3,8 @@
 
 namespace {
 
-const char* const kHelp = R"(usage: rosrun mechanism_codesign simulation _study:=PATH [_PARAMETER:=VALUE ...]
+const char* const kHelp =
+    R"(usage: rosrun mechanism_codesign simulation _study:=PATH [_PARAMETER:=VALUE ...]
 
 Runs a study and publishes it: joint_states, joint_friction, controller_states, loop_errors, signals, friction_markers,
 caption, and scene for the camera of rviz.
@@ -39,4 +40,6 @@ parameters
 
 }  // namespace
 
-int main(int argc, char** argv) { return codesign::run_node(argc, argv, "simulation", kHelp, codesign::make_simulation_node); }
+int main(int argc, char** argv) {
+  return codesign::run_node(argc, argv, "simulation", kHelp, codesign::make_simulation_node);
+}

@@ -22,7 +22,8 @@ geometry_msgs::TransformStamped transform_of(const LinkSample& parent, const Lin
 
 }  // namespace
 
-sensor_msgs::JointState joint_states(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+sensor_msgs::JointState joint_states(const FrameNames& names, const Frame& frame,
+                                     const MessageContext& context) {
   sensor_msgs::JointState message;
   message.header = header_of(context);
   for (std::size_t i = 0; i < names.tree_joints; ++i) {
@@ -34,7 +35,8 @@ sensor_msgs::JointState joint_states(const FrameNames& names, const Frame& frame
   return message;
 }
 
-mechanism_codesign::JointFriction joint_friction(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+mechanism_codesign::JointFriction joint_friction(const FrameNames& names, const Frame& frame,
+                                                 const MessageContext& context) {
   mechanism_codesign::JointFriction message;
   message.header = header_of(context);
   message.name = names.frictions;
@@ -47,7 +49,8 @@ mechanism_codesign::JointFriction joint_friction(const FrameNames& names, const 
   return message;
 }
 
-mechanism_codesign::ControllerStates controller_states(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+mechanism_codesign::ControllerStates controller_states(const FrameNames& names, const Frame& frame,
+                                                       const MessageContext& context) {
   mechanism_codesign::ControllerStates message;
   message.header = header_of(context);
   message.name = names.controllers;
@@ -61,7 +64,8 @@ mechanism_codesign::ControllerStates controller_states(const FrameNames& names, 
   return message;
 }
 
-mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame& frame,
+                                           const MessageContext& context) {
   mechanism_codesign::LoopErrors message;
   message.header = header_of(context);
   message.name = names.loops;
@@ -69,7 +73,8 @@ mechanism_codesign::LoopErrors loop_errors(const FrameNames& names, const Frame&
   return message;
 }
 
-mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame,
+                                    const MessageContext& context) {
   mechanism_codesign::Signals message;
   message.header = header_of(context);
   message.name = names.signals;
@@ -77,10 +82,12 @@ mechanism_codesign::Signals signals(const FrameNames& names, const Frame& frame,
   return message;
 }
 
-tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame, const MessageContext& context) {
+tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& frame,
+                                         const MessageContext& context) {
   tf2_msgs::TFMessage message;
   for (const auto& [link, parent] : names.free_links) {
-    geometry_msgs::TransformStamped transform = transform_of(frame.links[parent], frame.links[link]);
+    geometry_msgs::TransformStamped transform =
+        transform_of(frame.links[parent], frame.links[link]);
     transform.header = header_of({context.stamp, names.links[parent]});
     transform.child_frame_id = names.links[link];
     message.transforms.push_back(transform);
@@ -88,12 +95,14 @@ tf2_msgs::TFMessage free_link_transforms(const FrameNames& names, const Frame& f
   return message;
 }
 
-tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
+tf2_msgs::TFMessage link_transforms(const FrameNames& names,
+                                    const std::vector<std::size_t>& parents, const Frame& frame,
                                     const ros::Time& stamp, const std::string& prefix) {
   tf2_msgs::TFMessage message;
   for (std::size_t i = 0; i < names.links.size(); ++i) {
     if (parents[i] == i) continue;
-    geometry_msgs::TransformStamped transform = transform_of(frame.links[parents[i]], frame.links[i]);
+    geometry_msgs::TransformStamped transform =
+        transform_of(frame.links[parents[i]], frame.links[i]);
     transform.header = header_of({stamp, prefix + names.links[parents[i]]});
     transform.child_frame_id = prefix + names.links[i];
     message.transforms.push_back(transform);
@@ -101,19 +110,23 @@ tf2_msgs::TFMessage link_transforms(const FrameNames& names, const std::vector<s
   return message;
 }
 
-tf2_msgs::TFMessage placed_link_transforms(const FrameNames& names, const std::vector<std::size_t>& parents, const Frame& frame,
-                                           const ros::Time& stamp, const std::string& prefix) {
+tf2_msgs::TFMessage placed_link_transforms(const FrameNames& names,
+                                           const std::vector<std::size_t>& parents,
+                                           const Frame& frame, const ros::Time& stamp,
+                                           const std::string& prefix) {
   tf2_msgs::TFMessage message;
   geometry_msgs::TransformStamped root = transform_of(frame.links[0], frame.links[0]);
   root.header = header_of({stamp, prefix.substr(0, prefix.size() - 1)});
   root.child_frame_id = prefix + names.links[0];
   message.transforms.push_back(root);
   const tf2_msgs::TFMessage links = link_transforms(names, parents, frame, stamp, prefix);
-  message.transforms.insert(message.transforms.end(), links.transforms.begin(), links.transforms.end());
+  message.transforms.insert(message.transforms.end(), links.transforms.begin(),
+                            links.transforms.end());
   return message;
 }
 
-FrameMessages::FrameMessages(const FrameNames& names, const Frame& frame, const MessageContext& context, const MarkerStyle& style)
+FrameMessages::FrameMessages(const FrameNames& names, const Frame& frame,
+                             const MessageContext& context, const MarkerStyle& style)
     : joint_states(codesign::joint_states(names, frame, context)),
       joint_friction(codesign::joint_friction(names, frame, context)),
       controller_states(codesign::controller_states(names, frame, context)),

@@ -18,9 +18,11 @@ constexpr double kMostMemory = 256e6;
 
 double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
   const std::size_t pairs = robot.joints.size();
-  return static_cast<double>(sizeof(Frame) + pairs * (sizeof(JointSample) + sizeof(FrictionSample) + sizeof(double)) +
-                             robot.links.size() * sizeof(LinkSample) + study.controllers.size() * sizeof(ControllerSample) +
-                             signals_of(study).size() * sizeof(double));
+  return static_cast<double>(
+      sizeof(Frame) + pairs * (sizeof(JointSample) + sizeof(FrictionSample) + sizeof(double)) +
+      robot.links.size() * sizeof(LinkSample) +
+      study.controllers.size() * sizeof(ControllerSample) +
+      signals_of(study).size() * sizeof(double));
 }
 
 }  // namespace
@@ -36,14 +38,16 @@ void check_recording(const Problem& problem, double rate, const std::string& ele
   const double runs = problem.study().ensemble.is_ensemble() ? 4.0 : 2.0;
   const double most = kMostMemory / (runs * bytes_of_a_frame(problem.robot(), problem.study()));
   if (!(duration * rate <= most))
-    throw InputError({{element, 0},
-                      "rate",
-                      "a run of " + to_decimal(duration) + " s has too many samples to keep in memory",
-                      to_decimal(rate),
-                      "at most " + to_decimal(std::floor(1e3 * most / duration) / 1e3) + " samples per second"});
+    throw InputError(
+        {{element, 0},
+         "rate",
+         "a run of " + to_decimal(duration) + " s has too many samples to keep in memory",
+         to_decimal(rate),
+         "at most " + to_decimal(std::floor(1e3 * most / duration) / 1e3) + " samples per second"});
 }
 
-RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
+RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system,
+                       const std::vector<double>& parameters, double rate,
                        const std::function<bool()>& stop) {
   RecordedRun run;
   Simulation simulation(system, parameters, signals_of(system->whole_study()));
@@ -54,7 +58,9 @@ RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, cons
   const auto stopped = [&stop] { return stop && stop(); };
   run.status = simulation.start();
   for (std::int64_t k = 0; run.status.ok() && k <= count; ++k) {
-    const auto instant = [&](std::int64_t index) { return duration * static_cast<double>(index) / static_cast<double>(count); };
+    const auto instant = [&](std::int64_t index) {
+      return duration * static_cast<double>(index) / static_cast<double>(count);
+    };
     if (k > 0) run.status = advance(&simulation, instant(k - 1), instant(k), stopped);
     if (!run.status.ok()) break;
     run.frames.emplace_back();

@@ -15,8 +15,9 @@ namespace codesign {
 /// Longest run in ROS time [s], whose seconds have 32 bits.
 inline constexpr double kLongestRun = 2e9;
 
-/// Advances a run from time `from` to `to` [s] and calls `stop()` sixteen times on the way, since this may take long. The division does not
-/// change the steps of the integrator. @returns kCancelled if `stop()` was true, else the status of the run.
+/// Advances a run from time `from` to `to` [s] and calls `stop()` sixteen times on the way, since
+/// this may take long. The division does not change the steps of the integrator. @returns
+/// kCancelled if `stop()` was true, else the status of the run.
 template <class Stop>
 Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
   constexpr int kSlices = 16;
@@ -33,19 +34,24 @@ Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
 struct RecordedRun {
   FrameNames names;
   std::vector<Frame> frames;
-  Status status;                            ///< if not ok, the frames end where the run failed or was stopped
+  Status status;  ///< if not ok, the frames end where the run failed or was stopped
   std::vector<std::size_t> link_parents{};  ///< as link_parents() finds them
 };
 
-/// Checks that the runs of a job (nominal and worst scenario of both designs) fit into memory (256 MB) and into the range of ROS time.
+/// Checks that the runs of a job (nominal and worst scenario of both designs) fit into memory (256
+/// MB) and into the range of ROS time.
 /// @param rate samples per second.
-/// @param element where the rate was given. @throws InputError for a duration or a rate that is too large.
+/// @param element where the rate was given. @throws InputError for a duration or a rate that is too
+/// large.
 void check_recording(const Problem& problem, double rate, const std::string& element);
 
-/// Runs a study at `parameters`, all named ones, and samples it at equally spaced instants from 0 to its duration.
-/// @param system of the run, such as the system of a scenario. @param rate samples per second, accepted by check_recording(). @param stop
-/// if given, called repeatedly; true ends the run with kCancelled.
-RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system, const std::vector<double>& parameters, double rate,
+/// Runs a study at `parameters`, all named ones, and samples it at equally spaced instants from 0
+/// to its duration.
+/// @param system of the run, such as the system of a scenario. @param rate samples per second,
+/// accepted by check_recording(). @param stop if given, called repeatedly; true ends the run with
+/// kCancelled.
+RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system,
+                       const std::vector<double>& parameters, double rate,
                        const std::function<bool()>& stop = {});
 
 }  // namespace codesign

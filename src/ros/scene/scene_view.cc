@@ -14,7 +14,8 @@ Eigen::Vector3d SceneView::right() const { return {-std::sin(yaw), std::cos(yaw)
 
 Eigen::AlignedBox2d SceneView::picture(const std::vector<Eigen::Vector3d>& points) const {
   Eigen::AlignedBox2d rectangle;
-  for (const Eigen::Vector3d& point : points) rectangle.extend(Eigen::Vector2d(point.dot(right()), point.dot(up())));
+  for (const Eigen::Vector3d& point : points)
+    rectangle.extend(Eigen::Vector2d(point.dot(right()), point.dot(up())));
   return rectangle;
 }
 
@@ -26,20 +27,24 @@ SceneView view_of(const Eigen::Vector3d& sizes) {
   return view;
 }
 
-CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view, double top) {
+CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const SceneView& view,
+                         double top) {
   const Eigen::Vector3d toward = view.towards_viewer(), right = view.right(), up = view.up();
-  const double half_width = kFilled * kAspect * kHalfHeight, above = top * kHalfHeight, below = kFilled * kHalfHeight;
+  const double half_width = kFilled * kAspect * kHalfHeight, above = top * kHalfHeight,
+               below = kFilled * kHalfHeight;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) box.extend(point);
   CameraPlace place{box.center(), 0.0};
   constexpr int kRounds = 25;
-  // Points nearer to the camera take more room in the picture: the camera moves until both sides have the same distance from the edge.
+  // Points nearer to the camera take more room in the picture: the camera moves until both sides
+  // have the same distance from the edge.
   for (int round = 0; round <= kRounds; ++round) {
     place.distance = 1e-3;
     for (const Eigen::Vector3d& point : points) {
       const Eigen::Vector3d from = point - place.focus;
       const double height = from.dot(up);
-      const double needed = std::max(std::abs(from.dot(right)) / half_width, height > 0.0 ? height / above : -height / below);
+      const double needed = std::max(std::abs(from.dot(right)) / half_width,
+                                     height > 0.0 ? height / above : -height / below);
       place.distance = std::max(place.distance, from.dot(toward) + needed);
     }
     if (round == kRounds) break;
@@ -49,7 +54,8 @@ CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const Scene
       const double away = std::max(place.distance - from.dot(toward), 1e-9);
       picture.extend(Eigen::Vector2d(from.dot(right) / away, from.dot(up) / away));
     }
-    place.focus += place.distance * (picture.center().x() * right + (picture.center().y() - 0.5 * (above - below)) * up);
+    place.focus += place.distance * (picture.center().x() * right +
+                                     (picture.center().y() - 0.5 * (above - below)) * up);
   }
   return place;
 }
@@ -57,7 +63,8 @@ CameraPlace place_camera(const std::vector<Eigen::Vector3d>& points, const Scene
 std::vector<Eigen::Vector3d> corners(const Eigen::AlignedBox3d& box) {
   std::vector<Eigen::Vector3d> points;
   if (box.isEmpty()) return points;
-  for (int k = 0; k < 8; ++k) points.emplace_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  for (int k = 0; k < 8; ++k)
+    points.emplace_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
   return points;
 }
 

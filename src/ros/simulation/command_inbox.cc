@@ -8,10 +8,12 @@ namespace {
 
 /// Queue size: one second of messages from a controller that runs at 1 kHz.
 constexpr std::uint32_t kWaitingCommands = 1000;
-/// Largest number of commands that wait for the run, so that a controller that sends to a run that has ended does not fill the memory.
+/// Largest number of commands that wait for the run, so that a controller that sends to a run that
+/// has ended does not fill the memory.
 constexpr std::size_t kMostCommands = 10 * kWaitingCommands;
 
-/// The stamp of the frame that a message answers; zero: any. The stamp of a trajectory is the time at which it begins.
+/// The stamp of the frame that a message answers; zero: any. The stamp of a trajectory is the time
+/// at which it begins.
 ros::Time answered_stamp(const sensor_msgs::JointState& message) { return message.header.stamp; }
 template <class Message>
 ros::Time answered_stamp(const Message&) {
@@ -27,45 +29,60 @@ std::string legal_name(const std::string& text) {
   return name;
 }
 
-CommandInbox::CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node, const CommandInputs& inputs, NodeState* state, Bell* bell)
+CommandInbox::CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node,
+                           const CommandInputs& inputs, NodeState* state, Bell* bell)
     : inputs_(inputs), state_(state), bell_(bell) {
   listen<sensor_msgs::JointState>(private_node, "command/effort",
-                                  [this](const auto& topic, const auto& message) { return read_efforts(inputs_, topic, message); });
+                                  [this](const auto& topic, const auto& message) {
+                                    return read_efforts(inputs_, topic, message);
+                                  });
   listen<std_msgs::Float64MultiArray>(private_node, "command/efforts",
-                                      [this](const auto& topic, const auto& message) { return read_efforts(inputs_, topic, message); });
-  listen<trajectory_msgs::JointTrajectory>(private_node, "command/trajectory", [this](const auto& topic, const auto& message) {
-    return read_trajectory(inputs_, topic, message);
-  });
+                                      [this](const auto& topic, const auto& message) {
+                                        return read_efforts(inputs_, topic, message);
+                                      });
+  listen<trajectory_msgs::JointTrajectory>(private_node, "command/trajectory",
+                                           [this](const auto& topic, const auto& message) {
+                                             return read_trajectory(inputs_, topic, message);
+                                           });
   for (std::size_t k = 0; k < inputs.controllers.size(); ++k)
     listen<std_msgs::Float64>(node, legal_name(inputs.controllers[k]) + "/command",
-                              [this, k](const auto& topic, const auto& message) { return read_setpoint(inputs_, topic, k, message); });
+                              [this, k](const auto& topic, const auto& message) {
+                                return read_setpoint(inputs_, topic, k, message);
+                              });
 }
 
 template <class Message, class Read>
 void CommandInbox::listen(ros::NodeHandle& node, const std::string& name, const Read& read) {
   const std::string topic = node.resolveName(name);
-  const boost::function<void(const boost::shared_ptr<const Message>&)> callback = [this, topic,
-                                                                                   read](const boost::shared_ptr<const Message>& message) {
-    receive(topic, answered_stamp(*message), [&] { return read(topic, *message); });
-  };
-  subscribers_.push_back(node.subscribe<Message>(name, kWaitingCommands, callback, {}, ros::TransportHints().tcpNoDelay()));
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+      [this, topic, read](const boost::shared_ptr<const Message>& message) {
+        receive(topic, answered_stamp(*message), [&] { return read(topic, *message); });
+      };
+  subscribers_.push_back(node.subscribe<Message>(name, kWaitingCommands, callback, {},
+                                                 ros::TransportHints().tcpNoDelay()));
 }
 
-void CommandInbox::note_answer(const ros::Time& stamp) { answered_ = answered_ || stamp.isZero() || stamp >= awaited_; }
+void CommandInbox::note_answer(const ros::Time& stamp) {
+  answered_ = answered_ || stamp.isZero() || stamp >= awaited_;
+}
 
 void CommandInbox::add(Command command, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (commands_.size() == kMostCommands) commands_.erase(commands_.begin(), commands_.begin() + kMostCommands / 2);
+  if (commands_.size() == kMostCommands)
+    commands_.erase(commands_.begin(), commands_.begin() + kMostCommands / 2);
   commands_.push_back(std::move(command));
   note_answer(stamp);
 }
 
-void CommandInbox::refuse(const std::string& topic, const ros::Time& stamp, const std::string& sentence) {
+void CommandInbox::refuse(const std::string& topic, const ros::Time& stamp,
+                          const std::string& sentence) {
   const std::lock_guard<std::mutex> lock(mutex_);
   note_answer(stamp);
   state_->show("refused commands", std::to_string(++refused_));
   const ros::WallTime now = ros::WallTime::now();
-  if (const auto told = told_.find(topic); told != told_.end() && now - told->second < ros::WallDuration(1.0)) return;
+  if (const auto told = told_.find(topic);
+      told != told_.end() && now - told->second < ros::WallDuration(1.0))
+    return;
   told_[topic] = now;
   state_->warn("command " + topic, {{"command_refused", sentence, {}}});
 }

@@ -14,24 +14,28 @@
 
 namespace codesign {
 
-/// Subscribes to the command topics of the simulation, doc/ros_api.md, and keeps the commands until the run takes them. Thread-safe.
+/// Subscribes to the command topics of the simulation, doc/ros_api.md, and keeps the commands until
+/// the run takes them. Thread-safe.
 class CommandInbox {
  public:
   /// @param inputs, state, bell must outlive this. @param bell rung for each message
-  CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node, const CommandInputs& inputs, NodeState* state, Bell* bell);
+  CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node, const CommandInputs& inputs,
+               NodeState* state, Bell* bell);
 
   /// The commands since the last call, in the order of their arrival.
   std::vector<Command> take();
   /// Discards commands and refusals, for a new run.
   void clear();
 
-  /// To be called before a frame with this stamp is published: commands that answer earlier frames no longer count as an answer.
+  /// To be called before a frame with this stamp is published: commands that answer earlier frames
+  /// no longer count as an answer.
   void await_answer(const ros::Time& stamp);
-  /// Whether a message has arrived since that answers the frame. A message with a header answers it if its stamp is zero or not before the
-  /// stamp of the frame.
+  /// Whether a message has arrived since that answers the frame. A message with a header answers it
+  /// if its stamp is zero or not before the stamp of the frame.
   bool is_answered() const;
 
-  /// Handles a message as if it had arrived: `read` returns the command or throws InputError. @param stamp of its header, or zero
+  /// Handles a message as if it had arrived: `read` returns the command or throws InputError.
+  /// @param stamp of its header, or zero
   template <class Read>
   void receive(const std::string& topic, const ros::Time& stamp, const Read& read);
 
@@ -49,7 +53,8 @@ class CommandInbox {
   std::vector<Command> commands_;
   ros::Time awaited_;
   bool answered_ = false;
-  std::map<std::string, ros::WallTime> told_;  ///< per topic: time of the last warning of a refused message, at most one per second
+  std::map<std::string, ros::WallTime>
+      told_;  ///< per topic: time of the last warning of a refused message, at most one per second
   std::size_t refused_ = 0;
   std::vector<ros::Subscriber> subscribers_;
 };

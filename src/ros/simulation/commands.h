@@ -18,8 +18,8 @@
 #include "integration/interactive_simulation.h"
 #include "ros/simulation/run_clock.h"
 
-// Commands from messages, and the run that takes them. Each read_...() throws InputError, whose text names topic, joint and value, for a
-// message that cannot be used.
+// Commands from messages, and the run that takes them. Each read_...() throws InputError, whose
+// text names topic, joint and value, for a message that cannot be used.
 
 namespace codesign {
 
@@ -28,13 +28,15 @@ struct EffortCommand {
   std::vector<std::pair<std::size_t, double>> efforts;
 };
 
-/// A set-point in the unit of the controller's input. @param controller index in CommandInputs::controllers
+/// A set-point in the unit of the controller's input. @param controller index in
+/// CommandInputs::controllers
 struct SetpointCommand {
   std::size_t controller = 0;
   double value = 0.0;
 };
 
-/// A trajectory of one joint; times count from the begin of the trajectory. Without points the joint holds its position.
+/// A trajectory of one joint; times count from the begin of the trajectory. Without points the
+/// joint holds its position.
 struct JointCourse {
   std::string joint;
   TrajectoryFollower follower;
@@ -48,17 +50,22 @@ struct TrajectoryCommand {
 
 using Command = std::variant<EffortCommand, SetpointCommand, TrajectoryCommand>;
 
-EffortCommand read_efforts(const CommandInputs& inputs, const std::string& topic, const sensor_msgs::JointState& message);
-EffortCommand read_efforts(const CommandInputs& inputs, const std::string& topic, const std_msgs::Float64MultiArray& message);
-SetpointCommand read_setpoint(const CommandInputs& inputs, const std::string& topic, std::size_t controller,
-                              const std_msgs::Float64& message);
-/// Without joints and points: every joint whose controller can follow trajectories holds its position.
-TrajectoryCommand read_trajectory(const CommandInputs& inputs, const std::string& topic, const trajectory_msgs::JointTrajectory& message);
+EffortCommand read_efforts(const CommandInputs& inputs, const std::string& topic,
+                           const sensor_msgs::JointState& message);
+EffortCommand read_efforts(const CommandInputs& inputs, const std::string& topic,
+                           const std_msgs::Float64MultiArray& message);
+SetpointCommand read_setpoint(const CommandInputs& inputs, const std::string& topic,
+                              std::size_t controller, const std_msgs::Float64& message);
+/// Without joints and points: every joint whose controller can follow trajectories holds its
+/// position.
+TrajectoryCommand read_trajectory(const CommandInputs& inputs, const std::string& topic,
+                                  const trajectory_msgs::JointTrajectory& message);
 
 /// Applies commands to a run, and ends efforts that are not renewed.
 class CommandedRun {
  public:
-  /// @param run must outlive this. @param timeout [s] of the run after which efforts are zero; 0: never
+  /// @param run must outlive this. @param timeout [s] of the run after which efforts are zero; 0:
+  /// never
   CommandedRun(InteractiveSimulation* run, double timeout) : run_(run), timeout_(timeout) {}
 
   /// Drops all commands, for a new run.
@@ -69,7 +76,8 @@ class CommandedRun {
     Status status;         ///< of InteractiveSimulation::apply()
     bool changed = false;  ///< whether the commands in effect have changed
   };
-  /// Applies the last command of each joint and controller in `commands`. @param frame the last frame, sampled at the present instant.
+  /// Applies the last command of each joint and controller in `commands`. @param frame the last
+  /// frame, sampled at the present instant.
   /// @param clock gives the time of a trajectory's stamp.
   Outcome apply(const std::vector<Command>& commands, const Frame& frame, const RunClock& clock);
   /// Whether a timeout has ended the efforts and no command has arrived since.

@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* kGroup = "Default";
 
-dynamic_reconfigure::Config config_by(const std::vector<Parameter>& parameters, const std::function<double(std::size_t)>& number) {
+dynamic_reconfigure::Config config_by(const std::vector<Parameter>& parameters,
+                                      const std::function<double(std::size_t)>& number) {
   dynamic_reconfigure::Config config;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     dynamic_reconfigure::DoubleParameter& entry = config.doubles.emplace_back();
@@ -27,33 +28,43 @@ dynamic_reconfigure::Config config_by(const std::vector<Parameter>& parameters, 
   return config;
 }
 
-void want(const std::vector<Parameter>& parameters, const std::string& name, double number, WantedParameters* wanted) {
-  const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& each) { return each.name == name; });
+void want(const std::vector<Parameter>& parameters, const std::string& name, double number,
+          WantedParameters* wanted) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const Parameter& each) { return each.name == name; });
   if (found == parameters.end()) {
     std::vector<std::string> known;
     for (const Parameter& each : parameters) known.push_back(each.name);
-    wanted->warnings.push_back({"parameter_refused", unknown_name({"set_parameters", 0}, name, "parameter", name, known).what(), {}});
+    wanted->warnings.push_back(
+        {"parameter_refused",
+         unknown_name({"set_parameters", 0}, name, "parameter", name, known).what(),
+         {}});
     return;
   }
   if (!std::isfinite(number)) {
-    wanted->warnings.push_back(
-        {"parameter_refused",
-         InputError({{"set_parameters", 0}, name, "not a finite number", to_decimal(number), "a finite number"}).what(),
-         {}});
+    wanted->warnings.push_back({"parameter_refused",
+                                InputError({{"set_parameters", 0},
+                                            name,
+                                            "not a finite number",
+                                            to_decimal(number),
+                                            "a finite number"})
+                                    .what(),
+                                {}});
     return;
   }
   double& value = wanted->values[to_index(found - parameters.begin())];
   value = std::clamp(number, found->lower, found->upper);
   if (value != number)
-    wanted->warnings.push_back(
-        {"parameter_bounded",
-         "set_parameters: " + name + " = " + to_decimal(number) + " is out of bounds and became " + to_decimal(value),
-         {}});
+    wanted->warnings.push_back({"parameter_bounded",
+                                "set_parameters: " + name + " = " + to_decimal(number) +
+                                    " is out of bounds and became " + to_decimal(value),
+                                {}});
 }
 
 }  // namespace
 
-dynamic_reconfigure::ConfigDescription describe_parameters(const std::vector<Parameter>& parameters) {
+dynamic_reconfigure::ConfigDescription describe_parameters(
+    const std::vector<Parameter>& parameters) {
   dynamic_reconfigure::ConfigDescription description;
   dynamic_reconfigure::Group& group = description.groups.emplace_back();
   group.name = kGroup;
@@ -61,7 +72,8 @@ dynamic_reconfigure::ConfigDescription describe_parameters(const std::vector<Par
     dynamic_reconfigure::ParamDescription& entry = group.parameters.emplace_back();
     entry.name = parameter.name;
     entry.type = "double";
-    entry.description = parameter.unit.empty() ? parameter.name : parameter.name + " [" + parameter.unit + "]";
+    entry.description =
+        parameter.unit.empty() ? parameter.name : parameter.name + " [" + parameter.unit + "]";
   }
   description.min = config_by(parameters, [&](std::size_t k) { return parameters[k].lower; });
   description.max = config_by(parameters, [&](std::size_t k) { return parameters[k].upper; });
@@ -69,27 +81,34 @@ dynamic_reconfigure::ConfigDescription describe_parameters(const std::vector<Par
   return description;
 }
 
-dynamic_reconfigure::Config config_of(const std::vector<Parameter>& parameters, const std::vector<double>& values) {
+dynamic_reconfigure::Config config_of(const std::vector<Parameter>& parameters,
+                                      const std::vector<double>& values) {
   return config_by(parameters, [&](std::size_t k) { return values[k]; });
 }
 
-WantedParameters wanted_parameters(const std::vector<Parameter>& parameters, const std::vector<double>& values,
+WantedParameters wanted_parameters(const std::vector<Parameter>& parameters,
+                                   const std::vector<double>& values,
                                    const dynamic_reconfigure::Config& request) {
   WantedParameters wanted{values, {}};
-  for (const dynamic_reconfigure::DoubleParameter& entry : request.doubles) want(parameters, entry.name, entry.value, &wanted);
-  for (const dynamic_reconfigure::IntParameter& entry : request.ints) want(parameters, entry.name, entry.value, &wanted);
+  for (const dynamic_reconfigure::DoubleParameter& entry : request.doubles)
+    want(parameters, entry.name, entry.value, &wanted);
+  for (const dynamic_reconfigure::IntParameter& entry : request.ints)
+    want(parameters, entry.name, entry.value, &wanted);
   return wanted;
 }
 
-LiveParameters::LiveParameters(ros::NodeHandle node, const std::vector<Parameter>& parameters, const std::vector<double>& values,
-                               NodeState* state, Bell* bell)
+LiveParameters::LiveParameters(ros::NodeHandle node, const std::vector<Parameter>& parameters,
+                               const std::vector<double>& values, NodeState* state, Bell* bell)
     : parameters_(parameters), state_(state), bell_(bell), values_(values) {
-  descriptions_ = node.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
+  descriptions_ =
+      node.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
   descriptions_.publish(describe_parameters(parameters_));
   updates_ = node.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   updates_.publish(config_of(parameters_, values_));
-  const boost::function<bool(dynamic_reconfigure::ReconfigureRequest&, dynamic_reconfigure::ReconfigureResponse&)> callback =
-      [this](dynamic_reconfigure::ReconfigureRequest& request, dynamic_reconfigure::ReconfigureResponse& response) {
+  const boost::function<bool(dynamic_reconfigure::ReconfigureRequest&,
+                             dynamic_reconfigure::ReconfigureResponse&)>
+      callback = [this](dynamic_reconfigure::ReconfigureRequest& request,
+                        dynamic_reconfigure::ReconfigureResponse& response) {
         response.config = set(request.config);
         return true;
       };
@@ -106,7 +125,8 @@ dynamic_reconfigure::Config LiveParameters::set(const dynamic_reconfigure::Confi
     answered_.wait(lock, [this] { return !wanted_ || stopped_; });
     if (!status_.ok())
       wanted.warnings.push_back({"parameter_refused",
-                                 "set_parameters: the values were refused, " + std::string(name_of(status_.code)) + ": " + reason(status_),
+                                 "set_parameters: the values were refused, " +
+                                     std::string(name_of(status_.code)) + ": " + reason(status_),
                                  {}});
   }
   state_->warn("live parameters", wanted.warnings);

@@ -4,9 +4,11 @@
 namespace codesign {
 namespace {
 
-/// Seconds from one instant of ROS time to another. ros::Duration throws beyond 68 years, and stamps of messages may be anything.
+/// Seconds from one instant of ROS time to another. ros::Duration throws beyond 68 years, and
+/// stamps of messages may be anything.
 double seconds_between(const ros::Time& from, const ros::Time& to) {
-  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec()));
+  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
+                                    static_cast<std::int64_t>(from.toNSec()));
 }
 
 }  // namespace
@@ -23,7 +25,8 @@ ros::Time RunClock::stamp(double time) const {
 }
 
 double RunClock::time_of(const ros::Time& stamp) const {
-  return is_free_running() ? seconds_between(ros::Time(offset_), stamp) : seconds_between(start_, stamp) * time_scale_;
+  return is_free_running() ? seconds_between(ros::Time(offset_), stamp)
+                           : seconds_between(start_, stamp) * time_scale_;
 }
 
 void RunClock::go_on_from(double time) {
@@ -39,7 +42,8 @@ bool RunClock::wait(double time, const std::function<bool()>& stop) const {
   const ros::WallDuration slice(0.1);
   while (!stop()) {
     if (is_free_running()) return true;
-    const ros::WallDuration left = wall_start_ + ros::WallDuration(time / time_scale_) - ros::WallTime::now();
+    const ros::WallDuration left =
+        wall_start_ + ros::WallDuration(time / time_scale_) - ros::WallTime::now();
     if (left <= ros::WallDuration(0.0)) return true;
     std::min(left, slice).sleep();
   }

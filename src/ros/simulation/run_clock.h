@@ -23,10 +23,12 @@ class Bell {
     condition_.notify_all();
   }
 
-  /// Returns once the bell has been rung since the last wait(), or after `seconds`. For one waiting thread.
+  /// Returns once the bell has been rung since the last wait(), or after `seconds`. For one waiting
+  /// thread.
   void wait(double seconds) {
     std::unique_lock<std::mutex> lock(mutex_);
-    condition_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return rung_ != heard_; });
+    condition_.wait_for(lock, std::chrono::duration<double>(seconds),
+                        [this] { return rung_ != heard_; });
     heard_ = rung_;
   }
 
@@ -38,8 +40,9 @@ class Bell {
 
 /// Determines when an instant of a run is due, and its stamp.
 ///
-/// Paced: `time_scale` seconds of the run pass in one second, and stamps are in ROS time. Free-running: nothing waits, and stamps are the
-/// accumulated time of all runs plus 1 s (ROS takes zero as "no time"), to be published on /clock.
+/// Paced: `time_scale` seconds of the run pass in one second, and stamps are in ROS time.
+/// Free-running: nothing waits, and stamps are the accumulated time of all runs plus 1 s (ROS takes
+/// zero as "no time"), to be published on /clock.
 class RunClock {
  public:
   /// @param time_scale seconds of the run per second, above zero; 0 for free-running.
@@ -47,11 +50,15 @@ class RunClock {
 
   bool is_free_running() const { return time_scale_ == 0.0; }
 
-  /// Starts a run. @param previous_duration time since the start of the previous run [s]; 0 for the first run.
+  /// Starts a run. @param previous_duration time since the start of the previous run [s]; 0 for the
+  /// first run.
   void start_run(double previous_duration);
 
-  /// Whether the stamps of a further run of `duration` [s] can be represented: ROS time ends at 2^32 s.
-  bool has_room_for(double duration) const { return !is_free_running() || offset_ + duration < 4.2e9; }
+  /// Whether the stamps of a further run of `duration` [s] can be represented: ROS time ends at
+  /// 2^32 s.
+  bool has_room_for(double duration) const {
+    return !is_free_running() || offset_ + duration < 4.2e9;
+  }
 
   /// Stamp of `time` [s] in this run.
   ros::Time stamp(double time) const;
@@ -99,7 +106,8 @@ class RealTimeFactor {
     start_ = last_wall_ = now;
   }
 
-  /// Notes that the run has reached `time` [s]. Returns whether value() is new, at most twice a second.
+  /// Notes that the run has reached `time` [s]. Returns whether value() is new, at most twice a
+  /// second.
   bool note(double time, const ros::WallTime& now) {
     const double seconds = (now - last_wall_).toSec();
     if (seconds < 0.5) return false;
@@ -113,7 +121,9 @@ class RealTimeFactor {
   double value() const { return value_; }
 
   /// The factor over the run so far. @param time reached by the run [s].
-  double mean(double time, const ros::WallTime& now) const { return time / std::max((now - start_).toSec(), 1e-9); }
+  double mean(double time, const ros::WallTime& now) const {
+    return time / std::max((now - start_).toSec(), 1e-9);
+  }
 
  private:
   ros::WallTime start_, last_wall_;

@@ -87,7 +87,9 @@ bool RunControl::wants_restart() const {
   return restart_;
 }
 
-std_srvs::TriggerResponse RunControl::refusal() const { return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins anew"); }
+std_srvs::TriggerResponse RunControl::refusal() const {
+  return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins anew");
+}
 
 // Answered when the run stands: the frame that is computed meanwhile is still published.
 std_srvs::TriggerResponse RunControl::pause() {
@@ -100,7 +102,8 @@ std_srvs::TriggerResponse RunControl::pause() {
   changed_.wait(lock, [this] { return stands_ || !paused_ || !running_ || stopped_; });
   if (stopped_ || !running_) return refusal();
   const std::string time = "t = " + to_decimal(time_) + " s";
-  return paused_ ? trigger_reply(true, "paused after " + time) : trigger_reply(false, "another request has resumed the run at " + time);
+  return paused_ ? trigger_reply(true, "paused after " + time)
+                 : trigger_reply(false, "another request has resumed the run at " + time);
 }
 
 std_srvs::TriggerResponse RunControl::resume() {
@@ -117,7 +120,8 @@ std_srvs::TriggerResponse RunControl::step() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (stopped_ || !running_) return refusal();
   if (steps_left_ > 0) return trigger_reply(false, "another ~step has not ended");
-  // A frame that is on its way, such as the first of a run, is none of those that this request asks for.
+  // A frame that is on its way, such as the first of a run, is none of those that this request asks
+  // for.
   changed_.wait(lock, [this] { return stands_ || !paused_ || !running_ || stopped_; });
   if (stopped_ || !running_) return refusal();
   if (!paused_) return trigger_reply(false, "the run is not paused; call ~pause first");
@@ -125,10 +129,14 @@ std_srvs::TriggerResponse RunControl::step() {
   stands_ = false;
   const std::uint64_t run = runs_;
   bell_->ring();
-  changed_.wait(lock, [&] { return steps_left_ == 0 || !paused_ || !running_ || stopped_ || restart_ || runs_ != run; });
+  changed_.wait(lock, [&] {
+    return steps_left_ == 0 || !paused_ || !running_ || stopped_ || restart_ || runs_ != run;
+  });
   const bool done = paused_ && runs_ == run && !stopped_ && !restart_ && steps_left_ == 0;
   if (!running_) steps_left_ = 0;
-  return trigger_reply(done, "t = " + to_decimal(time_) + " s" + (done ? "" : ": " + (running_ ? "the step was interrupted" : why_)));
+  return trigger_reply(done,
+                       "t = " + to_decimal(time_) + " s" +
+                           (done ? "" : ": " + (running_ ? "the step was interrupted" : why_)));
 }
 
 std_srvs::TriggerResponse RunControl::restart() {

@@ -15,8 +15,9 @@
 
 namespace codesign {
 
-/// The services ~pause, ~resume, ~step and ~restart of the simulation, doc/ros_api.md. They wait for the run, so that their callbacks need
-/// another thread than the callbacks of topics. Thread-safe.
+/// The services ~pause, ~resume, ~step and ~restart of the simulation, doc/ros_api.md. They wait
+/// for the run, so that their callbacks need another thread than the callbacks of topics.
+/// Thread-safe.
 class RunControl {
  public:
   /// @param bell rung for each request
@@ -25,7 +26,8 @@ class RunControl {
   /// Offers the services below `node`, whose callback queue serves them.
   void advertise(ros::NodeHandle node);
 
-  /// @param paused whether runs pause after their first frame. @param step_frames number of frames of a ~step
+  /// @param paused whether runs pause after their first frame. @param step_frames number of frames
+  /// of a ~step
   void configure(bool paused, std::int64_t step_frames);
 
   // The thread of the run calls these.
@@ -34,14 +36,17 @@ class RunControl {
   void begin_run();
   /// To be called when a frame was published, at `time` [s] of the run.
   void note_frame(double time);
-  /// To be called when the run has ended; requests other than ~restart are then refused with this sentence.
+  /// To be called when the run has ended; requests other than ~restart are then refused with this
+  /// sentence.
   void end_run(const std::string& why);
-  /// To be called when no run will follow: ends all waits, and refuses each request with this sentence.
+  /// To be called when no run will follow: ends all waits, and refuses each request with this
+  /// sentence.
   void stop(const std::string& why = "the node ends");
 
   /// Whether the run is paused after the last frame.
   bool is_paused() const;
-  /// As is_paused(), to be called by the thread of the run, which then does not go on: answers a waiting ~pause.
+  /// As is_paused(), to be called by the thread of the run, which then does not go on: answers a
+  /// waiting ~pause.
   bool stand_if_paused();
   /// Whether ~restart waits for a new run.
   bool wants_restart() const;

@@ -37,18 +37,23 @@ FrameNumbers::FrameNumbers(const FrameNames& names) {
     texts.insert(text);
     const std::string legal = legal_name(text);
     std::string topic = legal;
-    for (int suffix = 2; !taken.insert(topic).second; ++suffix) topic = legal + "_" + std::to_string(suffix);
+    for (int suffix = 2; !taken.insert(topic).second; ++suffix)
+      topic = legal + "_" + std::to_string(suffix);
     topics.push_back(topic);
     read.push_back(number);
   };
-  const auto add_all = [&add](const std::vector<std::string>& objects, std::size_t count, auto samples, const auto& quantities) {
+  const auto add_all = [&add](const std::vector<std::string>& objects, std::size_t count,
+                              auto samples, const auto& quantities) {
     for (std::size_t k = 0; k < count; ++k)
       for (const auto& [quantity, member] : quantities)
-        add(objects[k] + "/" + quantity, [k, samples, member = member](const Frame& frame) { return (frame.*samples)[k].*member; });
+        add(objects[k] + "/" + quantity, [k, samples, member = member](const Frame& frame) {
+          return (frame.*samples)[k].*member;
+        });
   };
   add_all(names.joints, names.tree_joints, &Frame::joints,
-          Quantities<JointSample>{
-              {"position", &JointSample::position}, {"velocity", &JointSample::velocity}, {"effort", &JointSample::effort}});
+          Quantities<JointSample>{{"position", &JointSample::position},
+                                  {"velocity", &JointSample::velocity},
+                                  {"effort", &JointSample::effort}});
   add_all(names.frictions, names.frictions.size(), &Frame::frictions,
           Quantities<FrictionSample>{{"friction", &FrictionSample::friction},
                                      {"normal_force", &FrictionSample::normal_force},
@@ -60,11 +65,14 @@ FrameNumbers::FrameNumbers(const FrameNames& names) {
                                        {"integral", &ControllerSample::integral},
                                        {"output", &ControllerSample::output}});
   for (std::size_t k = 0; k < names.signals.size(); ++k)
-    if (texts.count(names.signals[k]) == 0) add(names.signals[k], [k](const Frame& frame) { return frame.signals[k]; });
+    if (texts.count(names.signals[k]) == 0)
+      add(names.signals[k], [k](const Frame& frame) { return frame.signals[k]; });
 }
 
-FloatTopics::FloatTopics(ros::NodeHandle node, const FrameNames& names, std::uint32_t queue) : numbers_(names) {
-  for (const std::string& topic : numbers_.topics) publishers_.push_back(node.advertise<std_msgs::Float64>("signals/" + topic, queue));
+FloatTopics::FloatTopics(ros::NodeHandle node, const FrameNames& names, std::uint32_t queue)
+    : numbers_(names) {
+  for (const std::string& topic : numbers_.topics)
+    publishers_.push_back(node.advertise<std_msgs::Float64>("signals/" + topic, queue));
 }
 
 void FloatTopics::publish(const Frame& frame) const {
@@ -75,17 +83,19 @@ void FloatTopics::publish(const Frame& frame) const {
   }
 }
 
-SimulationScene::SimulationScene(const Problem& problem, const std::string& urdf, const MarkerStyle& given,
-                                 const std::function<bool()>& stop)
+SimulationScene::SimulationScene(const Problem& problem, const std::string& urdf,
+                                 const MarkerStyle& given, const std::function<bool()>& stop)
     : has_objective_(!problem.study().integral.empty()) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
-  const RecordedRun run = record_run(problem.system(), problem.parameters(), kInstants / problem.study().duration,
-                                     [&] { return stop() || ros::WallTime::now() > end; });
+  const RecordedRun run =
+      record_run(problem.system(), problem.parameters(), kInstants / problem.study().duration,
+                 [&] { return stop() || ros::WallTime::now() > end; });
   const auto solids = std::make_shared<LinkBoxes>(link_boxes(urdf, run.names.links));
   layout_ = lay_out({{run.names, run.frames, solids}});
   layout_.style.solids = solids;
   // With a scale of the user's own, lengths are what the user has chosen.
-  if (given.metres_per_newton > 0.0 || given.metres_per_newton_metre > 0.0) layout_.style.longest = MarkerStyle().longest;
+  if (given.metres_per_newton > 0.0 || given.metres_per_newton_metre > 0.0)
+    layout_.style.longest = MarkerStyle().longest;
   replace_if_given(given.metres_per_newton, &layout_.style.metres_per_newton);
   replace_if_given(given.metres_per_newton_metre, &layout_.style.metres_per_newton_metre);
   replace_if_given(given.shaft_diameter, &layout_.style.shaft_diameter);
@@ -99,7 +109,8 @@ mechanism_codesign::Scene SimulationScene::message(const MessageContext& context
   return scene;
 }
 
-visualization_msgs::MarkerArray SimulationScene::text(const Frame& frame, const MessageContext& context) const {
+visualization_msgs::MarkerArray SimulationScene::text(const Frame& frame,
+                                                      const MessageContext& context) const {
   std::string first = "t = " + readable(frame.time, 4) + " s";
   if (has_objective_) first += ", objective so far " + readable(frame.objective, 4);
   std::vector<CaptionLine> lines{plain_line(first)};
@@ -118,8 +129,8 @@ void RunBag::guard(const Write& write) {
   }
 }
 
-void RunBag::open(const std::string& description, const std::string& root_frame, const std::vector<std::size_t>& link_parents,
-                  const SimulationScene& scene) {
+void RunBag::open(const std::string& description, const std::string& root_frame,
+                  const std::vector<std::size_t>& link_parents, const SimulationScene& scene) {
   if (options_.bag.empty()) return;
   link_parents_ = link_parents;
   guard([&] {
@@ -137,7 +148,8 @@ std::optional<LockFile> RunBag::lock() const {
   std::optional<LockFile> abandoned = LockFile::take_abandoned(path);
   if (!abandoned) return LockFile::create(path);
   std::error_code error;
-  if (std::filesystem::remove(options_.bag + ".active", error)) ROS_WARN_STREAM("a node was killed: removed " << options_.bag << ".active");
+  if (std::filesystem::remove(options_.bag + ".active", error))
+    ROS_WARN_STREAM("a node was killed: removed " << options_.bag << ".active");
   return abandoned;
 }
 
@@ -145,8 +157,12 @@ void RunBag::record(const FrameNames& names, const Frame& frame, const Simulatio
   if (!bag_) return;
   guard([&] {
     bag_->write_frame("", options_.frame_prefix + names.links[0], names, frame, options_.style);
-    bag_->write("caption", frame.time, scene.text(frame, {BagWriter::stamp(frame.time), options_.frame_prefix + names.links[0]}));
-    bag_->write("tf", frame.time, link_transforms(names, link_parents_, frame, BagWriter::stamp(frame.time), options_.frame_prefix));
+    bag_->write(
+        "caption", frame.time,
+        scene.text(frame, {BagWriter::stamp(frame.time), options_.frame_prefix + names.links[0]}));
+    bag_->write("tf", frame.time,
+                link_transforms(names, link_parents_, frame, BagWriter::stamp(frame.time),
+                                options_.frame_prefix));
   });
 }
 

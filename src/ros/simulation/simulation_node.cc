@@ -29,9 +29,11 @@ namespace {
 constexpr std::uint32_t kQueueSize = 100;
 /// In the mode as_fast_as_possible, a subscriber that is slow for a second must not lose frames.
 constexpr std::uint32_t kLongQueueSize = 1000;
-/// [s] A recorder subscribes to its topics one after the other; the run begins when no connection has been made for so long.
+/// [s] A recorder subscribes to its topics one after the other; the run begins when no connection
+/// has been made for so long.
 constexpr double kSettling = 0.5;
-/// Threads for services that wait for the run: one for ~step, one for a change of parameters, and one for a request that interrupts them.
+/// Threads for services that wait for the run: one for ~step, one for a change of parameters, and
+/// one for a request that interrupts them.
 constexpr std::uint32_t kServiceThreads = 3;
 
 std::vector<std::string> all_parameters() {
@@ -50,7 +52,8 @@ std::set<std::string> nodes_of(XmlRpc::XmlRpcValue& topics, const std::vector<st
   return nodes;
 }
 
-/// The number of nodes that subscribe to a topic and publish TF, as robot_state_publisher does: they show the run, and do not record it.
+/// The number of nodes that subscribe to a topic and publish TF, as robot_state_publisher does:
+/// they show the run, and do not record it.
 std::uint32_t transformers_of(const std::string& topic) {
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();
@@ -58,7 +61,8 @@ std::uint32_t transformers_of(const std::string& topic) {
   const std::set<std::string> transformers = nodes_of(state[0], {"/tf", "/tf_static"});
   const std::set<std::string> subscribers = nodes_of(state[1], {topic});
   return static_cast<std::uint32_t>(
-      std::count_if(subscribers.begin(), subscribers.end(), [&](const std::string& node) { return transformers.count(node) > 0; }));
+      std::count_if(subscribers.begin(), subscribers.end(),
+                    [&](const std::string& node) { return transformers.count(node) > 0; }));
 }
 
 ros::NodeHandle with_queue(ros::NodeHandle node, ros::CallbackQueue* queue) {
@@ -78,7 +82,9 @@ CommandOptions command_options(const SimulationOptions& options) {
 }  // namespace
 
 SimulationNode::SimulationNode()
-    : service_node_(with_queue(ros::NodeHandle("~"), &waiting_services_)), state_("simulation"), control_(&bell_) {
+    : service_node_(with_queue(ros::NodeHandle("~"), &waiting_services_)),
+      state_("simulation"),
+      control_(&bell_) {
   control_.advertise(service_node_);
   spinner_ = std::make_unique<ros::AsyncSpinner>(kServiceThreads, &waiting_services_);
   spinner_->start();
@@ -109,7 +115,8 @@ void SimulationNode::load() {
   pace_ = Pace(options_.publish_limit);
   const Inputs inputs = read_inputs(node_, private_node_);
   problem_ = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
-  simulation_ = std::make_unique<InteractiveSimulation>(*problem_->system(), command_options(options_), signals_of(problem_->study()));
+  simulation_ = std::make_unique<InteractiveSimulation>(
+      *problem_->system(), command_options(options_), signals_of(problem_->study()));
   check_duration(private_node_, options_, simulation_->duration());
   link_parents_ = link_parents(problem_->robot());
   commanded_.emplace(simulation_.get(), options_.command_timeout);
@@ -126,13 +133,17 @@ void SimulationNode::advertise() {
   FrameMessages({}, {}, {}, {}).visit([&](const std::string& topic, const auto& message) {
     publishers_[topic] = node_.advertise<std::decay_t<decltype(message)>>(topic, size);
   });
-  if (clock_.is_free_running()) clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
+  if (clock_.is_free_running())
+    clock_publisher_ = node_.advertise<rosgraph_msgs::Clock>("/clock", size);
   description_publisher_ = node_.advertise<std_msgs::String>("robot_description", 1, true);
   commands_publisher_ = node_.advertise<mechanism_codesign::Commands>("commands", size, true);
   factor_publisher_ = private_node_.advertise<std_msgs::Float64>("real_time_factor", size);
-  if (options_.float_topics) floats_ = std::make_unique<FloatTopics>(node_, simulation_->names(), size);
-  inbox_ = std::make_unique<CommandInbox>(node_, private_node_, simulation_->inputs(), &state_, &bell_);
-  live_ = std::make_unique<LiveParameters>(service_node_, problem_->all_parameters(), simulation_->parameters(), &state_, &bell_);
+  if (options_.float_topics)
+    floats_ = std::make_unique<FloatTopics>(node_, simulation_->names(), size);
+  inbox_ =
+      std::make_unique<CommandInbox>(node_, private_node_, simulation_->inputs(), &state_, &bell_);
+  live_ = std::make_unique<LiveParameters>(service_node_, problem_->all_parameters(),
+                                           simulation_->parameters(), &state_, &bell_);
   caption_publisher_ = node_.advertise<visualization_msgs::MarkerArray>("caption", size);
   scene_publisher_ = node_.advertise<mechanism_codesign::Scene>("scene", 1, true);
 }
@@ -140,7 +151,8 @@ void SimulationNode::advertise() {
 void SimulationNode::tell_description() {
   std_msgs::String message;
   const std::string urdf =
-      write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters(), std::nullopt, problem_->robot().laws);
+      write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters(),
+                       std::nullopt, problem_->robot().laws);
   message.data = with_sticks(urdf);
   if (message.data == description_) return;
   description_ = message.data;
@@ -149,7 +161,8 @@ void SimulationNode::tell_description() {
 }
 
 MessageContext SimulationNode::context(double time) const {
-  return {clock_.stamp(time), options_.frame_prefix + problem_->robot().links[to_index(problem_->robot().root)].name};
+  return {clock_.stamp(time),
+          options_.frame_prefix + problem_->robot().links[to_index(problem_->robot().root)].name};
 }
 
 void SimulationNode::set_scene() {
@@ -172,10 +185,12 @@ void SimulationNode::wait_for_subscribers() {
   if (options_.wait_for_subscribers.empty()) return;
   const auto is_heard = [this](const std::string& topic) {
     const ros::Publisher& publisher = publishers_.at(topic);
-    return publisher.getNumSubscribers() > 0 && publisher.getNumSubscribers() > transformers_of(publisher.getTopic());
+    return publisher.getNumSubscribers() > 0 &&
+           publisher.getNumSubscribers() > transformers_of(publisher.getTopic());
   };
   const std::vector<std::string>& topics = options_.wait_for_subscribers;
-  state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics) + ", robot_state_publisher not counted");
+  state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics) +
+                                        ", robot_state_publisher not counted");
   std::uint32_t connections = 0;
   ros::WallTime since;
   while (!stopping()) {
@@ -192,14 +207,16 @@ void SimulationNode::wait_for_subscribers() {
 }
 
 std::uint32_t SimulationNode::subscriptions() const {
-  std::uint32_t count = caption_publisher_.getNumSubscribers() + commands_publisher_.getNumSubscribers();
+  std::uint32_t count =
+      caption_publisher_.getNumSubscribers() + commands_publisher_.getNumSubscribers();
   if (clock_.is_free_running()) count += clock_publisher_.getNumSubscribers();
   for (const auto& [topic, publisher] : publishers_) count += publisher.getNumSubscribers();
   return count;
 }
 
 bool SimulationNode::is_watched() const {
-  return std::any_of(publishers_.begin(), publishers_.end(), [](const auto& entry) { return entry.second.getNumSubscribers() > 0; });
+  return std::any_of(publishers_.begin(), publishers_.end(),
+                     [](const auto& entry) { return entry.second.getNumSubscribers() > 0; });
 }
 
 void SimulationNode::publish_clock(double time) {
@@ -214,14 +231,16 @@ void SimulationNode::publish(const FrameNames& names, const Frame& frame) {
     if (is_watched()) pace_.wait(ros::WallTime::now()).sleep();
     publish_clock(frame.time);
   }
-  FrameMessages(names, frame, context, options_.style).visit([this](const std::string& topic, const auto& message) {
-    publishers_.at(topic).publish(message);
-  });
+  FrameMessages(names, frame, context, options_.style)
+      .visit([this](const std::string& topic, const auto& message) {
+        publishers_.at(topic).publish(message);
+      });
   if (floats_) floats_->publish(frame);
   caption_publisher_.publish(scene_->text(frame, context));
-  const tf2_msgs::TFMessage poses = options_.frame_prefix.empty()
-                                        ? free_link_transforms(names, frame, context)
-                                        : link_transforms(names, link_parents_, frame, context.stamp, options_.frame_prefix);
+  const tf2_msgs::TFMessage poses =
+      options_.frame_prefix.empty()
+          ? free_link_transforms(names, frame, context)
+          : link_transforms(names, link_parents_, frame, context.stamp, options_.frame_prefix);
   if (!poses.transforms.empty()) transforms_.sendTransform(poses.transforms);
 }
 

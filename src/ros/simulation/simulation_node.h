@@ -28,10 +28,12 @@
 
 namespace codesign {
 
-/// The node `simulation`: runs the loaded study, publishes it, and takes commands as a robot does. See doc/ros_api.md.
+/// The node `simulation`: runs the loaded study, publishes it, and takes commands as a robot does.
+/// See doc/ros_api.md.
 ///
-/// The computation has its own thread. Services that wait for it are served by threads of their own, so that commands arrive meanwhile.
-/// After bad input or a numerical failure the node stays up and reports it on /diagnostics.
+/// The computation has its own thread. Services that wait for it are served by threads of their
+/// own, so that commands arrive meanwhile. After bad input or a numerical failure the node stays up
+/// and reports it on /diagnostics.
 class SimulationNode {
  public:
   SimulationNode();
@@ -53,10 +55,12 @@ class SimulationNode {
   // The thread of the run, simulation_run.cc.
   void run();
   void run_all();
-  /// Runs the study once, from 0 to its duration. The status is ok unless the run failed or was stopped.
+  /// Runs the study once, from 0 to its duration. The status is ok unless the run failed or was
+  /// stopped.
   Status run_once();
   Status run_frames();
-  /// Applies commands and parameters at the instant of the last frame, and waits there while the run is paused or a command is awaited.
+  /// Applies commands and parameters at the instant of the last frame, and waits there while the
+  /// run is paused or a command is awaited.
   Status serve();
   /// Between runs: tries parameters for the next run.
   void serve_idle();
@@ -97,7 +101,8 @@ class SimulationNode {
   std::size_t limits_told_ = 0;            ///< number of its crossings that are warned of
   std::vector<std::size_t> link_parents_;  ///< as link_parents() finds them
   std::map<std::string, ros::Publisher> publishers_;
-  ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_, caption_publisher_, scene_publisher_;
+  ros::Publisher clock_publisher_, description_publisher_, commands_publisher_, factor_publisher_,
+      caption_publisher_, scene_publisher_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   RunBag bag_{options_, &state_};

@@ -21,7 +21,8 @@ constexpr double kMostStepFrames = 1e9;
 using Node = ros::NodeHandle;
 
 /// Reads a private parameter into the options.
-using Read = std::function<void(const Node& node, const std::string& name, SimulationOptions* options)>;
+using Read =
+    std::function<void(const Node& node, const std::string& name, SimulationOptions* options)>;
 
 /// A private parameter: its name and the function that reads it.
 struct Entry {
@@ -60,7 +61,8 @@ void read_mode(const Node& node, const std::string& name, SimulationOptions* opt
   if (mode == "as_fast_as_possible")
     options->time_scale = 0.0;
   else if (mode != "real_time")
-    throw unknown_name({node.resolveName(name), 0}, name, "mode", mode, {"real_time", "as_fast_as_possible"});
+    throw unknown_name({node.resolveName(name), 0}, name, "mode", mode,
+                       {"real_time", "as_fast_as_possible"});
 }
 
 Read flag(bool SimulationOptions::*field) {
@@ -70,27 +72,34 @@ Read flag(bool SimulationOptions::*field) {
 }
 
 Read texts(std::vector<std::string> SimulationOptions::*field) {
-  return [field](const Node& node, const std::string& name, SimulationOptions* options) { options->*field = read_names(node, name); };
+  return [field](const Node& node, const std::string& name, SimulationOptions* options) {
+    options->*field = read_names(node, name);
+  };
 }
 
 void read_step_frames(const Node& node, const std::string& name, SimulationOptions* options) {
   const double frames = read_positive(node, name, options->step_frames, kMostStepFrames);
-  if (frames != std::floor(frames)) refuse_parameter(node, name, "not a whole number", frames, "1, 2, 3, ...");
+  if (frames != std::floor(frames))
+    refuse_parameter(node, name, "not a whole number", frames, "1, 2, 3, ...");
   options->step_frames = frames;
 }
 
 void read_frame_prefix(const Node& node, const std::string& name, SimulationOptions* options) {
   options->frame_prefix = read_text(node, name, "");
   if (!options->frame_prefix.empty() && options->frame_prefix[0] == '/')
-    refuse_parameter(node, name, "TF frames must not begin with a slash", options->frame_prefix, "a text such as left/");
+    refuse_parameter(node, name, "TF frames must not begin with a slash", options->frame_prefix,
+                     "a text such as left/");
 }
 
 void read_topics(const Node& node, const std::string& name, SimulationOptions* options) {
   std::vector<std::string> known;
-  FrameMessages({}, {}, {}, {}).visit([&known](const std::string& topic, const auto&) { known.push_back(topic); });
+  FrameMessages({}, {}, {}, {}).visit([&known](const std::string& topic, const auto&) {
+    known.push_back(topic);
+  });
   options->wait_for_subscribers = read_names(node, name);
   for (const std::string& topic : options->wait_for_subscribers)
-    if (std::count(known.begin(), known.end(), topic) == 0) throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, known);
+    if (std::count(known.begin(), known.end(), topic) == 0)
+      throw unknown_name({node.resolveName(name), 0}, name, "topic", topic, known);
 }
 
 /// In the order of reading: `mode` comes after `time_scale`, since it overrides `time_scale`.
@@ -110,13 +119,17 @@ const std::vector<Entry>& entries() {
       {"step_frames", read_step_frames},
       {"float_topics", flag(&SimulationOptions::float_topics)},
       {"world_frame",
-       [](const Node& node, const std::string& name, SimulationOptions* options) { options->world_frame = read_text(node, name, ""); }},
+       [](const Node& node, const std::string& name, SimulationOptions* options) {
+         options->world_frame = read_text(node, name, "");
+       }},
       {"frame_prefix", read_frame_prefix},
       {"force_scale", positive(&MarkerStyle::metres_per_newton)},
       {"torque_scale", positive(&MarkerStyle::metres_per_newton_metre)},
       {"arrow_width", positive(&MarkerStyle::shaft_diameter)},
       {"wait_for_subscribers", read_topics},
-      {"bag", [](const Node& node, const std::string& name, SimulationOptions* options) { options->bag = read_path(node, name, ""); }}};
+      {"bag", [](const Node& node, const std::string& name, SimulationOptions* options) {
+         options->bag = read_path(node, name, "");
+       }}};
   return kEntries;
 }
 
@@ -134,9 +147,11 @@ SimulationOptions read_simulation_options(const ros::NodeHandle& private_node) {
   return options;
 }
 
-void check_duration(const ros::NodeHandle& private_node, const SimulationOptions& options, double duration) {
+void check_duration(const ros::NodeHandle& private_node, const SimulationOptions& options,
+                    double duration) {
   const bool is_paced = options.time_scale > 0.0;
-  if (duration <= kLongestRun && (!is_paced || duration / options.time_scale <= kLongestRun)) return;
+  if (duration <= kLongestRun && (!is_paced || duration / options.time_scale <= kLongestRun))
+    return;
   const std::string key = duration > kLongestRun ? "study/duration" : "time_scale";
   throw InputError({{private_node.resolveName(key), 0},
                     key,

@@ -16,7 +16,8 @@ constexpr double kLook = 0.1;  // [s] between two checks whether a wait must end
 /// How a study enforces a limit of the URDF; that of a velocity it cannot enforce.
 std::string remedy(const std::string& limit) {
   if (limit == "velocity") return "";
-  return "; the study enforces it with limits: {" + std::string(limit == "effort" ? "effort" : "position") + ": true}";
+  return "; the study enforces it with limits: {" +
+         std::string(limit == "effort" ? "effort" : "position") + ": true}";
 }
 
 }  // namespace
@@ -56,7 +57,8 @@ void SimulationNode::run_all() {
     previous_duration = frame_.time + 1.0 / options_.rate;
     if (stopping()) return;
     if (control_.wants_restart() || (status.ok() && options_.loop)) continue;
-    const std::string why = status.ok() ? "finished " + problem_->robot().name : std::string(name_of(status.code)) + ": " + reason(status);
+    const std::string why = status.ok() ? "finished " + problem_->robot().name
+                                        : std::string(name_of(status.code)) + ": " + reason(status);
     state_.set(status.ok() ? NodeState::Level::kOk : NodeState::Level::kError, why);
     wait_for_restart(why);
   }
@@ -91,7 +93,8 @@ Status SimulationNode::run_once() {
   watch_limits();
   control_.begin_run();
   Status status = run_frames();
-  state_.show("real-time factor of the run", std::to_string(factor_.mean(frame_.time, ros::WallTime::now())));
+  state_.show("real-time factor of the run",
+              std::to_string(factor_.mean(frame_.time, ros::WallTime::now())));
   tell_figures(simulation_->statistics());
   state_.warn("run", simulation_->warnings());
   return status;
@@ -101,7 +104,9 @@ Status SimulationNode::run_frames() {
   simulation_->obey(control_.leaving());
   Status status = simulation_->start(simulation_->parameters());
   const double duration = simulation_->duration();
-  const auto instant = [&](std::int64_t k) { return std::min(static_cast<double>(k) / options_.rate, duration); };
+  const auto instant = [&](std::int64_t k) {
+    return std::min(static_cast<double>(k) / options_.rate, duration);
+  };
   if (status.ok()) {
     simulation_->sample(0.0, &frame_);
     tell_commands();
@@ -130,10 +135,13 @@ Status SimulationNode::serve() {
   bool has_waited = false;
   for (;;) {
     // Read before commands are taken: a command that arrives in between is taken in the next round.
-    const bool goes_on = !control_.stand_if_paused() && (!options_.lock_step || inbox_->is_answered());
+    const bool goes_on =
+        !control_.stand_if_paused() && (!options_.lock_step || inbox_->is_answered());
     const CommandedRun::Outcome outcome = commanded_->apply(inbox_->take(), frame_, clock_);
     if (!outcome.status.ok()) return outcome.status;
-    const bool other_values = live_->serve([this](const std::vector<double>& values) { return simulation_->change(frame_.time, values); });
+    const bool other_values = live_->serve([this](const std::vector<double>& values) {
+      return simulation_->change(frame_.time, values);
+    });
     if (outcome.changed) tell_commands();
     if (other_values) tell_description();
     if (other_values) watch_limits();
@@ -149,8 +157,10 @@ Status SimulationNode::serve() {
   }
   if (!has_waited) return {};
   state_.show("waits for", "nothing");
-  // After a shorter wait, such as for the answer of a fast controller, the due time of the next frame does not change.
-  if (ros::WallTime::now() - begun > ros::WallDuration(1.0 / options_.rate)) clock_.go_on_from(frame_.time);
+  // After a shorter wait, such as for the answer of a fast controller, the due time of the next
+  // frame does not change.
+  if (ros::WallTime::now() - begun > ros::WallDuration(1.0 / options_.rate))
+    clock_.go_on_from(frame_.time);
   return {};
 }
 
@@ -176,7 +186,8 @@ void SimulationNode::note_limits() {
   Warnings warnings;
   for (const LimitCrossing& crossing : crossings)
     warnings.push_back({"limits_exceeded",
-                        "joint '" + crossing.joint + "' exceeds its " + crossing.limit + " limit " + to_decimal(crossing.bound) +
+                        "joint '" + crossing.joint + "' exceeds its " + crossing.limit + " limit " +
+                            to_decimal(crossing.bound) +
                             "; /diagnostics shows since when and how far" + remedy(crossing.limit),
                         {}});
   state_.warn("limits", warnings);
@@ -188,10 +199,11 @@ void SimulationNode::tell_commands() {
   commands.header.stamp = clock_.stamp(frame_.time);
   commands_publisher_.publish(commands);
   if (!commanded_->is_timed_out()) return state_.warn("command timeout", {});
-  state_.warn("command timeout", {{"command_timeout",
-                                   "no effort was commanded for " + to_decimal(options_.command_timeout) +
-                                       " s (~command_timeout): all commanded efforts are zero until the next one",
-                                   {}}});
+  state_.warn("command timeout",
+              {{"command_timeout",
+                "no effort was commanded for " + to_decimal(options_.command_timeout) +
+                    " s (~command_timeout): all commanded efforts are zero until the next one",
+                {}}});
 }
 
 void SimulationNode::tell_figures(const Statistics& statistics) {

@@ -33,24 +33,31 @@ struct PageCheck {
     left.erase(row);
     return found;
   }
-  void operator()(const std::string& key, bool& option) const { EXPECT_EQ(claim(key).standard, option ? "true" : "false") << key; }
+  void operator()(const std::string& key, bool& option) const {
+    EXPECT_EQ(claim(key).standard, option ? "true" : "false") << key;
+  }
   /// For a default of zero the page may have words, such as "chosen" or "4 · `starts`".
   template <class Number>
   void operator()(const std::string& key, const OptionRange& range, Number& option) const {
     const PageOption row = claim(key);
     const bool is_formula = row.standard.find('`') != std::string::npos;
-    const std::optional<double> number = parse_number(row.standard.substr(0, row.standard.find_first_of(" :")));
-    EXPECT_EQ(is_formula ? 0.0 : number.value_or(0.0), static_cast<double>(option)) << block << "." << key;
+    const std::optional<double> number =
+        parse_number(row.standard.substr(0, row.standard.find_first_of(" :")));
+    EXPECT_EQ(is_formula ? 0.0 : number.value_or(0.0), static_cast<double>(option))
+        << block << "." << key;
     if (row.sentence.rfind("as in ", 0) == 0) return;
     for (const double bound : {range.least, range.most}) {
       const bool is_said = bound == 0.0 || bound == 1.0 || bound >= std::numeric_limits<int>::max();
-      const std::string text =
-          bound < 1.0 ? std::regex_replace(to_decimal(bound), std::regex("e-0"), "e-") : split_at(std::to_string(bound), "\\.")[0];
-      EXPECT_TRUE(is_said || row.sentence.find(text) != std::string::npos) << block << "." << key << ": " << text;
+      const std::string text = bound < 1.0
+                                   ? std::regex_replace(to_decimal(bound), std::regex("e-0"), "e-")
+                                   : split_at(std::to_string(bound), "\\.")[0];
+      EXPECT_TRUE(is_said || row.sentence.find(text) != std::string::npos)
+          << block << "." << key << ": " << text;
     }
   }
   template <class Option, std::size_t N>
-  void operator()(const std::string& key, const std::array<const char*, N>& names, Option& option) const {
+  void operator()(const std::string& key, const std::array<const char*, N>& names,
+                  Option& option) const {
     const PageOption row = claim(key);
     std::string standard;
     if constexpr (std::is_enum_v<Option>)
@@ -60,7 +67,8 @@ struct PageCheck {
     EXPECT_EQ(row.standard.rfind("`" + standard + "`", 0), 0U) << block << "." << key;
     if (row.sentence.rfind("as in ", 0) == 0) return;
     for (const char* name : names)
-      EXPECT_NE(row.sentence.find("`" + std::string(name) + "`"), std::string::npos) << block << "." << key << ": " << name;
+      EXPECT_NE(row.sentence.find("`" + std::string(name) + "`"), std::string::npos)
+          << block << "." << key << ": " << name;
   }
 };
 
@@ -71,11 +79,13 @@ void expect_on_page(const std::string& block, const std::vector<std::string>& ot
   std::map<std::string, PageOption> left;
   for (const PageRow& row : page_rows("study.md", 2))
     for (std::size_t k = 0; k < row.keys.size(); ++k)
-      if (row.keys[k].rfind(prefix, 0) == 0) left.emplace(row.keys[k], PageOption{row.cells[0], row.part(1, k)});
+      if (row.keys[k].rfind(prefix, 0) == 0)
+        left.emplace(row.keys[k], PageOption{row.cells[0], row.part(1, k)});
   Options defaults;
   visit_options(PageCheck{block, left}, &defaults);
   for (const std::string& other : others) left.erase(std::string(prefix).append(other));
-  for (const auto& [key, row] : left) ADD_FAILURE() << "no option of the code is " << key << " of doc/study.md";
+  for (const auto& [key, row] : left)
+    ADD_FAILURE() << "no option of the code is " << key << " of doc/study.md";
 }
 
 TEST(OptionTables, AreThoseOfThePage) {
@@ -88,7 +98,8 @@ TEST(OptionTables, AreThoseOfThePage) {
   expect_on_page<FilterOptions>("identify.filter");
   expect_on_page<LossOptions>("identify.loss");
   expect_on_page<IntervalOptions>("identify.intervals");
-  expect_on_page<ExcitationDescription>("excite", {"joints.JOINT", "noise", "joints.JOINT.noise", "limits.JOINT"});
+  expect_on_page<ExcitationDescription>(
+      "excite", {"joints.JOINT", "noise", "joints.JOINT.noise", "limits.JOINT"});
 }
 
 TEST(OptionRange, SaysItsBounds) {
@@ -98,7 +109,8 @@ TEST(OptionRange, SaysItsBounds) {
   EXPECT_EQ(kRelativeTolerance.in_words(), "from 1e-13 to less than 1");
   EXPECT_EQ((OptionRange{1, 4}.in_words()), "a whole number from 1 to 4");
   EXPECT_TRUE(kZeroOrMore.holds(0.0) && !kAboveZero.holds(0.0) && kAboveZero.holds(1e-300));
-  EXPECT_TRUE(!kProperFraction.holds(1.0) && kRelativeTolerance.holds(1e-13) && !kRelativeTolerance.holds(1.0));
+  EXPECT_TRUE(!kProperFraction.holds(1.0) && kRelativeTolerance.holds(1e-13) &&
+              !kRelativeTolerance.holds(1.0));
 }
 
 }  // namespace

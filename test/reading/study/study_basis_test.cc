@@ -7,12 +7,14 @@ namespace codesign {
 namespace {
 
 std::string push(const std::string& rest, const std::string& more = "") {
-  return kLeastStudy + more + "controllers: {push: {type: basis, output: slider_joint, " + rest + "}}\n";
+  return kLeastStudy + more + "controllers: {push: {type: basis, output: slider_joint, " + rest +
+         "}}\n";
 }
 
 TEST(StudyBasis, ACountDeclaresThatManyParametersBehindAllOthers) {
-  const Study study =
-      read_text(push("shape: cubic, coefficients: {count: 5, initial: 0.5, lower: -1.0, upper: 2.0}", "parameters: {rod_length: {}}\n"));
+  const Study study = read_text(
+      push("shape: cubic, coefficients: {count: 5, initial: 0.5, lower: -1.0, upper: 2.0}",
+           "parameters: {rod_length: {}}\n"));
   ASSERT_EQ(study.parameters.size(), 7U);
   EXPECT_EQ(study.parameters[2].name, "push_c0");
   EXPECT_EQ(study.parameters[6].name, "push_c4");
@@ -27,7 +29,8 @@ TEST(StudyBasis, ACountDeclaresThatManyParametersBehindAllOthers) {
 }
 
 TEST(StudyBasis, StartsMayBeAListAndNoneOfThemTuned) {
-  const Study study = read_text(push("coefficients: {count: 3, initial: [1, 2, 3], tune: false}, duration: 1.5"));
+  const Study study =
+      read_text(push("coefficients: {count: 3, initial: [1, 2, 3], tune: false}, duration: 1.5"));
   EXPECT_EQ(study.parameters[4].value, 3.0);
   EXPECT_TRUE(study.tuned.empty());
   EXPECT_EQ(study.controllers.at(0).basis.duration, 1.5);
@@ -35,7 +38,8 @@ TEST(StudyBasis, StartsMayBeAListAndNoneOfThemTuned) {
 }
 
 TEST(StudyBasis, DeclaredCoefficientsAreParametersLikeOthers) {
-  const Study study = read_text(push("coefficients: {count: 2}", "constraints: [\"push_c0 <= push_c1\"]\n"));
+  const Study study =
+      read_text(push("coefficients: {count: 2}", "constraints: [\"push_c0 <= push_c1\"]\n"));
   EXPECT_EQ(study.constraints.size(), 1U);
 }
 
@@ -48,13 +52,20 @@ TEST(StudyBasis, AListOfQuantitiesDeclaresNothing) {
 TEST(StudyBasis, WhatCannotBeIsRefused) {
   const std::string at = "controllers.push";
   expect_fault(push("coefficients: {count: 1}"), at + ".coefficients.count", "out of range", 3);
-  expect_fault(push("coefficients: {count: 3, shape: cubic}"), at + ".coefficients.shape", "unknown key", 3);
-  expect_fault(push("coefficients: {count: 3}, shape: cubic"), at + ".coefficients", "found 3 coefficients", 3);
-  expect_fault(push("coefficients: {count: 3}, shape: kubic"), at + ".shape", "did you mean \"cubic\"", 3);
-  expect_fault(push("coefficients: {count: 3, initial: [1, 2]}"), at + ".coefficients.initial", "found 2 values for 3", 3);
-  expect_fault(push("coefficients: {count: 3, initial: 4, upper: 2}"), at + ".coefficients.initial", "outside the bounds", 3);
-  expect_fault(push("coefficients: {count: 3}, duration: 0.0"), at + ".duration", "must be positive", 3);
-  expect_fault(push("coefficients: {count: 3}", "parameters: {push_c1: {initial: 0.0}}\n"), at + ".coefficients", "already", 4);
+  expect_fault(push("coefficients: {count: 3, shape: cubic}"), at + ".coefficients.shape",
+               "unknown key", 3);
+  expect_fault(push("coefficients: {count: 3}, shape: cubic"), at + ".coefficients",
+               "found 3 coefficients", 3);
+  expect_fault(push("coefficients: {count: 3}, shape: kubic"), at + ".shape",
+               "did you mean \"cubic\"", 3);
+  expect_fault(push("coefficients: {count: 3, initial: [1, 2]}"), at + ".coefficients.initial",
+               "found 2 values for 3", 3);
+  expect_fault(push("coefficients: {count: 3, initial: 4, upper: 2}"), at + ".coefficients.initial",
+               "outside the bounds", 3);
+  expect_fault(push("coefficients: {count: 3}, duration: 0.0"), at + ".duration",
+               "must be positive", 3);
+  expect_fault(push("coefficients: {count: 3}", "parameters: {push_c1: {initial: 0.0}}\n"),
+               at + ".coefficients", "already", 4);
   expect_fault(push("coefficients: {count: 3}, setpoint: 1.0"), at + ".setpoint", "unknown key", 3);
 }
 

@@ -7,10 +7,12 @@ namespace codesign {
 namespace {
 
 std::string with(const std::string& joint, const std::string& start) {
-  return kLeastStudy + "parameters: {a: {initial: 0.5}}\ninitial_state:\n  " + joint + ": " + start + "\n";
+  return kLeastStudy + "parameters: {a: {initial: 0.5}}\ninitial_state:\n  " + joint + ": " +
+         start + "\n";
 }
 
-/// The fixture's robot, whose planar joint has the normal z, with one more body on a floating joint.
+/// The fixture's robot, whose planar joint has the normal z, with one more body on a floating
+/// joint.
 RobotDescription flying_robot() {
   RobotDescription robot = study_robot();
   robot.joints[2].axis = {0.0, 0.0, 1.0};
@@ -25,7 +27,8 @@ InitialJointState read(const std::string& joint, const std::string& start) {
   return read_study({"study.yaml", with(joint, start)}, flying_robot()).initial_state.at(0);
 }
 
-void expect_refused(const std::string& joint, const std::string& start, const std::string& element, const std::string& message) {
+void expect_refused(const std::string& joint, const std::string& start, const std::string& element,
+                    const std::string& message) {
   try {
     read(joint, start);
     ADD_FAILURE() << joint << " " << start;
@@ -37,8 +40,10 @@ void expect_refused(const std::string& joint, const std::string& start, const st
 }
 
 TEST(StudyInitialState, OfAFloatingJoint) {
-  const InitialJointState s = read(
-      "free", "{translation: [1, \"${a}\", 3], rotation: [0.1, 0.2, \"${2*a}\"], linear_velocity: [4, 5, 6], angular_velocity: [7, 8, 9]}");
+  const InitialJointState s =
+      read("free",
+           "{translation: [1, \"${a}\", 3], rotation: [0.1, 0.2, \"${2*a}\"], linear_velocity: [4, "
+           "5, 6], angular_velocity: [7, 8, 9]}");
   EXPECT_EQ((*s.translation)[1].nominal(), 0.5);
   EXPECT_EQ((*s.rotation)[2].nominal(), 1.0);
   EXPECT_EQ((*s.linear_velocity)[2].nominal(), 6.0);
@@ -47,8 +52,9 @@ TEST(StudyInitialState, OfAFloatingJoint) {
 }
 
 TEST(StudyInitialState, OfAPlanarJoint) {
-  const InitialJointState s =
-      read("ball_joint", "{translation: [1, 2, 0], rotation: \"${a}\", linear_velocity: [4, 5, 0], angular_velocity: 6}");
+  const InitialJointState s = read("ball_joint",
+                                   "{translation: [1, 2, 0], rotation: \"${a}\", linear_velocity: "
+                                   "[4, 5, 0], angular_velocity: 6}");
   EXPECT_EQ((*s.translation)[1].nominal(), 2.0);
   EXPECT_EQ((*s.rotation)[2].nominal(), 0.5);
   EXPECT_EQ((*s.angular_velocity)[2].nominal(), 6.0);
@@ -65,9 +71,12 @@ TEST(StudyInitialState, RefusesWhatTheJointHasNot) {
   expect_refused("free", "{}", "", "no initial state is given");
   expect_refused("free", "{rotation: 0.3}", ".rotation", "three components");
   expect_refused("ball_joint", "{rotation: [0, 0, 0.3]}", ".rotation", "only about its normal");
-  expect_refused("ball_joint", "{translation: [0, 0, 0.3]}", ".translation", "does not lie in the plane");
-  expect_refused("ball_joint", "{linear_velocity: [0, 0, 0.3]}", ".linear_velocity", "does not lie in the plane");
-  expect_refused("free", "{translatoin: [0, 0, 0]}", ".translatoin", "did you mean \"translation\"");
+  expect_refused("ball_joint", "{translation: [0, 0, 0.3]}", ".translation",
+                 "does not lie in the plane");
+  expect_refused("ball_joint", "{linear_velocity: [0, 0, 0.3]}", ".linear_velocity",
+                 "does not lie in the plane");
+  expect_refused("free", "{translatoin: [0, 0, 0]}", ".translatoin",
+                 "did you mean \"translation\"");
 }
 
 TEST(StudyInitialState, OfAScalarJoint) {
@@ -78,10 +87,13 @@ TEST(StudyInitialState, OfAScalarJoint) {
   expect_refused("crank_jont", "{position: 1}", "", "did you mean \"crank_joint\"");
 }
 
-std::string with(const std::string& loads) { return kLeastStudy + "parameters: {push: {initial: 2}}\nloads:\n  - " + loads + "\n"; }
+std::string with(const std::string& loads) {
+  return kLeastStudy + "parameters: {push: {initial: 2}}\nloads:\n  - " + loads + "\n";
+}
 
 TEST(StudyLoads, ReadsAnEffort) {
-  const LoadDescription load = read_text(with("{joint: slider_joint, effort: \"${3*push}\"}")).loads.at(0);
+  const LoadDescription load =
+      read_text(with("{joint: slider_joint, effort: \"${3*push}\"}")).loads.at(0);
   EXPECT_EQ(load.joint, "slider_joint");
   EXPECT_TRUE(load.link.empty());
   EXPECT_EQ(load.effort.nominal(), 6.0);
@@ -91,7 +103,8 @@ TEST(StudyLoads, ReadsAnEffort) {
 
 TEST(StudyLoads, ReadsAWrench) {
   const Study study =
-      read_text(with("{link: ball, force: [1, \"${push}\", 0], torque: [0, 0, 0.5], point: [0, 0.1, 0], frame: link}\n  - {link: "
+      read_text(with("{link: ball, force: [1, \"${push}\", 0], torque: [0, 0, 0.5], point: [0, "
+                     "0.1, 0], frame: link}\n  - {link: "
                      "crank, torque: [1, 0, 0]}"));
   const LoadDescription& first = study.loads.at(0);
   EXPECT_EQ(first.link, "ball");
@@ -105,22 +118,27 @@ TEST(StudyLoads, ReadsAWrench) {
 
 TEST(StudyLoads, RefusesWhatActsOnNothingOrTwice) {
   expect_fault(with("{effort: 1}"), "loads[0]", "one joint or on one link", 5);
-  expect_fault(with("{joint: slider_joint, link: ball, effort: 1}"), "loads[0]", "one joint or on one link", 5);
+  expect_fault(with("{joint: slider_joint, link: ball, effort: 1}"), "loads[0]",
+               "one joint or on one link", 5);
   expect_fault(with("3"), "loads[0]", "must be a map", 5);
   expect_fault(with("{link: ball}"), "loads[0]", "needs a force or a torque", 5);
-  expect_fault(with("{link: ball, torque: [0, 0, 1], point: [0, 0, 0]}"), "loads[0].point", "where the force acts", 5);
+  expect_fault(with("{link: ball, torque: [0, 0, 1], point: [0, 0, 0]}"), "loads[0].point",
+               "where the force acts", 5);
 }
 
 TEST(StudyLoads, RefusesNamesAndNumbers) {
-  expect_fault(with("{joint: slider_jont, effort: 1}"), "loads[0].joint", "did you mean \"slider_joint\"", 5);
+  expect_fault(with("{joint: slider_jont, effort: 1}"), "loads[0].joint",
+               "did you mean \"slider_joint\"", 5);
   expect_fault(with("{joint: ball_joint, effort: 1}"), "loads[0].joint", "no single coordinate", 5);
   expect_fault(with("{joint: slider_joint, force: [1, 0, 0]}"), "loads[0].force", "unknown key", 5);
   expect_fault(with("{link: bal, force: [1, 0, 0]}"), "loads[0].link", "did you mean \"ball\"", 5);
   expect_fault(with("{link: ball, force: [1, 0]}"), "loads[0].force", "found 2", 5);
   expect_fault(with("{link: ball, force: 1}"), "loads[0].force", "three components", 5);
   expect_fault(with("{link: ball, force: [1, 0, x]}"), "loads[0].force[2]", "not a number", 5);
-  expect_fault(with("{link: ball, force: [1, 0, 0], frame: world}"), "loads[0].frame", "unknown frame", 5);
-  expect_fault(with("{link: ball, force: [1, 0, 0], efort: 1}"), "loads[0].efort", "unknown key", 5);
+  expect_fault(with("{link: ball, force: [1, 0, 0], frame: world}"), "loads[0].frame",
+               "unknown frame", 5);
+  expect_fault(with("{link: ball, force: [1, 0, 0], efort: 1}"), "loads[0].efort", "unknown key",
+               5);
 }
 
 }  // namespace

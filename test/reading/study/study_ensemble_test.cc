@@ -6,9 +6,12 @@
 namespace codesign {
 namespace {
 
-EngineOptions engine_of(const std::string& text) { return read_text(kLeastStudy + "engine: " + text + "\n").ensemble.engine; }
+EngineOptions engine_of(const std::string& text) {
+  return read_text(kLeastStudy + "engine: " + text + "\n").ensemble.engine;
+}
 
-void expect_refused(const std::string& text, const std::string& element, const std::string& message) {
+void expect_refused(const std::string& text, const std::string& element,
+                    const std::string& message) {
   expect_fault(kLeastStudy + "engine: " + text + "\n", element, message, 3);
 }
 
@@ -54,27 +57,35 @@ TEST(StudyEnsemble, KnowsWhetherAnEngineIsAskedFor) {
 }
 
 TEST(StudyEnsemble, RefusesOtherEngines) {
-  expect_refused("{type: mpi, workers: 2}", "engine.workers", "mpirun says how many workers the engine mpi has");
+  expect_refused("{type: mpi, workers: 2}", "engine.workers",
+                 "mpirun says how many workers the engine mpi has");
   expect_refused("{type: thread}", "engine.type", "did you mean \"threads\"");
-  expect_refused("{type: serial, workers: 2}", "engine.workers", "the engine serial has no workers");
+  expect_refused("{type: serial, workers: 2}", "engine.workers",
+                 "the engine serial has no workers");
   expect_refused("{workers: 0}", "engine.workers", "out of range");
   expect_refused("{workers: 4097}", "engine.workers", "out of range");
   expect_refused("{threads: 4}", "engine.threads", "unknown key");
   expect_refused("serial", "engine", "expected a map");
 }
 
-const std::string kUncertainStudy = kLeastStudy + "uncertain: {rod_length: {uniform: [0.2, 0.4]}}\n";
-const std::string kTwoRuns = kLeastStudy + "runs: {short: {set: {rod_length: 0.2}}, long: {set: {rod_length: 0.4}}}\n";
+const std::string kUncertainStudy =
+    kLeastStudy + "uncertain: {rod_length: {uniform: [0.2, 0.4]}}\n";
+const std::string kTwoRuns =
+    kLeastStudy + "runs: {short: {set: {rod_length: 0.2}}, long: {set: {rod_length: 0.4}}}\n";
 
-RobustOptions robust_of(const std::string& text) { return read_text(kUncertainStudy + "robust: " + text + "\n").ensemble.robust.value(); }
+RobustOptions robust_of(const std::string& text) {
+  return read_text(kUncertainStudy + "robust: " + text + "\n").ensemble.robust.value();
+}
 
-void expect_bad_robust(const std::string& text, const std::string& element, const std::string& message) {
+void expect_bad_robust(const std::string& text, const std::string& element,
+                       const std::string& message) {
   expect_fault(kUncertainStudy + "robust: " + text + "\n", element, message, 4);
 }
 
 TEST(StudyRobust, ReadsAllKeys) {
-  const RobustOptions options =
-      robust_of("{measure: cvar, level: 0.75, samples: 64, sampler: random, seed: 0, validate: 1000, failed: tail}");
+  const RobustOptions options = robust_of(
+      "{measure: cvar, level: 0.75, samples: 64, sampler: random, seed: 0, validate: 1000, failed: "
+      "tail}");
   EXPECT_EQ(options.measure, RobustMeasure::kCvar);
   EXPECT_EQ(options.level, 0.75);
   EXPECT_EQ(options.samples, 64);
@@ -110,10 +121,12 @@ TEST(StudyRobust, MayBeLeftOut) {
 }
 
 TEST(StudyRobust, NeedsSomethingToBeRobustAgainst) {
-  expect_fault(kLeastStudy + "robust: {measure: worst}\n", "robust", "nothing to be robust against", 3);
+  expect_fault(kLeastStudy + "robust: {measure: worst}\n", "robust", "nothing to be robust against",
+               3);
   for (const char* key : {"samples: 8", "sampler: sobol", "seed: 1", "validate: 10"}) {
     const std::string text = key;
-    expect_fault(kTwoRuns + "robust: {" + text + "}\n", "robust." + text.substr(0, text.find(':')), "no meaning without uncertain", 4);
+    expect_fault(kTwoRuns + "robust: {" + text + "}\n", "robust." + text.substr(0, text.find(':')),
+                 "no meaning without uncertain", 4);
   }
 }
 
@@ -123,7 +136,8 @@ TEST(StudyRobust, RefusesBadValues) {
   expect_bad_robust("{level: 0.9}", "robust.level", "level belongs to cvar");
   expect_bad_robust("{measure: cvar, level: 0}", "robust.level", "out of range");
   expect_bad_robust("{measure: cvar, level: 1}", "robust.level", "out of range");
-  expect_bad_robust("{measure: cvar, factor: 1}", "robust.factor", "factor belongs to mean_plus_deviation");
+  expect_bad_robust("{measure: cvar, factor: 1}", "robust.factor",
+                    "factor belongs to mean_plus_deviation");
   expect_bad_robust("{measure: mean_plus_deviation, factor: -1}", "robust.factor", "out of range");
   expect_bad_robust("{samples: 0}", "robust.samples", "out of range");
   expect_bad_robust("{samples: 100001}", "robust.samples", "out of range");
@@ -137,18 +151,21 @@ TEST(StudyRobust, RefusesBadValues) {
   expect_bad_robust("cvar", "robust", "expected a map");
 }
 
-const std::string kTunedStudy = kLeastStudy + "parameters: {crank_length: {}, Kp: {initial: 1, lower: 0, upper: 2}}\n";
+const std::string kTunedStudy =
+    kLeastStudy + "parameters: {crank_length: {}, Kp: {initial: 1, lower: 0, upper: 2}}\n";
 
 MultistartOptions multistart_of(const std::string& text) {
   return read_text(kTunedStudy + "multistart: " + text + "\n").ensemble.multistart;
 }
 
-void expect_bad_multistart(const std::string& text, const std::string& element, const std::string& message) {
+void expect_bad_multistart(const std::string& text, const std::string& element,
+                           const std::string& message) {
   expect_fault(kTunedStudy + "multistart: " + text + "\n", element, message, 4);
 }
 
 TEST(StudyMultistart, ReadsAllKeys) {
-  const MultistartOptions options = multistart_of("{starts: 100, sampler: latin_hypercube, seed: 5, screen: 300, cluster: 1e-3}");
+  const MultistartOptions options =
+      multistart_of("{starts: 100, sampler: latin_hypercube, seed: 5, screen: 300, cluster: 1e-3}");
   EXPECT_EQ(options.starts, 100);
   EXPECT_EQ(options.sampler, SamplerKind::kLatinHypercube);
   EXPECT_EQ(options.seed, 5U);
@@ -171,22 +188,32 @@ TEST(StudyMultistart, RefusesBadValues) {
   expect_bad_multistart("{starts: 0}", "multistart.starts", "out of range");
   expect_bad_multistart("{starts: 100001}", "multistart.starts", "out of range");
   expect_bad_multistart("{starts: 10, screen: 9}", "multistart.screen", "out of range");
-  EXPECT_EQ(fault_in(kTunedStudy + "multistart: {starts: 10, screen: 9}").allowed, "a whole number from 10 to 10000000");
+  EXPECT_EQ(fault_in(kTunedStudy + "multistart: {starts: 10, screen: 9}").allowed,
+            "a whole number from 10 to 10000000");
   expect_bad_multistart("{starts: 10, cluster: 0}", "multistart.cluster", "out of range");
   expect_bad_multistart("{starts: 10, cluster: 1}", "multistart.cluster", "out of range");
   expect_bad_multistart("{starts: 10, sampler: grid}", "multistart.sampler", "unknown sampler");
   expect_bad_multistart("{starts: 10, seed: 0.5}", "multistart.seed", "not an integer");
-  expect_bad_multistart("{starts: 10, screens: 40}", "multistart.screens", "did you mean \"screen\"");
+  expect_bad_multistart("{starts: 10, screens: 40}", "multistart.screens",
+                        "did you mean \"screen\"");
 }
 
 TEST(StudyMultistart, NeedsBoundsOfAllTunedParameters) {
   const std::string start = "\nmultistart: {starts: 10}\n";
-  expect_fault(kLeastStudy + "parameters:\n  crank_length: {}\n  Ki: {initial: 1, lower: 0}\n  Kp: {initial: 1}" + start, "parameters.Ki",
-               "finite bounds of all tuned parameters, and this one has [0, inf]", 5);
-  expect_fault(kLeastStudy + "controllers: {push: {type: basis, output: crank_joint, coefficients: {count: 2}}}" + start,
-               "parameter push_c0", "finite bounds", 3);
-  expect_fault(kLeastStudy + "parameters: {Kp: {initial: 1, tune: false}}" + start, "multistart", "tunes nothing", 4);
-  const Study study = read_text(kLeastStudy + "parameters: {crank_length: {}, Kp: {initial: 1, tune: false}}" + start);
+  expect_fault(
+      kLeastStudy +
+          "parameters:\n  crank_length: {}\n  Ki: {initial: 1, lower: 0}\n  Kp: {initial: 1}" +
+          start,
+      "parameters.Ki", "finite bounds of all tuned parameters, and this one has [0, inf]", 5);
+  expect_fault(
+      kLeastStudy +
+          "controllers: {push: {type: basis, output: crank_joint, coefficients: {count: 2}}}" +
+          start,
+      "parameter push_c0", "finite bounds", 3);
+  expect_fault(kLeastStudy + "parameters: {Kp: {initial: 1, tune: false}}" + start, "multistart",
+               "tunes nothing", 4);
+  const Study study = read_text(
+      kLeastStudy + "parameters: {crank_length: {}, Kp: {initial: 1, tune: false}}" + start);
   EXPECT_EQ(study.ensemble.multistart.starts, 10);
 }
 

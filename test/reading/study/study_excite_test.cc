@@ -7,14 +7,16 @@ namespace codesign {
 namespace {
 
 // Lines 1 and 2; the motion is described in line 3.
-const std::string kStudyToExcite = "parameters: {rod_length: {}, crank_length: {tune: false}}\nidentify: {}\n";
+const std::string kStudyToExcite =
+    "parameters: {rod_length: {}, crank_length: {tune: false}}\nidentify: {}\n";
 const std::string kOneJoint = "joints: {crank_joint: {velocity: 5.0}}, noise: 0.1";
 
 ExcitationDescription excitation_of(const std::string& keys) {
   return read_text(kStudyToExcite + "excite: {" + keys + "}\n").excitation.value();
 }
 
-void expect_bad_excite(const std::string& keys, const std::string& element, const std::string& message) {
+void expect_bad_excite(const std::string& keys, const std::string& element,
+                       const std::string& message) {
   expect_fault(kStudyToExcite + "excite: {" + keys + "}\n", element, message, 3);
 }
 
@@ -38,8 +40,10 @@ TEST(StudyExcite, Defaults) {
 
 TEST(StudyExcite, ReadsAllKeys) {
   const ExcitationDescription description = excitation_of(
-      "joints: {crank_joint: {position: [-1, 2], velocity: 5, acceleration: 30, effort: 2, noise: 0.2}}, "
-      "limits: {slider_joint: {position: [0, 0.3], velocity: 1}}, trajectory: spline, knots: 30, period: 4, periods: 3, sample_rate: 200, "
+      "joints: {crank_joint: {position: [-1, 2], velocity: 5, acceleration: 30, effort: 2, noise: "
+      "0.2}}, "
+      "limits: {slider_joint: {position: [0, 0.3], velocity: 1}}, trajectory: spline, knots: 30, "
+      "period: 4, periods: 3, sample_rate: 200, "
       "starts: 7, seed: 9, search: ccsaq, max_evaluations: 50");
   const MotionLimitDescription& limits = description.joints.at(0).limits;
   EXPECT_EQ((*limits.position)[0], -1.0);
@@ -67,14 +71,21 @@ TEST(StudyExcite, RefusesWhatCannotBeMeant) {
   expect_bad_excite("joints: {}, noise: 1", "excite.joints", "no joint");
   expect_bad_excite("joints: {crank: {}}, noise: 1", "excite.joints.crank", "unknown");
   expect_bad_excite("joints: {ball_joint: {}}, noise: 1", "excite.joints.ball_joint", "");
-  expect_bad_excite("joints: {crank_joint: {speed: 1}}, noise: 1", "excite.joints.crank_joint.speed", "unknown key");
-  expect_bad_excite("joints: {crank_joint: {velocity: 0}}, noise: 1", "excite.joints.crank_joint.velocity", "above zero");
-  expect_bad_excite("joints: {crank_joint: {position: [1, 1]}}, noise: 1", "excite.joints.crank_joint.position", "empty");
-  expect_bad_excite("joints: {crank_joint: {position: [1]}}, noise: 1", "excite.joints.crank_joint.position", "two ends");
-  expect_bad_excite(kOneJoint + ", limits: {crank_joint: {velocity: 1}}", "excite.limits.crank_joint", "excite.joints");
-  expect_bad_excite(kOneJoint + ", limits: {slider_joint: {effort: 1}}", "excite.limits.slider_joint.effort", "unknown key");
+  expect_bad_excite("joints: {crank_joint: {speed: 1}}, noise: 1",
+                    "excite.joints.crank_joint.speed", "unknown key");
+  expect_bad_excite("joints: {crank_joint: {velocity: 0}}, noise: 1",
+                    "excite.joints.crank_joint.velocity", "above zero");
+  expect_bad_excite("joints: {crank_joint: {position: [1, 1]}}, noise: 1",
+                    "excite.joints.crank_joint.position", "empty");
+  expect_bad_excite("joints: {crank_joint: {position: [1]}}, noise: 1",
+                    "excite.joints.crank_joint.position", "two ends");
+  expect_bad_excite(kOneJoint + ", limits: {crank_joint: {velocity: 1}}",
+                    "excite.limits.crank_joint", "excite.joints");
+  expect_bad_excite(kOneJoint + ", limits: {slider_joint: {effort: 1}}",
+                    "excite.limits.slider_joint.effort", "unknown key");
   expect_bad_excite(kOneJoint + ", knots: 8", "excite.knots", "no knots");
-  expect_bad_excite(kOneJoint + ", trajectory: spline, harmonics: 8", "excite.harmonics", "no harmonics");
+  expect_bad_excite(kOneJoint + ", trajectory: spline, harmonics: 8", "excite.harmonics",
+                    "no harmonics");
   expect_bad_excite(kOneJoint + ", harmonics: 1", "excite.harmonics", "out of range");
   expect_bad_excite(kOneJoint + ", period: 0.1", "excite", "do not show");
   expect_bad_excite(kOneJoint + ", search: bobyqa", "excite.search", "unknown");
@@ -82,12 +93,15 @@ TEST(StudyExcite, RefusesWhatCannotBeMeant) {
 }
 
 TEST(StudyExcite, NeedsSomethingToIdentify) {
-  expect_fault("duration: 1.0\nparameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n", "excite", "identifies nothing", 3);
-  expect_fault("parameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n", "excite", "identifies nothing", 2);
+  expect_fault("duration: 1.0\nparameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n",
+               "excite", "identifies nothing", 3);
+  expect_fault("parameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n", "excite",
+               "identifies nothing", 2);
 }
 
 TEST(StudyExcite, DataAreNotThereYet) {
-  EXPECT_TRUE(read_text(kStudyToExcite + "excite: {" + kOneJoint + "}\n").identification->data.empty());
+  EXPECT_TRUE(
+      read_text(kStudyToExcite + "excite: {" + kOneJoint + "}\n").identification->data.empty());
   expect_fault(kStudyToExcite, "identify.data", "missing", 2);
 }
 

@@ -7,9 +7,11 @@
 namespace codesign {
 namespace {
 
-std::string realization_text(const std::string& keys, const std::string& gains = "{p: 1.0, i: 2.0, d: 3.0}") {
+std::string realization_text(const std::string& keys,
+                             const std::string& gains = "{p: 1.0, i: 2.0, d: 3.0}") {
   return kLeastStudy +
-         "parameters: {tau: {initial: 0.02}}\ncontrollers:\n  speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: "
+         "parameters: {tau: {initial: 0.02}}\ncontrollers:\n  speed: {type: pid, input: "
+         "crank_joint/velocity, setpoint: 0, output: "
          "crank_joint, gains: " +
          gains + ", " + keys + "}\n";
 }
@@ -18,13 +20,15 @@ TEST(StudyRealization, HasTheKeysOfThePage) {
   std::set<std::string> page;
   for (const PageRow& row : page_rows("study.md", 2)) page.insert(row.keys.begin(), row.keys.end());
   for (const ControllerKind& kind : standard_laws().controllers)
-    for (const std::string& key : with_realization_keys(kind, {})) EXPECT_EQ(page.count(key), 1U) << key;
+    for (const std::string& key : with_realization_keys(kind, {}))
+      EXPECT_EQ(page.count(key), 1U) << key;
 }
 
 TEST(StudyRealization, ReadsEveryKey) {
-  const Study study = read_text(realization_text(
-      "i_clamp: 4.0, antiwindup: true, derivative_filter: \"${tau}\", output_limit: 9.0, time_constant: \"${tau/2}\", sample_time: "
-      "0.001, delay: 0.0025, quantization: 0.1"));
+  const Study study =
+      read_text(realization_text("i_clamp: 4.0, antiwindup: true, derivative_filter: \"${tau}\", "
+                                 "output_limit: 9.0, time_constant: \"${tau/2}\", sample_time: "
+                                 "0.001, delay: 0.0025, quantization: 0.1"));
   const ControlRealization& realization = study.controllers.at(0).realization;
   EXPECT_EQ(realization.i_clamp->nominal(), 4.0);
   EXPECT_TRUE(realization.antiwindup);
@@ -38,68 +42,94 @@ TEST(StudyRealization, ReadsEveryKey) {
 }
 
 TEST(StudyRealization, IsOffByDefault) {
-  const ControlRealization realization = read_text(realization_text("antiwindup: false, i_clamp: 1")).controllers.at(0).realization;
+  const ControlRealization realization =
+      read_text(realization_text("antiwindup: false, i_clamp: 1")).controllers.at(0).realization;
   EXPECT_FALSE(realization.antiwindup);
   EXPECT_FALSE(realization.is_sampled());
-  EXPECT_FALSE(realization.derivative_filter || realization.output_limit || realization.time_constant);
+  EXPECT_FALSE(realization.derivative_filter || realization.output_limit ||
+               realization.time_constant);
   EXPECT_EQ(realization.queued(), 0);
 }
 
 TEST(StudyRealization, RefusesImpossibleNumbers) {
   for (const char* key : {"i_clamp", "derivative_filter", "output_limit", "time_constant"}) {
-    expect_fault(realization_text(std::string(key) + ": 0"), "controllers.speed." + std::string(key), "must be positive", 5);
-    expect_fault(realization_text(std::string(key) + ": \"${tau - 1}\""), "controllers.speed." + std::string(key), "must be positive", 5);
+    expect_fault(realization_text(std::string(key) + ": 0"),
+                 "controllers.speed." + std::string(key), "must be positive", 5);
+    expect_fault(realization_text(std::string(key) + ": \"${tau - 1}\""),
+                 "controllers.speed." + std::string(key), "must be positive", 5);
   }
-  expect_fault(realization_text("sample_time: 0"), "controllers.speed.sample_time", "must be positive", 5);
-  expect_fault(realization_text("sample_time: \"${tau}\""), "controllers.speed.sample_time", "must not depend on parameters", 5);
-  expect_fault(realization_text("sample_time: 0.01, delay: -1"), "controllers.speed.delay", "must not be negative", 5);
-  expect_fault(realization_text("sample_time: 0.01, delay: 1.01"), "controllers.speed.delay", "too many outputs wait at a time: 101", 5);
+  expect_fault(realization_text("sample_time: 0"), "controllers.speed.sample_time",
+               "must be positive", 5);
+  expect_fault(realization_text("sample_time: \"${tau}\""), "controllers.speed.sample_time",
+               "must not depend on parameters", 5);
+  expect_fault(realization_text("sample_time: 0.01, delay: -1"), "controllers.speed.delay",
+               "must not be negative", 5);
+  expect_fault(realization_text("sample_time: 0.01, delay: 1.01"), "controllers.speed.delay",
+               "too many outputs wait at a time: 101", 5);
   // More than an int counts.
   expect_fault(realization_text("sample_time: 1.0e-9, delay: 3.0"), "controllers.speed.delay",
                "too many outputs wait at a time: 3000000000", 5);
-  expect_fault(realization_text("sample_time: 1.0e-300, delay: 1.0e+300"), "controllers.speed.delay", "too many outputs wait", 5);
-  expect_fault(realization_text("sample_time: 0.01, quantization: -1"), "controllers.speed.quantization", "must not be negative", 5);
-  expect_fault(realization_text("antiwindup: 3, i_clamp: 1"), "controllers.speed.antiwindup", "", 5);
+  expect_fault(realization_text("sample_time: 1.0e-300, delay: 1.0e+300"),
+               "controllers.speed.delay", "too many outputs wait", 5);
+  expect_fault(realization_text("sample_time: 0.01, quantization: -1"),
+               "controllers.speed.quantization", "must not be negative", 5);
+  expect_fault(realization_text("antiwindup: 3, i_clamp: 1"), "controllers.speed.antiwindup", "",
+               5);
 }
 
 TEST(StudyRealization, RefusesKeysWithoutMeaning) {
   expect_fault(realization_text("delay: 0.01"), "controllers.speed.delay", "needs sample_time", 5);
-  expect_fault(realization_text("quantization: 0.01"), "controllers.speed.quantization", "needs sample_time", 5);
-  expect_fault(realization_text("antiwindup: true"), "controllers.speed.antiwindup", "needs i_clamp", 5);
-  expect_fault(realization_text("i_clamp: 1", "{p: 1}"), "controllers.speed.i_clamp", "needs a gain i", 5);
-  expect_fault(realization_text("derivative_filter: 1", "{p: 1}"), "controllers.speed.derivative_filter", "needs a gain d", 5);
-  expect_fault(realization_text("sampletime: 1"), "controllers.speed.sampletime", "did you mean \"sample_time\"", 5);
-  expect_fault(kLeastStudy + "controllers: {hold: {type: pd_gravity, setpoint: 0, output: crank_joint, gains: {p: 1.0}, i_clamp: 1}}\n",
+  expect_fault(realization_text("quantization: 0.01"), "controllers.speed.quantization",
+               "needs sample_time", 5);
+  expect_fault(realization_text("antiwindup: true"), "controllers.speed.antiwindup",
+               "needs i_clamp", 5);
+  expect_fault(realization_text("i_clamp: 1", "{p: 1}"), "controllers.speed.i_clamp",
+               "needs a gain i", 5);
+  expect_fault(realization_text("derivative_filter: 1", "{p: 1}"),
+               "controllers.speed.derivative_filter", "needs a gain d", 5);
+  expect_fault(realization_text("sampletime: 1"), "controllers.speed.sampletime",
+               "did you mean \"sample_time\"", 5);
+  expect_fault(kLeastStudy +
+                   "controllers: {hold: {type: pd_gravity, setpoint: 0, output: crank_joint, "
+                   "gains: {p: 1.0}, i_clamp: 1}}\n",
                "controllers.hold.i_clamp", "unknown key", 3);
 }
 
 TEST(StudyRealization, RefusesTheAdjointOfSamples) {
-  expect_fault(realization_text("sample_time: 0.01") + "solver: {gradient: adjoint}\n", "solver.gradient",
-               "does not go back over the samples", 6);
-  EXPECT_NO_THROW(read_text(realization_text("derivative_filter: 0.01") + "solver: {gradient: adjoint}\n"));
+  expect_fault(realization_text("sample_time: 0.01") + "solver: {gradient: adjoint}\n",
+               "solver.gradient", "does not go back over the samples", 6);
+  EXPECT_NO_THROW(
+      read_text(realization_text("derivative_filter: 0.01") + "solver: {gradient: adjoint}\n"));
 }
 
 TEST(StudyRealization, AControllerWithoutAJointMustBeRead) {
-  const std::string outer = kLeastStudy + "controllers:\n  outer: {type: pid, input: slider_joint/position, setpoint: 0, gains: {p: 1}}\n";
+  const std::string outer = kLeastStudy +
+                            "controllers:\n  outer: {type: pid, input: slider_joint/position, "
+                            "setpoint: 0, gains: {p: 1}}\n";
   const std::string inner =
-      "  inner: {type: pid, input: crank_joint/velocity - outer/output, setpoint: 0, output: crank_joint, gains: {p: 1}}\n";
+      "  inner: {type: pid, input: crank_joint/velocity - outer/output, setpoint: 0, output: "
+      "crank_joint, gains: {p: 1}}\n";
   EXPECT_EQ(read_text(outer + inner).controllers.at(0).output, "");
   expect_fault(outer, "controllers.outer.output", "no later controller reads", 4);
   expect_fault(kLeastStudy +
-                   "controllers:\n  outer: {type: pid, input: slider_joint/position, setpoint: 0, gains: {p: 1}, time_constant: 1}\n" +
+                   "controllers:\n  outer: {type: pid, input: slider_joint/position, setpoint: 0, "
+                   "gains: {p: 1}, time_constant: 1}\n" +
                    inner,
                "controllers.outer.time_constant", "needs output", 4);
 }
 
 std::string text_of(const std::string& hardware, const std::string& gains = "{p: 2.0, d: 0.1}") {
   return kLeastStudy +
-         "parameters: {limit: {initial: 3.0}}\ncontrollers:\n  speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: " +
+         "parameters: {limit: {initial: 3.0}}\ncontrollers:\n  speed: {type: pid, input: "
+         "crank_joint/velocity, setpoint: 0, output: " +
          "crank_joint, gains: " + gains +
-         "}\n  push: {type: state_feedback, output: slider_joint, feedforward: 1.0}\nhardware: " + hardware + "\n";
+         "}\n  push: {type: state_feedback, output: slider_joint, feedforward: 1.0}\nhardware: " +
+         hardware + "\n";
 }
 
 TEST(StudyHardware, ReadsEveryField) {
-  const std::string text = text_of("{speed: {namespace: /crank/pid/, i_clamp: \"${limit}\", antiwindup: true}}", "{p: 1, i: 2}");
+  const std::string text = text_of(
+      "{speed: {namespace: /crank/pid/, i_clamp: \"${limit}\", antiwindup: true}}", "{p: 1, i: 2}");
   const Study study = read_text(text);
   ASSERT_EQ(study.hardware.size(), 1U);
   const HardwareGains& gains = study.hardware[0];
@@ -123,33 +153,46 @@ TEST(StudyHardware, RefusesWhatNoRobotCouldRead) {
   expect_fault(text_of("{push: {namespace: a}}"), "hardware.push", "no p, i and d", 7);
   expect_fault(text_of("{speed: {namespce: a}}"), "hardware.speed.namespce", "unknown key", 7);
   expect_fault(text_of("{speed: {}}"), "hardware.speed.namespace", "required key is missing", 7);
-  expect_fault(text_of("{speed: {namespace: a//b}}"), "hardware.speed.namespace", "not a namespace", 7);
-  expect_fault(text_of("{speed: {namespace: 2a}}"), "hardware.speed.namespace", "not a namespace", 7);
-  expect_fault(text_of("{speed: {namespace: /}}"), "hardware.speed.namespace", "not a namespace", 7);
-  expect_fault(text_of("{speed: {namespace: a}}", "{p: 1, i: 2}"), "hardware.speed", "limits the integral", 7);
-  expect_fault(text_of("{speed: {namespace: a, i_clamp: -1}}"), "hardware.speed.i_clamp", "must not be negative", 7);
-  expect_fault(text_of("{speed: {namespace: a, antiwindup: 2}}"), "hardware.speed.antiwindup", "", 7);
+  expect_fault(text_of("{speed: {namespace: a//b}}"), "hardware.speed.namespace", "not a namespace",
+               7);
+  expect_fault(text_of("{speed: {namespace: 2a}}"), "hardware.speed.namespace", "not a namespace",
+               7);
+  expect_fault(text_of("{speed: {namespace: /}}"), "hardware.speed.namespace", "not a namespace",
+               7);
+  expect_fault(text_of("{speed: {namespace: a}}", "{p: 1, i: 2}"), "hardware.speed",
+               "limits the integral", 7);
+  expect_fault(text_of("{speed: {namespace: a, i_clamp: -1}}"), "hardware.speed.i_clamp",
+               "must not be negative", 7);
+  expect_fault(text_of("{speed: {namespace: a, antiwindup: 2}}"), "hardware.speed.antiwindup", "",
+               7);
 }
 
 TEST(StudyHardware, TakesTheClampOfTheController) {
-  std::string text = text_of("{speed: {namespace: a}}", "{p: 1, i: 2}, i_clamp: 4, antiwindup: true");
+  std::string text =
+      text_of("{speed: {namespace: a}}", "{p: 1, i: 2}, i_clamp: 4, antiwindup: true");
   const HardwareGains gains = read_text(text).hardware.at(0);
   ASSERT_TRUE(gains.i_clamp);
   EXPECT_EQ(gains.i_clamp->nominal(), 4.0);
   EXPECT_TRUE(gains.antiwindup);
-  expect_fault(text_of("{speed: {namespace: a, i_clamp: 3}}", "{p: 1, i: 2}, i_clamp: 4"), "hardware.speed.i_clamp", "has i_clamp already",
-               7);
+  expect_fault(text_of("{speed: {namespace: a, i_clamp: 3}}", "{p: 1, i: 2}, i_clamp: 4"),
+               "hardware.speed.i_clamp", "has i_clamp already", 7);
 }
 
 TEST(StudyHardware, TwoControllersHaveTwoPlaces) {
-  const std::string two = "  slow: {type: pid, input: slider_joint/position, setpoint: 0, output: slider_joint, gains: {p: 1}}\n";
+  const std::string two =
+      "  slow: {type: pid, input: slider_joint/position, setpoint: 0, output: slider_joint, gains: "
+      "{p: 1}}\n";
   const auto with = [&two](const std::string& hardware) {
     std::string text = text_of(hardware);
     return text.insert(text.find("hardware:"), two);
   };
-  EXPECT_EQ(read_text(with("{speed: {namespace: arm/a}, slow: {namespace: arm/ab}}")).hardware.size(), 2U);
-  expect_fault(with("{speed: {namespace: arm/a}, slow: {namespace: arm/a}}"), "hardware.slow.namespace", "gains of \"speed\"", 8);
-  expect_fault(with("{speed: {namespace: arm/a}, slow: {namespace: arm}}"), "hardware.slow.namespace", "gains of \"speed\"", 8);
+  EXPECT_EQ(
+      read_text(with("{speed: {namespace: arm/a}, slow: {namespace: arm/ab}}")).hardware.size(),
+      2U);
+  expect_fault(with("{speed: {namespace: arm/a}, slow: {namespace: arm/a}}"),
+               "hardware.slow.namespace", "gains of \"speed\"", 8);
+  expect_fault(with("{speed: {namespace: arm/a}, slow: {namespace: arm}}"),
+               "hardware.slow.namespace", "gains of \"speed\"", 8);
 }
 
 }  // namespace

@@ -9,11 +9,12 @@ namespace codesign {
 namespace {
 
 // Lines 1 to 3; `uncertain:` begins in line 4.
-const std::string kHead =
-    kLeastStudy +
-    "parameters: {Kp: {initial: 1.0}, mu: {initial: 0.3, lower: 0, upper: 0.35, tune: false}, mass: {initial: 1, tune: false}}\n";
+const std::string kHead = kLeastStudy +
+                          "parameters: {Kp: {initial: 1.0}, mu: {initial: 0.3, lower: 0, upper: "
+                          "0.35, tune: false}, mass: {initial: 1, tune: false}}\n";
 
-/// A file as `codesign identify` writes it: a parameter that no recording determines, a number of a sensor, and two correlated parameters.
+/// A file as `codesign identify` writes it: a parameter that no recording determines, a number of a
+/// sensor, and two correlated parameters.
 std::string found() {
   return R"({
   "version": "1.0.0",
@@ -33,12 +34,15 @@ std::string found() {
 })";
 }
 
-Study read_with(const std::string& uncertain, const std::string& json = found(), std::string* file = nullptr) {
+Study read_with(const std::string& uncertain, const std::string& json = found(),
+                std::string* file = nullptr) {
   const FileLoader files = [&](const FileAddress& address) {
-    if (file) *file = address.file + " " + address.element + ":" + std::to_string(address.where.line);
+    if (file)
+      *file = address.file + " " + address.element + ":" + std::to_string(address.where.line);
     return SourceText{"folder/identification.json", json};
   };
-  return read_study({"study.yaml", kHead + "uncertain: " + uncertain + "\n"}, study_robot(), {}, files);
+  return read_study({"study.yaml", kHead + "uncertain: " + uncertain + "\n"}, study_robot(), {},
+                    files);
 }
 
 InputFault refusal(const std::string& uncertain, const std::string& json = found()) {
@@ -61,7 +65,8 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 TEST(StudyIdentified, ReadsADistributionWithItsCorrelations) {
   std::string file;
-  const std::vector<UncertainQuantity> quantities = read_with(kExcept, found(), &file).ensemble.uncertain;
+  const std::vector<UncertainQuantity> quantities =
+      read_with(kExcept, found(), &file).ensemble.uncertain;
   EXPECT_EQ(file, "identification.json uncertain.from.file:4");
   ASSERT_EQ(quantities.size(), 2U) << "neither the number of the sensor nor the exception";
   EXPECT_EQ(quantities[0].name, "mass");
@@ -77,7 +82,8 @@ TEST(StudyIdentified, ReadsADistributionWithItsCorrelations) {
   const Distribution& mu = quantities[1].distribution;
   EXPECT_EQ(mu.mean, 0.31);
   EXPECT_EQ(mu.upper, 0.35) << "the bound of the study";
-  EXPECT_NEAR(mu.deviation, 0.02 * 0.8, 1e-15) << "given the mass, with which it has a correlation of 0.6";
+  EXPECT_NEAR(mu.deviation, 0.02 * 0.8, 1e-15)
+      << "given the mass, with which it has a correlation of 0.6";
   EXPECT_DOUBLE_EQ(quantities[1].spread, 0.02);
   ASSERT_EQ(quantities[1].slopes.size(), 1U);
   EXPECT_EQ(quantities[1].slopes[0].quantity, 0U);
@@ -86,7 +92,10 @@ TEST(StudyIdentified, ReadsADistributionWithItsCorrelations) {
 
 TEST(StudyIdentified, StandsBesideOtherDistributions) {
   const std::vector<UncertainQuantity> quantities =
-      read_with("{rod_length: {uniform: [0.2, 0.3]}, from: identification.json, crank_length: {normal: [0.08, 0.01]}}").ensemble.uncertain;
+      read_with(
+          "{rod_length: {uniform: [0.2, 0.3]}, from: identification.json, crank_length: {normal: "
+          "[0.08, 0.01]}}")
+          .ensemble.uncertain;
   ASSERT_EQ(quantities.size(), 4U);
   EXPECT_EQ(quantities[0].name, "rod_length");
   EXPECT_EQ(quantities[2].slopes.at(0).quantity, 1U) << "indices count the entries before";
@@ -103,14 +112,21 @@ TEST(StudyIdentified, AskForWhatTheFileDoesNotTell) {
 }
 
 TEST(StudyIdentified, OneDistributionForEach) {
-  EXPECT_NE(refusal("{from: {file: i.json, except: [crank_length]}, mu: {uniform: [0.1, 0.2]}}").message.find("of its own"),
+  EXPECT_NE(refusal("{from: {file: i.json, except: [crank_length]}, mu: {uniform: [0.1, 0.2]}}")
+                .message.find("of its own"),
             std::string::npos);
-  EXPECT_EQ(read_with("{from: {file: i.json, except: [crank_length, mu]}, mu: {uniform: [0.1, 0.2]}}").ensemble.uncertain.size(), 2U);
+  EXPECT_EQ(
+      read_with("{from: {file: i.json, except: [crank_length, mu]}, mu: {uniform: [0.1, 0.2]}}")
+          .ensemble.uncertain.size(),
+      2U);
 }
 
 TEST(StudyIdentified, NamesThePlaceInTheFile) {
-  const auto at = [](const InputFault& fault) { return fault.where.file + ":" + std::to_string(fault.where.line) + " " + fault.element; };
-  InputFault fault = refusal(kExcept, with(found(), "\"mu\", \"crank_length\"]", "\"mus\", \"crank_length\"]"));
+  const auto at = [](const InputFault& fault) {
+    return fault.where.file + ":" + std::to_string(fault.where.line) + " " + fault.element;
+  };
+  InputFault fault =
+      refusal(kExcept, with(found(), "\"mu\", \"crank_length\"]", "\"mus\", \"crank_length\"]"));
   EXPECT_EQ(at(fault), "folder/identification.json:3 identified.mus");
   std::string other = with(found(), "\"mu\", \"crank_length\"]", "\"mus\", \"crank_length\"]");
   fault = refusal(kExcept, with(other, "\"mu\": {", "\"mus\": {"));
@@ -122,7 +138,8 @@ TEST(StudyIdentified, NamesThePlaceInTheFile) {
   EXPECT_EQ(at(fault), "folder/identification.json:10 covariance");
   fault = refusal(kExcept, with(found(), "[0.0036, 0.01", "[0.0037, 0.01"));
   EXPECT_NE(fault.message.find("not symmetric"), std::string::npos);
-  fault = refusal(kExcept, with(with(found(), "0.1, 0.0036", "0.1, 0.036"), "[0.0036, 0.01", "[0.036, 0.01"));
+  fault = refusal(
+      kExcept, with(with(found(), "0.1, 0.0036", "0.1, 0.036"), "[0.0036, 0.01", "[0.036, 0.01"));
   EXPECT_NE(fault.message.find("no distribution has this covariance"), std::string::npos);
   fault = refusal(kExcept, with(found(), "{\"value\": 0.31", "{\"value\": 0.36"));
   EXPECT_EQ(at(fault), "folder/identification.json:6 identified.mu.value");
@@ -131,17 +148,27 @@ TEST(StudyIdentified, NamesThePlaceInTheFile) {
 
 TEST(StudyIdentified, RefusesOtherFiles) {
   for (const char* text : {"[1, 2]", "{\"error\": 1}", "scalar"})
-    EXPECT_NE(refusal(kExcept, text).message.find("not the result of an identification"), std::string::npos) << text;
-  EXPECT_NE(refusal("{from: {file: i.json, except: [crank_length, mass, mu]}}").message.find("nothing of the file"), std::string::npos);
-  EXPECT_NE(refusal("{from: {file: i.json, except: [crank_lenght]}}").message.find("did you mean \"crank_length\"?"), std::string::npos);
-  EXPECT_NE(refusal("{from: {file: i.json, but: [mass]}}").message.find("unknown key"), std::string::npos);
-  expect_fault(kHead + "uncertain: {from: i.json}\n", "uncertain.from", "no file can be read here", 4);
+    EXPECT_NE(refusal(kExcept, text).message.find("not the result of an identification"),
+              std::string::npos)
+        << text;
+  EXPECT_NE(refusal("{from: {file: i.json, except: [crank_length, mass, mu]}}")
+                .message.find("nothing of the file"),
+            std::string::npos);
+  EXPECT_NE(refusal("{from: {file: i.json, except: [crank_lenght]}}")
+                .message.find("did you mean \"crank_length\"?"),
+            std::string::npos);
+  EXPECT_NE(refusal("{from: {file: i.json, but: [mass]}}").message.find("unknown key"),
+            std::string::npos);
+  expect_fault(kHead + "uncertain: {from: i.json}\n", "uncertain.from", "no file can be read here",
+               4);
 }
 
 TEST(StudyIdentified, WhatIsTunedOrSetIsNotUncertain) {
   const std::string tuned = with(kHead, "mass: {initial: 1, tune: false}", "mass: {initial: 1}");
   const FileLoader files = [](const FileAddress&) { return SourceText{"i.json", found()}; };
-  const auto read = [&](const std::string& study) { read_study({"study.yaml", study}, study_robot(), {}, files); };
+  const auto read = [&](const std::string& study) {
+    read_study({"study.yaml", study}, study_robot(), {}, files);
+  };
   try {
     read(tuned + "uncertain: " + kExcept + "\n");
     ADD_FAILURE() << "accepted";
@@ -150,13 +177,17 @@ TEST(StudyIdentified, WhatIsTunedOrSetIsNotUncertain) {
     EXPECT_NE(error.fault().message.find("the study tunes mass"), std::string::npos);
     EXPECT_EQ(error.fault().allowed, "except: [mass]");
   }
-  EXPECT_NO_THROW(read(tuned + "uncertain: {from: {file: i.json, except: [crank_length, mass]}}\n"));
-  EXPECT_THROW(read(kHead + "runs: {a: {set: {mu: 0.1}}}\nuncertain: " + kExcept + "\n"), InputError);
+  EXPECT_NO_THROW(
+      read(tuned + "uncertain: {from: {file: i.json, except: [crank_length, mass]}}\n"));
+  EXPECT_THROW(read(kHead + "runs: {a: {set: {mu: 0.1}}}\nuncertain: " + kExcept + "\n"),
+               InputError);
 }
 
 TEST(StudyIdentified, AParameterOfThatNameTakesPrecedence) {
-  const std::string head = with(kHead, "Kp: {initial: 1.0}", "Kp: {initial: 1.0}, from: {initial: 1, tune: false}");
-  const Study study = read_study({"study.yaml", head + "uncertain: {from: {uniform: [0, 1]}}\n"}, study_robot());
+  const std::string head =
+      with(kHead, "Kp: {initial: 1.0}", "Kp: {initial: 1.0}, from: {initial: 1, tune: false}");
+  const Study study =
+      read_study({"study.yaml", head + "uncertain: {from: {uniform: [0, 1]}}\n"}, study_robot());
   EXPECT_EQ(study.ensemble.uncertain.at(0).name, "from");
 }
 

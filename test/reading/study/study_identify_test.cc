@@ -9,15 +9,20 @@ namespace codesign {
 namespace {
 
 // Lines 1 and 2; `identify:` begins in line 3.
-const std::string kStudyToIdentify = "duration: 2.0\nparameters: {rod_length: {}, crank_length: {tune: false}}\n";
+const std::string kStudyToIdentify =
+    "duration: 2.0\nparameters: {rod_length: {}, crank_length: {tune: false}}\n";
 const std::string kSomeData = "data: [{csv: excite.csv}]";
 
 IdentificationDescription identification_of(const std::string& keys) {
-  return read_text(kStudyToIdentify + "identify: {" + kSomeData + (keys.empty() ? "" : ", ") + keys + "}\n").identification.value();
+  return read_text(kStudyToIdentify + "identify: {" + kSomeData + (keys.empty() ? "" : ", ") +
+                   keys + "}\n")
+      .identification.value();
 }
 
-void expect_bad_identify(const std::string& keys, const std::string& element, const std::string& message) {
-  expect_fault(kStudyToIdentify + "identify: {" + kSomeData + ", " + keys + "}\n", element, message, 3);
+void expect_bad_identify(const std::string& keys, const std::string& element,
+                         const std::string& message) {
+  expect_fault(kStudyToIdentify + "identify: {" + kSomeData + ", " + keys + "}\n", element, message,
+               3);
 }
 
 TEST(StudyIdentify, IsThereOnlyIfWritten) {
@@ -37,7 +42,8 @@ TEST(StudyIdentify, IsThereOnlyIfWritten) {
 TEST(StudyIdentify, ReadsAllKeys) {
   const IdentificationDescription description = identification_of(
       "holdout: [{bag: ptp.bag, topic: /joint_states}], residual: motion, segment: 0.5, "
-      "filter: {cutoff: 60.0, residual_cutoff: 20.0, order: 2, decimate: 10}, loss: {type: soft_l1, scale: 2.0}, "
+      "filter: {cutoff: 60.0, residual_cutoff: 20.0, order: 2, decimate: 10}, loss: {type: "
+      "soft_l1, scale: 2.0}, "
       "intervals: {level: 0.9, noise: bootstrap, lag: 30, profiles: true}");
   EXPECT_EQ(description.holdout.at(0).topic, "/joint_states");
   EXPECT_EQ(description.residual, ResidualKind::kMotion);
@@ -56,18 +62,22 @@ TEST(StudyIdentify, ReadsAllKeys) {
 
 TEST(StudyIdentify, EffortsAreFilteredLikeTheMotionUnlessSaidOtherwise) {
   EXPECT_EQ(identification_of("filter: {cutoff: 30}").filter.residual_cutoff, 30.0);
-  EXPECT_EQ(identification_of("filter: {cutoff: 30, residual_cutoff: 0}").filter.residual_cutoff, 0.0);
+  EXPECT_EQ(identification_of("filter: {cutoff: 30, residual_cutoff: 0}").filter.residual_cutoff,
+            0.0);
 }
 
 TEST(StudyIdentify, AHoldoutStartsWhereTheStudySays) {
   const std::string start = "holdout: [{csv: ptp.csv, start: {crank_joint: ";
   EXPECT_EQ(identification_of(start + "0.4}}]").holdout.at(0).starts.at(0).position.value, 0.4);
-  expect_bad_identify(start + "{}}}]", "identify.holdout[0].start.crank_joint", "a holdout is never fitted");
+  expect_bad_identify(start + "{}}}]", "identify.holdout[0].start.crank_joint",
+                      "a holdout is never fitted");
 }
 
 TEST(StudyIdentify, ANumberIsKnownAndAMapIsFitted) {
-  const JointCalibration joint =
-      identification_of("joints: {crank_joint: {effort_scale: 11.13, delay: {initial: 0.001, upper: 0.02}, offset: {}}}").joints.at(0);
+  const JointCalibration joint = identification_of(
+                                     "joints: {crank_joint: {effort_scale: 11.13, delay: {initial: "
+                                     "0.001, upper: 0.02}, offset: {}}}")
+                                     .joints.at(0);
   EXPECT_EQ(joint.joint, "crank_joint");
   EXPECT_EQ(joint.effort_scale.value, 11.13);
   EXPECT_FALSE(joint.effort_scale.is_fitted);
@@ -78,11 +88,15 @@ TEST(StudyIdentify, ANumberIsKnownAndAMapIsFitted) {
   EXPECT_TRUE(joint.offset.is_fitted);
   EXPECT_EQ(joint.offset.value, 0.0);
   EXPECT_TRUE(std::isinf(joint.offset.lower));
-  const JointCalibration plain = identification_of("joints: {slider_joint: {effort_scale: {}}}").joints.at(0);
+  const JointCalibration plain =
+      identification_of("joints: {slider_joint: {effort_scale: {}}}").joints.at(0);
   EXPECT_EQ(plain.effort_scale.value, 1.0);
   EXPECT_TRUE(plain.effort_scale.is_fitted);
-  EXPECT_EQ(identification_of("joints: {crank_joint: {delay: {lower: -0.1}}}").joints.at(0).delay.lower, -0.1);
-  EXPECT_EQ(identification_of("joints: {crank_joint: {delay: -0.01}}").joints.at(0).delay.value, -0.01);
+  EXPECT_EQ(
+      identification_of("joints: {crank_joint: {delay: {lower: -0.1}}}").joints.at(0).delay.lower,
+      -0.1);
+  EXPECT_EQ(identification_of("joints: {crank_joint: {delay: -0.01}}").joints.at(0).delay.value,
+            -0.01);
   EXPECT_FALSE(plain.delay.is_fitted);
 }
 
@@ -98,27 +112,40 @@ TEST(StudyIdentify, RefusesWhatMakesNoSense) {
   expect_bad_identify("loss: {type: huber, scale: 0}", "identify.loss.scale", "not above zero");
   expect_bad_identify("loss: {type: none, scale: 2}", "identify.loss.scale", "nothing to scale");
   expect_bad_identify("intervals: {level: 95}", "identify.intervals.level", "a probability");
-  expect_bad_identify("intervals: {noise: white, lag: 3}", "identify.intervals.lag", "white noise has no lag");
+  expect_bad_identify("intervals: {noise: white, lag: 3}", "identify.intervals.lag",
+                      "white noise has no lag");
   expect_bad_identify("holdout: []", "identify.holdout", "no recording");
 }
 
 TEST(StudyIdentify, RefusesCalibrationsThatCannotBe) {
-  expect_bad_identify("joints: {crank_jiont: {}}", "identify.joints.crank_jiont", "did you mean \"crank_joint\"");
-  expect_bad_identify("joints: {ball_joint: {}}", "identify.joints.ball_joint", "no single coordinate");
-  expect_bad_identify("joints: {crank_joint: {scale: 1}}", "identify.joints.crank_joint.scale", "unknown key");
-  expect_bad_identify("joints: {crank_joint: {effort_scale: 0}}", "identify.joints.crank_joint.effort_scale", "leaves nothing");
-  expect_bad_identify("joints: {crank_joint: {delay: {initial: 1, upper: 0.5}}}", "identify.joints.crank_joint.delay.initial",
+  expect_bad_identify("joints: {crank_jiont: {}}", "identify.joints.crank_jiont",
+                      "did you mean \"crank_joint\"");
+  expect_bad_identify("joints: {ball_joint: {}}", "identify.joints.ball_joint",
+                      "no single coordinate");
+  expect_bad_identify("joints: {crank_joint: {scale: 1}}", "identify.joints.crank_joint.scale",
+                      "unknown key");
+  expect_bad_identify("joints: {crank_joint: {effort_scale: 0}}",
+                      "identify.joints.crank_joint.effort_scale", "leaves nothing");
+  expect_bad_identify("joints: {crank_joint: {delay: {initial: 1, upper: 0.5}}}",
+                      "identify.joints.crank_joint.delay.initial",
                       "the start lies outside the bounds");
 }
 
 TEST(StudyIdentify, NeedsSomethingToIdentify) {
-  expect_fault("duration: 1\nidentify: {" + kSomeData + "}\n", "identify", "nothing to identify", 2);
-  EXPECT_TRUE(read_text("duration: 1\nidentify: {" + kSomeData + ", joints: {crank_joint: {offset: {}}}}\n").identification.has_value());
+  expect_fault("duration: 1\nidentify: {" + kSomeData + "}\n", "identify", "nothing to identify",
+               2);
+  EXPECT_TRUE(
+      read_text("duration: 1\nidentify: {" + kSomeData + ", joints: {crank_joint: {offset: {}}}}\n")
+          .identification.has_value());
 }
 
 TEST(StudyIdentify, NeedsNoDurationOfItsOwn) {
-  EXPECT_EQ(read_text("parameters: {rod_length: {}}\nidentify: {" + kSomeData + ", segment: 0.25}\n").duration, 0.25);
-  EXPECT_EQ(read_text("parameters: {rod_length: {}}\nidentify: {" + kSomeData + "}\n").duration, 1.0);
+  EXPECT_EQ(
+      read_text("parameters: {rod_length: {}}\nidentify: {" + kSomeData + ", segment: 0.25}\n")
+          .duration,
+      0.25);
+  EXPECT_EQ(read_text("parameters: {rod_length: {}}\nidentify: {" + kSomeData + "}\n").duration,
+            1.0);
   expect_fault("parameters: {rod_length: {}}\n", "duration", "required key is missing", 1);
 }
 

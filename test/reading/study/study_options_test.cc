@@ -35,7 +35,9 @@ TEST(OptionReader, ReadsWholeNumbersWithinARange) {
   OptionReader{parse("count: 10")}("count", OptionRange{1, 10}, count);
   EXPECT_EQ(count, 10);
   EXPECT_EQ(message_of("count: 1"), "");
-  EXPECT_EQ(message_of("count: 0"), "study.yaml:1: count: count out of range (value: 0, allowed: a whole number from 1 to 10)");
+  EXPECT_EQ(
+      message_of("count: 0"),
+      "study.yaml:1: count: count out of range (value: 0, allowed: a whole number from 1 to 10)");
   EXPECT_NE(message_of("count: 11").find("out of range"), std::string::npos);
   EXPECT_NE(message_of("count: 1e300").find("out of range"), std::string::npos);
   EXPECT_NE(message_of("count: 2.5").find("not an integer"), std::string::npos);
@@ -56,8 +58,10 @@ std::string with_line(const std::string& line) { return kLeastStudy + line + "\n
 
 TEST(StudyOptions, ReadsTheSolver) {
   const SolverOptions solver =
-      read_text(with_line("solver: {integrator: idas, method: rodas5p, relative_tolerance: 1e-9, absolute_tolerance: 1e-10, "
-                          "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500, maximum_speed: 50, gradient: direct}"))
+      read_text(with_line("solver: {integrator: idas, method: rodas5p, relative_tolerance: 1e-9, "
+                          "absolute_tolerance: 1e-10, "
+                          "initial_step: 1e-5, maximum_step: 0.01, maximum_steps: 500, "
+                          "maximum_speed: 50, gradient: direct}"))
           .solver;
   EXPECT_EQ(solver.integrator, IntegratorKind::kIdas);
   EXPECT_EQ(solver.method, RosenbrockMethod::kRodas5P);
@@ -73,33 +77,42 @@ TEST(StudyOptions, ReadsTheSolver) {
 
 TEST(StudyOptions, ReadsTheOptimizer) {
   const OptimizerOptions optimizer =
-      read_text(with_line("optimizer: {algorithm: mma, max_evaluations: 7, relative_tolerance: 1e-3}")).optimizer;
+      read_text(
+          with_line("optimizer: {algorithm: mma, max_evaluations: 7, relative_tolerance: 1e-3}"))
+          .optimizer;
   EXPECT_EQ(optimizer.algorithm, "mma");
   EXPECT_EQ(optimizer.max_evaluations, 7);
   EXPECT_EQ(optimizer.relative_tolerance, 1e-3);
 }
 
 TEST(StudyOptions, RefusesBadSolverValues) {
-  expect_fault(with_line("solver: {integrator: euler}"), "solver.integrator", "unknown integrator", 3);
+  expect_fault(with_line("solver: {integrator: euler}"), "solver.integrator", "unknown integrator",
+               3);
   expect_fault(with_line("solver: {method: rodas4p}"), "solver.method", "did you mean", 3);
-  expect_fault(with_line("solver: {relative_tolerance: 0}"), "solver.relative_tolerance", "out of range", 3);
-  expect_fault(with_line("solver: {absolute_tolerance: 1}"), "solver.absolute_tolerance", "out of range", 3);
+  expect_fault(with_line("solver: {relative_tolerance: 0}"), "solver.relative_tolerance",
+               "out of range", 3);
+  expect_fault(with_line("solver: {absolute_tolerance: 1}"), "solver.absolute_tolerance",
+               "out of range", 3);
   expect_fault(with_line("solver: {initial_step: -1}"), "solver.initial_step", "out of range", 3);
   expect_fault(with_line("solver: {maximum_step: -1}"), "solver.maximum_step", "out of range", 3);
   expect_fault(with_line("solver: {maximum_steps: 0}"), "solver.maximum_steps", "out of range", 3);
-  expect_fault(with_line("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer", 3);
+  expect_fault(with_line("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer",
+               3);
   expect_fault(with_line("solver: {maximum_speed: -1}"), "solver.maximum_speed", "out of range", 3);
   expect_fault(with_line("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
-  expect_fault(with_line("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient", "integrator rosenbrock only", 3);
-  expect_fault(with_line("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"), "solver.gradient", "no sensitivities", 3);
+  expect_fault(with_line("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient",
+               "integrator rosenbrock only", 3);
+  expect_fault(with_line("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"),
+               "solver.gradient", "no sensitivities", 3);
   expect_fault(with_line("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
 }
 
 TEST(StudyOptions, ReadsTheLimits) {
   const LimitOptions none = read_text(kLeastStudy).limits;
   EXPECT_FALSE(none.effort || none.position);
-  const LimitOptions limits =
-      read_text(with_line("limits: {effort: true, position: true, stiffness: 2e3, dissipation: 0, width: 1e-2}")).limits;
+  const LimitOptions limits = read_text(with_line("limits: {effort: true, position: true, "
+                                                  "stiffness: 2e3, dissipation: 0, width: 1e-2}"))
+                                  .limits;
   EXPECT_TRUE(limits.effort && limits.position);
   EXPECT_EQ(limits.stiffness, 2e3);
   EXPECT_EQ(limits.dissipation, 0.0);
@@ -115,10 +128,14 @@ TEST(StudyOptions, RefusesBadLimits) {
 }
 
 TEST(StudyOptions, RefusesBadOptimizerValues) {
-  expect_fault(with_line("optimizer: {algorithm: slqsp}"), "optimizer.algorithm", "did you mean \"slsqp\"", 3);
-  expect_fault(with_line("optimizer: {max_evaluations: 0}"), "optimizer.max_evaluations", "out of range", 3);
-  expect_fault(with_line("optimizer: {relative_tolerance: -1e-6}"), "optimizer.relative_tolerance", "out of range", 3);
-  expect_fault(with_line("optimizer: {max_iterations: 5}"), "optimizer.max_iterations", "unknown key", 3);
+  expect_fault(with_line("optimizer: {algorithm: slqsp}"), "optimizer.algorithm",
+               "did you mean \"slsqp\"", 3);
+  expect_fault(with_line("optimizer: {max_evaluations: 0}"), "optimizer.max_evaluations",
+               "out of range", 3);
+  expect_fault(with_line("optimizer: {relative_tolerance: -1e-6}"), "optimizer.relative_tolerance",
+               "out of range", 3);
+  expect_fault(with_line("optimizer: {max_iterations: 5}"), "optimizer.max_iterations",
+               "unknown key", 3);
 }
 
 }  // namespace

@@ -9,9 +9,12 @@
 namespace codesign {
 namespace {
 
-Study with_parameters(const std::string& parameters) { return read_text(kLeastStudy + "parameters: " + parameters + "\n"); }
+Study with_parameters(const std::string& parameters) {
+  return read_text(kLeastStudy + "parameters: " + parameters + "\n");
+}
 
-void expect_bad_parameters(const std::string& parameters, const std::string& element, const std::string& message) {
+void expect_bad_parameters(const std::string& parameters, const std::string& element,
+                           const std::string& message) {
   expect_fault(kLeastStudy + "parameters: " + parameters + "\n", element, message, 3);
 }
 
@@ -24,22 +27,25 @@ TEST(StudyParameters, BoundsAndStartDefaultToTheModels) {
 }
 
 TEST(StudyParameters, TheStudyMayMoveBoundsAndStart) {
-  const Parameter parameter = with_parameters("{crank_length: {initial: 0.11, lower: 0.05, upper: 0.12}}").parameters.at(0);
+  const Parameter parameter =
+      with_parameters("{crank_length: {initial: 0.11, lower: 0.05, upper: 0.12}}").parameters.at(0);
   EXPECT_EQ(parameter.value, 0.11);
   EXPECT_EQ(parameter.lower, 0.05);
   EXPECT_EQ(parameter.upper, 0.12);
 }
 
 TEST(StudyParameters, AListedOneIsTunedUnlessItSaysOtherwise) {
-  const Study study =
-      with_parameters("{rod_length: {tune: true}, crank_length: {initial: 0.07, tune: false}, Kp: {initial: 2, tune: false}}");
+  const Study study = with_parameters(
+      "{rod_length: {tune: true}, crank_length: {initial: 0.07, tune: false}, Kp: {initial: 2, "
+      "tune: false}}");
   EXPECT_EQ(study.tuned, std::vector<int>{1});
   EXPECT_EQ(study.parameters[0].value, 0.07);
   EXPECT_EQ(study.parameters.at(2).value, 2.0);
 }
 
 TEST(StudyParameters, AStudysOwnFollowTheModelsAndMayBeUnbounded) {
-  const Study study = with_parameters("{Kp: {initial: 750}, rod_length: {}, Ki: {initial: 2, lower: 0}}");
+  const Study study =
+      with_parameters("{Kp: {initial: 750}, rod_length: {}, Ki: {initial: 2, lower: 0}}");
   ASSERT_EQ(study.parameters.size(), 4U);
   EXPECT_EQ(study.tuned, (std::vector<int>{2, 1, 3}));
   EXPECT_EQ(study.parameters[2].name, "Kp");
@@ -51,25 +57,36 @@ TEST(StudyParameters, AStudysOwnFollowTheModelsAndMayBeUnbounded) {
 }
 
 TEST(StudyParameters, RefusesBadRanges) {
-  expect_bad_parameters("{crank_length: {lower: 0.2}}", "parameters.crank_length.lower", "below the upper bound");
-  expect_bad_parameters("{Kp: {initial: 1, lower: 2, upper: 1}}", "parameters.Kp.lower", "below the upper bound");
-  expect_bad_parameters("{Kp: {initial: 1, lower: 1, upper: 1}}", "parameters.Kp.lower", "below the upper bound");
-  expect_bad_parameters("{Kp: {initial: 9, lower: -5, upper: 5}}", "parameters.Kp.initial", "outside the bounds");
-  expect_bad_parameters("{crank_length: {lower: 0.09}}", "parameters.crank_length", "outside the bounds");
-  EXPECT_EQ(fault_in(kLeastStudy + "parameters: {Kp: {initial: 9, lower: -5, upper: 5}}").allowed, "[-5, 5]");
+  expect_bad_parameters("{crank_length: {lower: 0.2}}", "parameters.crank_length.lower",
+                        "below the upper bound");
+  expect_bad_parameters("{Kp: {initial: 1, lower: 2, upper: 1}}", "parameters.Kp.lower",
+                        "below the upper bound");
+  expect_bad_parameters("{Kp: {initial: 1, lower: 1, upper: 1}}", "parameters.Kp.lower",
+                        "below the upper bound");
+  expect_bad_parameters("{Kp: {initial: 9, lower: -5, upper: 5}}", "parameters.Kp.initial",
+                        "outside the bounds");
+  expect_bad_parameters("{crank_length: {lower: 0.09}}", "parameters.crank_length",
+                        "outside the bounds");
+  EXPECT_EQ(fault_in(kLeastStudy + "parameters: {Kp: {initial: 9, lower: -5, upper: 5}}").allowed,
+            "[-5, 5]");
 }
 
 TEST(StudyParameters, RefusesBadEntries) {
-  expect_bad_parameters("{crank_lenght: {}}", "parameters.crank_lenght.initial", "did you mean \"crank_length\"");
+  expect_bad_parameters("{crank_lenght: {}}", "parameters.crank_lenght.initial",
+                        "did you mean \"crank_length\"");
   expect_bad_parameters("{Kp: {start: 1}}", "parameters.Kp.start", "unknown key");
   expect_bad_parameters("{2Kp: {initial: 1}}", "parameters.2Kp", "");
   expect_bad_parameters("{sqrt: {initial: 1}}", "parameters.sqrt", "");
-  expect_bad_parameters("{crank_length: {tune: maybe}}", "parameters.crank_length.tune", "not a truth value");
-  expect_bad_parameters("{crank_length: {tune: [true]}}", "parameters.crank_length.tune", "not a truth value");
+  expect_bad_parameters("{crank_length: {tune: maybe}}", "parameters.crank_length.tune",
+                        "not a truth value");
+  expect_bad_parameters("{crank_length: {tune: [true]}}", "parameters.crank_length.tune",
+                        "not a truth value");
   expect_bad_parameters("{Kp: 1}", "parameters.Kp", "expected a map");
   expect_bad_parameters("{Kp: {initial: .inf}}", "parameters.Kp.initial", "not finite");
-  expect_bad_parameters("{Kp: {initial: \"${rod_length}\"}}", "parameters.Kp.initial", "not a number");
-  expect_bad_parameters("{rod_length: {}, rod_length: {}}", "parameters.rod_length", "repeated key");
+  expect_bad_parameters("{Kp: {initial: \"${rod_length}\"}}", "parameters.Kp.initial",
+                        "not a number");
+  expect_bad_parameters("{rod_length: {}, rod_length: {}}", "parameters.rod_length",
+                        "repeated key");
   expect_bad_parameters("[crank_length]", "parameters", "expected a map");
 }
 
@@ -87,7 +104,8 @@ TEST(StudyFittedNumber, ANumberIsKnown) {
 }
 
 TEST(StudyFittedNumber, AMapIsFitted) {
-  const FittedNumber empty = fitted_number("{}", -3.0, 1.0), full = fitted_number("{initial: 0.5, lower: 0, upper: 2}", -3.0, 1.0);
+  const FittedNumber empty = fitted_number("{}", -3.0, 1.0),
+                     full = fitted_number("{initial: 0.5, lower: 0, upper: 2}", -3.0, 1.0);
   EXPECT_TRUE(empty.is_fitted);
   EXPECT_EQ(empty.value, 1.0);
   EXPECT_EQ(empty.lower, -3.0);
@@ -108,17 +126,19 @@ double margin(const Study& study, std::size_t k, double crank, double rod) {
 }
 
 TEST(StudyConstraints, MayUseTheStudysOwnParameters) {
-  const Study study = read_text(kLeastStudy + "parameters: {Kp: {initial: 1}}\nconstraints: [\"Kp >= 10*rod_length\"]\n");
+  const Study study = read_text(
+      kLeastStudy + "parameters: {Kp: {initial: 1}}\nconstraints: [\"Kp >= 10*rod_length\"]\n");
   EXPECT_DOUBLE_EQ(study.constraints.at(0).margin->value(std::vector<double>{0.08, 0.3, 5.0}), 2.0);
   EXPECT_EQ(study.constraints[0].where.line, 4);
 }
 
 TEST(StudyConstraints, BoundSumsOfParameters) {
-  const Study study = read_text(kLeastStudy +
-                                "constraints:\n"
-                                "  - \"rod_length - crank_length >= 0.165\"\n"
-                                "  - {expression: \"${crank_length + rod_length}\", between: [0.3, \"${5*crank_length}\"]}\n"
-                                "  - {expression: \"${2*rod_length}\", at_most: 0.7}\n");
+  const Study study = read_text(
+      kLeastStudy +
+      "constraints:\n"
+      "  - \"rod_length - crank_length >= 0.165\"\n"
+      "  - {expression: \"${crank_length + rod_length}\", between: [0.3, \"${5*crank_length}\"]}\n"
+      "  - {expression: \"${2*rod_length}\", at_most: 0.7}\n");
   ASSERT_EQ(study.constraints.size(), 4U);
   EXPECT_EQ(study.constraints[1].text, "crank_length + rod_length >= 0.3");
   EXPECT_EQ(study.constraints[2].text, "crank_length + rod_length <= 5*crank_length");
@@ -133,19 +153,26 @@ TEST(StudyConstraints, BoundSumsOfParameters) {
 }
 
 TEST(StudyConstraints, AreChecked) {
-  expect_fault(kLeastStudy + "constraints:\n  - rod_length >= 0.1\n  - Kp >= 1\n", "constraints[1]", "Kp", 5);
-  expect_fault(kLeastStudy + "constraints: rod_length >= 0.1\n", "constraints", "expected a list", 3);
-  const auto refuse = [](const std::string& item, const std::string& element, const std::string& message) {
+  expect_fault(kLeastStudy + "constraints:\n  - rod_length >= 0.1\n  - Kp >= 1\n", "constraints[1]",
+               "Kp", 5);
+  expect_fault(kLeastStudy + "constraints: rod_length >= 0.1\n", "constraints", "expected a list",
+               3);
+  const auto refuse = [](const std::string& item, const std::string& element,
+                         const std::string& message) {
     expect_fault(kLeastStudy + "constraints: [" + item + "]\n", element, message, 3);
   };
   refuse("{expresion: \"${rod_length}\", at_most: 1}", "constraints[0]", "not a constraint");
   refuse("[rod_length]", "constraints[0]", "not a constraint");
-  refuse("{expression: \"${rod_lenght}\", at_most: 1}", "constraints[0].expression", "did you mean 'rod_length'");
+  refuse("{expression: \"${rod_lenght}\", at_most: 1}", "constraints[0].expression",
+         "did you mean 'rod_length'");
   refuse("{expression: 3, at_most: 1}", "constraints[0].expression", "no parameter appears");
   refuse("{expression: \"${rod_length}\"}", "constraints[0]", "needs bounds");
-  refuse("{expression: \"${rod_length}\", after: 1, at_most: 1}", "constraints[0].after", "unknown key");
-  refuse("{expression: \"${rod_length}\", between: [0.3, 0.3]}", "constraints[0]", "the lower bound, 0.3, must be less than the upper one");
-  refuse("{expression: \"${rod_length}\", between: [0.5, 0.4]}", "constraints[0]", "must be less than");
+  refuse("{expression: \"${rod_length}\", after: 1, at_most: 1}", "constraints[0].after",
+         "unknown key");
+  refuse("{expression: \"${rod_length}\", between: [0.3, 0.3]}", "constraints[0]",
+         "the lower bound, 0.3, must be less than the upper one");
+  refuse("{expression: \"${rod_length}\", between: [0.5, 0.4]}", "constraints[0]",
+         "must be less than");
 }
 
 }  // namespace

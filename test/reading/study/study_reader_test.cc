@@ -59,7 +59,8 @@ TEST(StudyReader, TheRestHasDefaults) {
 
 TEST(StudyReader, RefusesUnknownMissingAndRepeatedKeys) {
   expect_fault(kLeastStudy + "solvr: {}\n", "solvr", "did you mean \"solver\"", 3);
-  expect_fault("objective: {integral: [{signal: crank_joint/velocity}]}\n", "duration", "required key is missing", 1);
+  expect_fault("objective: {integral: [{signal: crank_joint/velocity}]}\n", "duration",
+               "required key is missing", 1);
   expect_fault(kLeastStudy + "duration: 3\n", "duration", "repeated key", 3);
   expect_fault("- duration\n", "study", "expected a map", 1);
 }
@@ -84,14 +85,21 @@ TEST(StudyReader, RefusesGravityThatIsNoVector) {
 
 TEST(StudyReader, ChecksTheInitialState) {
   const std::string start = kLeastStudy + "initial_state: ";
-  expect_fault(start + "{crank_jont: {position: 0}}\n", "initial_state.crank_jont", "did you mean \"crank_joint\"", 3);
-  expect_fault(start + "{ball_joint: {position: 0}}\n", "initial_state.ball_joint.position", "no position", 3);
-  expect_fault(start + "{crank_joint: {speed: 0}}\n", "initial_state.crank_joint.speed", "unknown key", 3);
-  expect_fault(start + "{crank_joint: {}}\n", "initial_state.crank_joint", "no initial state is given", 3);
+  expect_fault(start + "{crank_jont: {position: 0}}\n", "initial_state.crank_jont",
+               "did you mean \"crank_joint\"", 3);
+  expect_fault(start + "{ball_joint: {position: 0}}\n", "initial_state.ball_joint.position",
+               "no position", 3);
+  expect_fault(start + "{crank_joint: {speed: 0}}\n", "initial_state.crank_joint.speed",
+               "unknown key", 3);
+  expect_fault(start + "{crank_joint: {}}\n", "initial_state.crank_joint",
+               "no initial state is given", 3);
   expect_fault(start + "{crank_joint: 0.1}\n", "initial_state.crank_joint", "expected a map", 3);
-  expect_fault(start + "{crank_joint: {position: 0, guess: 0}}\n", "initial_state.crank_joint.guess", "either", 3);
-  expect_fault(start + "{crank_joint: {position: fast}}\n", "initial_state.crank_joint.position", "not a number", 3);
-  expect_fault(start + "{crank_joint: {position: \"${crank_lenght}\"}}\n", "initial_state.crank_joint.position", "crank_length", 3);
+  expect_fault(start + "{crank_joint: {position: 0, guess: 0}}\n",
+               "initial_state.crank_joint.guess", "either", 3);
+  expect_fault(start + "{crank_joint: {position: fast}}\n", "initial_state.crank_joint.position",
+               "not a number", 3);
+  expect_fault(start + "{crank_joint: {position: \"${crank_lenght}\"}}\n",
+               "initial_state.crank_joint.position", "crank_length", 3);
 }
 
 }  // namespace

@@ -8,18 +8,21 @@
 namespace codesign {
 namespace {
 
-const std::string kRecordedStudy = "duration: 2.0\nparameters: {rod_length: {}}\nidentify:\n  data: ";
+const std::string kRecordedStudy =
+    "duration: 2.0\nparameters: {rod_length: {}}\nidentify:\n  data: ";
 
 std::vector<RecordingDescription> recordings_of(const std::string& list) {
   return read_text(kRecordedStudy + list + "\n").identification.value().data;
 }
 
-void expect_bad_recording(const std::string& entry, const std::string& element, const std::string& message) {
+void expect_bad_recording(const std::string& entry, const std::string& element,
+                          const std::string& message) {
   expect_fault(kRecordedStudy + "[" + entry + "]\n", "identify.data[0]" + element, message, 4);
 }
 
 TEST(StudyRecordings, ReadsABag) {
-  const RecordingDescription bag = recordings_of("[{bag: excite.bag, topic: /joint_states, from: 7.0, to: 37.0}]").at(0);
+  const RecordingDescription bag =
+      recordings_of("[{bag: excite.bag, topic: /joint_states, from: 7.0, to: 37.0}]").at(0);
   EXPECT_TRUE(bag.is_bag);
   EXPECT_EQ(bag.file, "excite.bag");
   EXPECT_EQ(bag.topic, "/joint_states");
@@ -29,12 +32,14 @@ TEST(StudyRecordings, ReadsABag) {
   EXPECT_EQ(bag.gaps, GapRule::kRefuse);
   EXPECT_EQ(bag.element, "identify.data[0]");
   EXPECT_EQ(bag.where.line, 4);
-  EXPECT_EQ(recordings_of("[{bag: a.bag, topic: b, stamp: receive}]").at(0).stamp, StampKind::kReceive);
+  EXPECT_EQ(recordings_of("[{bag: a.bag, topic: b, stamp: receive}]").at(0).stamp,
+            StampKind::kReceive);
 }
 
 TEST(StudyRecordings, ReadsATable) {
   const std::vector<RecordingDescription> both = recordings_of(
-      "\n    - {csv: a.csv}\n    - {csv: b.txt, delimiter: space, gaps: split, columns: {time: {column: t, scale: 0.001}, "
+      "\n    - {csv: a.csv}\n    - {csv: b.txt, delimiter: space, gaps: split, columns: {time: "
+      "{column: t, scale: 0.001}, "
       "crank_joint/position: 2, slider_joint/effort: {column: force, scale: 35.15, offset: -1}}}");
   ASSERT_EQ(both.size(), 2U);
   EXPECT_FALSE(both[0].is_bag);
@@ -55,8 +60,10 @@ TEST(StudyRecordings, ReadsATable) {
 }
 
 TEST(StudyRecordings, WhereJointsWithoutPositionsStart) {
-  const RecordingDescription both =
-      recordings_of("[{csv: a.csv, start: {crank_joint: {initial: 0.2, lower: -1, upper: 2}, slider_joint: 0.1}}]").at(0);
+  const RecordingDescription both = recordings_of(
+                                        "[{csv: a.csv, start: {crank_joint: {initial: 0.2, lower: "
+                                        "-1, upper: 2}, slider_joint: 0.1}}]")
+                                        .at(0);
   ASSERT_EQ(both.starts.size(), 2U);
   EXPECT_EQ(both.starts[0].joint, "crank_joint");
   EXPECT_TRUE(both.starts[0].position.is_fitted);
@@ -66,9 +73,12 @@ TEST(StudyRecordings, WhereJointsWithoutPositionsStart) {
   EXPECT_FALSE(both.starts[1].position.is_fitted);
   EXPECT_EQ(both.starts[1].position.value, 0.1);
   EXPECT_EQ(both.starts[1].position.where.line, 4);
-  EXPECT_EQ(recordings_of("[{bag: a.bag, topic: b, start: {crank_joint: 1}}]").at(0).starts.size(), 1U);
-  expect_bad_recording("{csv: a.csv, start: {crank_joit: 1}}", ".start.crank_joit", "did you mean \"crank_joint\"?");
-  expect_bad_recording("{csv: a.csv, start: {crank_joint: {low: 1}}}", ".start.crank_joint.low", "unknown key");
+  EXPECT_EQ(recordings_of("[{bag: a.bag, topic: b, start: {crank_joint: 1}}]").at(0).starts.size(),
+            1U);
+  expect_bad_recording("{csv: a.csv, start: {crank_joit: 1}}", ".start.crank_joit",
+                       "did you mean \"crank_joint\"?");
+  expect_bad_recording("{csv: a.csv, start: {crank_joint: {low: 1}}}", ".start.crank_joint.low",
+                       "unknown key");
   expect_bad_recording("{csv: a.csv, start: {crank_joint: here}}", ".start.crank_joint", "");
 }
 
@@ -86,14 +96,18 @@ TEST(StudyRecordings, RefusesOtherEntries) {
 }
 
 TEST(StudyRecordings, RefusesOtherColumns) {
-  const auto expect_bad_columns = [](const std::string& columns, const std::string& element, const std::string& message) {
+  const auto expect_bad_columns = [](const std::string& columns, const std::string& element,
+                                     const std::string& message) {
     expect_bad_recording("{csv: a.csv, columns: {" + columns + "}}", ".columns" + element, message);
   };
   expect_bad_columns("crank_joint/position: q", "", "the column of the time is missing");
   expect_bad_columns("time: t", "", "no column of a joint");
-  expect_bad_columns("time: t, crank_joint/positon: q", ".crank_joint/positon", "did you mean \"position\"");
-  expect_bad_columns("time: t, crank_jont/position: q", ".crank_jont/position", "did you mean \"crank_joint\"");
-  expect_bad_columns("time: t, ball_joint/position: q", ".ball_joint/position", "no single coordinate");
+  expect_bad_columns("time: t, crank_joint/positon: q", ".crank_joint/positon",
+                     "did you mean \"position\"");
+  expect_bad_columns("time: t, crank_jont/position: q", ".crank_jont/position",
+                     "did you mean \"crank_joint\"");
+  expect_bad_columns("time: t, ball_joint/position: q", ".ball_joint/position",
+                     "no single coordinate");
   expect_bad_columns("tiem: t", ".tiem", "did you mean \"time\"");
   expect_bad_columns("time: 0, crank_joint/position: q", ".time", "numbered from 1");
   expect_bad_columns("time: 1.5, crank_joint/position: q", ".time", "not an integer");

@@ -7,15 +7,16 @@ namespace codesign {
 namespace {
 
 std::string with_reference(const std::string& reference) {
-  return "duration: 2.0\nobjective: {integral: [{signal: crank_joint/velocity, reference: " + reference +
-         "}]}\nparameters: {A: {initial: 2.0}}\n";
+  return "duration: 2.0\nobjective: {integral: [{signal: crank_joint/velocity, reference: " +
+         reference + "}]}\nparameters: {A: {initial: 2.0}}\n";
 }
 
 ReferenceDescription read_reference_text(const std::string& reference) {
   return read_text(with_reference(reference)).integral.at(0).reference;
 }
 
-void expect_bad_reference(const std::string& reference, const std::string& key, const std::string& message) {
+void expect_bad_reference(const std::string& reference, const std::string& key,
+                          const std::string& message) {
   expect_fault(with_reference(reference), "objective.integral[0].reference" + key, message, 2);
 }
 
@@ -26,7 +27,8 @@ TEST(StudyReferences, ANumberOrAnExpressionIsConstant) {
 }
 
 TEST(StudyReferences, ASine) {
-  const ReferenceDescription sine = read_reference_text("{type: sine, amplitude: \"${A}\", period: 0.5, phase: 1.0, offset: -1.0}");
+  const ReferenceDescription sine = read_reference_text(
+      "{type: sine, amplitude: \"${A}\", period: 0.5, phase: 1.0, offset: -1.0}");
   EXPECT_EQ(sine.kind, ReferenceDescription::Kind::kSine);
   EXPECT_EQ(sine.sine.amplitude.nominal(), 2.0);
   EXPECT_TRUE(sine.sine.is_period);
@@ -34,37 +36,55 @@ TEST(StudyReferences, ASine) {
   EXPECT_EQ(sine.sine.phase.nominal(), 1.0);
   EXPECT_EQ(sine.sine.offset.nominal(), -1.0);
   expect_bad_reference("{type: sine, amplitude: 1.0}", "", "either a frequency or a period");
-  expect_bad_reference("{type: sine, amplitude: 1.0, frequency: 1.0, period: 1.0}", "", "either a frequency or a period");
-  expect_bad_reference("{type: sine, amplitude: 1.0, frequency: 0.0}", ".frequency", "not above zero");
-  expect_bad_reference("{type: sine, amplitude: 1.0, frequenzy: 2.0}", ".frequenzy", "did you mean \"frequency\"");
-  expect_bad_reference("{type: sin, amplitude: 1.0, frequency: 2.0}", ".type", "did you mean \"sine\"");
+  expect_bad_reference("{type: sine, amplitude: 1.0, frequency: 1.0, period: 1.0}", "",
+                       "either a frequency or a period");
+  expect_bad_reference("{type: sine, amplitude: 1.0, frequency: 0.0}", ".frequency",
+                       "not above zero");
+  expect_bad_reference("{type: sine, amplitude: 1.0, frequenzy: 2.0}", ".frequenzy",
+                       "did you mean \"frequency\"");
+  expect_bad_reference("{type: sin, amplitude: 1.0, frequency: 2.0}", ".type",
+                       "did you mean \"sine\"");
 }
 
 TEST(StudyReferences, Waypoints) {
   const ReferenceDescription points = read_reference_text(
-      "{type: waypoints, times: [0.0, 1.0, 2.5], positions: [0.0, \"${A}\", 1.0], velocities: [0, 1, 0], interpolation: cubic}");
+      "{type: waypoints, times: [0.0, 1.0, 2.5], positions: [0.0, \"${A}\", 1.0], velocities: [0, "
+      "1, 0], interpolation: cubic}");
   EXPECT_EQ(points.kind, ReferenceDescription::Kind::kWaypoints);
   EXPECT_EQ(points.waypoints.interpolation, Interpolation::kCubic);
   EXPECT_EQ(points.waypoints.times, (std::vector<double>{0.0, 1.0, 2.5}));
   EXPECT_EQ(points.waypoints.positions.at(1).nominal(), 2.0);
   EXPECT_EQ(points.waypoints.velocities.size(), 3U);
   EXPECT_TRUE(points.waypoints.accelerations.empty());
-  EXPECT_EQ(read_reference_text("{type: waypoints, times: [0, 1], positions: [0, 1]}").waypoints.interpolation, Interpolation::kMonotone);
-  EXPECT_EQ(read_reference_text("{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: quintic}").waypoints.interpolation,
+  EXPECT_EQ(read_reference_text("{type: waypoints, times: [0, 1], positions: [0, 1]}")
+                .waypoints.interpolation,
+            Interpolation::kMonotone);
+  EXPECT_EQ(read_reference_text(
+                "{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: quintic}")
+                .waypoints.interpolation,
             Interpolation::kQuintic);
-  expect_bad_reference("{type: waypoints, times: [0.0], positions: [0.0]}", ".times", "at least two");
-  expect_bad_reference("{type: waypoints, times: [0, 1, 1], positions: [0, 1, 2]}", ".times", "must ascend");
-  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1, 2]}", ".positions", "found 3 values for 2 times");
-  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1]}", ".accelerations", "found 1 values");
-  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], velocities: [1, 1], interpolation: linear}", ".velocities",
-                       "does not use velocities");
-  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1, 1], interpolation: cubic}", ".accelerations",
-                       "only monotone and quintic");
-  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: cubik}", ".interpolation",
-                       "did you mean \"cubic\"");
+  expect_bad_reference("{type: waypoints, times: [0.0], positions: [0.0]}", ".times",
+                       "at least two");
+  expect_bad_reference("{type: waypoints, times: [0, 1, 1], positions: [0, 1, 2]}", ".times",
+                       "must ascend");
+  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1, 2]}", ".positions",
+                       "found 3 values for 2 times");
+  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1]}",
+                       ".accelerations", "found 1 values");
+  expect_bad_reference(
+      "{type: waypoints, times: [0, 1], positions: [0, 1], velocities: [1, 1], interpolation: "
+      "linear}",
+      ".velocities", "does not use velocities");
+  expect_bad_reference(
+      "{type: waypoints, times: [0, 1], positions: [0, 1], accelerations: [1, 1], interpolation: "
+      "cubic}",
+      ".accelerations", "only monotone and quintic");
+  expect_bad_reference("{type: waypoints, times: [0, 1], positions: [0, 1], interpolation: cubik}",
+                       ".interpolation", "did you mean \"cubic\"");
 }
 
-constexpr const char* kInBag = "{type: trajectory, bag: moves.bag, topic: /arm/command, joint: crank_joint}";
+constexpr const char* kInBag =
+    "{type: trajectory, bag: moves.bag, topic: /arm/command, joint: crank_joint}";
 
 TEST(StudyReferences, ATrajectoryInABagIsLeftToWhoCanReadIt) {
   TrajectoryAddress asked;
@@ -85,7 +105,9 @@ TEST(StudyReferences, ATrajectoryInABagIsLeftToWhoCanReadIt) {
 }
 
 TEST(StudyReferences, WithoutALoaderTheMessageSaysHowToConvertTheBag) {
-  expect_bad_reference(kInBag, "", "rosrun mechanism_codesign trajectory_from_bag moves.bag /arm/command crank_joint");
+  expect_bad_reference(
+      kInBag, "",
+      "rosrun mechanism_codesign trajectory_from_bag moves.bag /arm/command crank_joint");
 }
 
 }  // namespace

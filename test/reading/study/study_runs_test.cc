@@ -18,17 +18,22 @@ parameters: {Kp: {initial: 1.0}, mass: {initial: 2.0, lower: 0.0, upper: 5.0, tu
 objective: {integral: [{signal: crank_joint/velocity}, {signal: hold/error}]}
 )";
 
-std::vector<RunDescription> runs_of(const std::string& runs) { return read_text(kRunStudy + "runs: " + runs + "\n").ensemble.runs; }
+std::vector<RunDescription> runs_of(const std::string& runs) {
+  return read_text(kRunStudy + "runs: " + runs + "\n").ensemble.runs;
+}
 
-Study changed_study(const std::string& run) { return *runs_of("{changed: " + run + "}").at(0).study; }
+Study changed_study(const std::string& run) {
+  return *runs_of("{changed: " + run + "}").at(0).study;
+}
 
-void expect_bad_run(const std::string& runs, const std::string& element, const std::string& message, int line = 10) {
+void expect_bad_run(const std::string& runs, const std::string& element, const std::string& message,
+                    int line = 10) {
   expect_fault(kRunStudy + "runs: " + runs + "\n", element, message, line);
 }
 
 TEST(StudyRuns, ReadsValuesAndWeights) {
-  const std::vector<RunDescription> runs =
-      runs_of("\n  full-5.0: {set: {mass: 5.0, rod_length: 0.25}}\n  empty: {set: {mass: 0}, weight: 2.5}");
+  const std::vector<RunDescription> runs = runs_of(
+      "\n  full-5.0: {set: {mass: 5.0, rod_length: 0.25}}\n  empty: {set: {mass: 0}, weight: 2.5}");
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs[0].name, "full-5.0");
   EXPECT_EQ(runs[0].weight, 1.0);
@@ -48,8 +53,10 @@ TEST(StudyRuns, ARunMayBeTheStudyItself) {
 
 TEST(StudyRuns, ChangesAreMergedIntoTheStudy) {
   const Study study = changed_study(
-      "{gravity: [0, 0, -1.62], initial_state: {crank_joint: {velocity: 3.0}, slider_joint: {guess: 0.2}}, "
-      "controllers: {hold: {setpoint: 4.0, gains: {d: 0.5}}, shake: {feedforward: {amplitude: \"${Kp}\"}}}}");
+      "{gravity: [0, 0, -1.62], initial_state: {crank_joint: {velocity: 3.0}, slider_joint: "
+      "{guess: 0.2}}, "
+      "controllers: {hold: {setpoint: 4.0, gains: {d: 0.5}}, shake: {feedforward: {amplitude: "
+      "\"${Kp}\"}}}}");
   EXPECT_EQ(study.duration, 2.0);
   EXPECT_EQ(study.gravity[2], -1.62);
   ASSERT_EQ(study.initial_state.size(), 2U);
@@ -68,7 +75,9 @@ TEST(StudyRuns, ChangesAreMergedIntoTheStudy) {
 }
 
 TEST(StudyRuns, TheStudyItselfStaysAsItIs) {
-  const Study study = read_text(kRunStudy + "runs: {other: {initial_state: {crank_joint: {velocity: 3.0}}, gravity: [0, 0, 0]}}\n");
+  const Study study = read_text(
+      kRunStudy +
+      "runs: {other: {initial_state: {crank_joint: {velocity: 3.0}}, gravity: [0, 0, 0]}}\n");
   EXPECT_EQ(study.gravity[2], -9.81);
   EXPECT_EQ(study.initial_state[0].velocity->nominal(), -10.0);
   const Study& other = *study.ensemble.runs.at(0).study;
@@ -79,7 +88,8 @@ TEST(StudyRuns, TheStudyItselfStaysAsItIs) {
 
 TEST(StudyRuns, ListsAndOtherTypesReplaceWhatTheStudyHas) {
   const Study study = changed_study(
-      "{loads: [{joint: crank_joint, effort: 7.0}], controllers: {hold: {setpoint: {type: sine, amplitude: 2.0, period: 1.0}}, "
+      "{loads: [{joint: crank_joint, effort: 7.0}], controllers: {hold: {setpoint: {type: sine, "
+      "amplitude: 2.0, period: 1.0}}, "
       "shake: {feedforward: {type: waypoints, times: [0, 1], positions: [0, 3]}}}}");
   ASSERT_EQ(study.loads.size(), 1U);
   EXPECT_EQ(study.loads[0].effort.nominal(), 7.0);
@@ -97,7 +107,8 @@ TEST(StudyRuns, RefusesWhatIsNoRun) {
   expect_bad_run("{a/b: {}}", "runs.a/b", "not a name for a run");
   expect_bad_run("{a: {duration: 3}}", "runs.a.duration", "unknown key");
   expect_bad_run("{a: {objective: {}}}", "runs.a.objective", "unknown key");
-  EXPECT_EQ(fault_in(kRunStudy + "runs: {a: {duration: 3}}").allowed, "set, weight, initial_state, controllers, loads, gravity");
+  EXPECT_EQ(fault_in(kRunStudy + "runs: {a: {duration: 3}}").allowed,
+            "set, weight, initial_state, controllers, loads, gravity");
   expect_bad_run("{a: {weight: 0}}", "runs.a.weight", "must be positive");
   expect_bad_run("{a: {weight: heavy}}", "runs.a.weight", "not a number");
 }
@@ -109,9 +120,11 @@ TEST(StudyRuns, RefusesTooManyRuns) {
 }
 
 TEST(StudyRuns, RefusesValuesThatCannotBeSet) {
-  expect_bad_run("{a: {set: {mas: 1}}}", "runs.a.set.mas", "unknown parameter, did you mean \"mass\"");
+  expect_bad_run("{a: {set: {mas: 1}}}", "runs.a.set.mas",
+                 "unknown parameter, did you mean \"mass\"");
   expect_bad_run("{a: {set: {Kp: 1}}}", "runs.a.set.Kp", "this parameter is tuned");
-  expect_bad_run("{a: {set: {mass: 5.5}}}", "runs.a.set.mass", "outside the bounds of the parameter mass");
+  expect_bad_run("{a: {set: {mass: 5.5}}}", "runs.a.set.mass",
+                 "outside the bounds of the parameter mass");
   EXPECT_EQ(fault_in(kRunStudy + "runs: {a: {set: {mass: 5.5}}}").allowed, "[0, 5]");
   expect_bad_run("{a: {set: {mass: .nan}}}", "runs.a.set.mass", "not finite");
   expect_bad_run("{a: {set: {mass: \"${Kp}\"}}}", "runs.a.set.mass", "not a number");
@@ -122,28 +135,36 @@ TEST(StudyRuns, ErrorsNameThePlaceInTheRun) {
   expect_bad_run("\n  a:\n    controllers:\n      hlod: {setpoint: 1}\n", "runs.a.controllers.hlod",
                  "unknown controller of the study, did you mean \"hold\"", 13);
   expect_bad_run("{a: {controllers: {hold: 3}}}", "runs.a.controllers.hold", "must be a map");
-  expect_bad_run("\n  a:\n    controllers: {hold: {set_point: 1}}\n", "runs.a.controllers.hold.set_point", "unknown key", 12);
-  expect_bad_run("{a: {controllers: {hold: {setpoint: \"${Kq}\"}}}}", "runs.a.controllers.hold.setpoint", "Kq");
-  expect_bad_run("{a: {controllers: {hold: {type: pd_gravity, setpoint: 0}}}}", "runs.a.controllers.hold.output",
+  expect_bad_run("\n  a:\n    controllers: {hold: {set_point: 1}}\n",
+                 "runs.a.controllers.hold.set_point", "unknown key", 12);
+  expect_bad_run("{a: {controllers: {hold: {setpoint: \"${Kq}\"}}}}",
+                 "runs.a.controllers.hold.setpoint", "Kq");
+  expect_bad_run("{a: {controllers: {hold: {type: pd_gravity, setpoint: 0}}}}",
+                 "runs.a.controllers.hold.output", "required key is missing");
+  expect_bad_run("{a: {controllers: {shake: {feedforward: {period: 1}}}}}",
+                 "runs.a.controllers.shake.feedforward", "either a frequency or a period");
+  expect_bad_run("{a: {initial_state: {crank_joint: {guess: 1}}}}",
+                 "runs.a.initial_state.crank_joint.guess", "either a position or a guess");
+  expect_bad_run("{a: {initial_state: {crank_jont: {position: 1}}}}",
+                 "runs.a.initial_state.crank_jont", "did you mean \"crank_joint\"");
+  expect_bad_run("{a: {loads: [{joint: crank_joint}]}}", "runs.a.loads[0].effort",
                  "required key is missing");
-  expect_bad_run("{a: {controllers: {shake: {feedforward: {period: 1}}}}}", "runs.a.controllers.shake.feedforward",
-                 "either a frequency or a period");
-  expect_bad_run("{a: {initial_state: {crank_joint: {guess: 1}}}}", "runs.a.initial_state.crank_joint.guess",
-                 "either a position or a guess");
-  expect_bad_run("{a: {initial_state: {crank_jont: {position: 1}}}}", "runs.a.initial_state.crank_jont", "did you mean \"crank_joint\"");
-  expect_bad_run("{a: {loads: [{joint: crank_joint}]}}", "runs.a.loads[0].effort", "required key is missing");
   expect_bad_run("{a: {gravity: [0, 0]}}", "runs.a.gravity", "three components");
 }
 
 TEST(StudyRuns, AFaultElsewhereNamesTheRun) {
-  expect_bad_run("{a: {controllers: {hold: {type: state_feedback, output: crank_joint, feedforward: 1}}}}", "objective.integral[1].signal",
-                 "with the changes of the run \"a\"", 9);
+  expect_bad_run(
+      "{a: {controllers: {hold: {type: state_feedback, output: crank_joint, feedforward: 1}}}}",
+      "objective.integral[1].signal", "with the changes of the run \"a\"", 9);
 }
 
 TEST(StudyRuns, RefusesOtherParameters) {
-  expect_bad_run("{a: {controllers: {push: {coefficients: {count: 3}}}}}", "runs.a.controllers", "must not change the coefficients");
-  expect_bad_run("{a: {controllers: {push: {coefficients: {initial: 1}}}}}", "runs.a.controllers", "must not change the coefficients");
-  expect_bad_run("{a: {controllers: {push: {coefficients: {tune: true}}}}}", "runs.a.controllers", "must not change the coefficients");
+  expect_bad_run("{a: {controllers: {push: {coefficients: {count: 3}}}}}", "runs.a.controllers",
+                 "must not change the coefficients");
+  expect_bad_run("{a: {controllers: {push: {coefficients: {initial: 1}}}}}", "runs.a.controllers",
+                 "must not change the coefficients");
+  expect_bad_run("{a: {controllers: {push: {coefficients: {tune: true}}}}}", "runs.a.controllers",
+                 "must not change the coefficients");
   EXPECT_EQ(runs_of("{a: {set: {push_c1: 3}}}").at(0).set.at(0).second, 3.0);
 }
 

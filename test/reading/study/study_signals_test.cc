@@ -8,15 +8,16 @@ namespace codesign {
 namespace {
 
 std::string with_objective(const std::string& objective) {
-  return "duration: 1\ncontrollers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: {p: 1}}}\n"
+  return "duration: 1\ncontrollers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, "
+         "output: crank_joint, gains: {p: 1}}}\n"
          "objective: " +
          objective + "\n";
 }
 
 TEST(StudyObjective, ReadsTerms) {
-  const Study study =
-      read_text(with_objective("{integral: [{signal: speed/output, weight: 0.01}], "
-                               "terminal: [{signal: slider/position/x, reference: \"${rod_length}\"}]}"));
+  const Study study = read_text(
+      with_objective("{integral: [{signal: speed/output, weight: 0.01}], "
+                     "terminal: [{signal: slider/position/x, reference: \"${rod_length}\"}]}"));
   ASSERT_EQ(study.integral.size(), 1U);
   EXPECT_EQ(study.integral[0].signal.terms.at(0).object, "speed");
   EXPECT_EQ(study.integral[0].weight.nominal(), 0.01);
@@ -29,7 +30,9 @@ TEST(StudyObjective, ReadsTerms) {
 }
 
 TEST(StudyObjective, MayBeEmptyOrLeftOut) {
-  for (const std::string& none : {with_objective("{}"), with_objective("{integral: [], terminal: []}"), std::string("duration: 1\n")}) {
+  for (const std::string& none :
+       {with_objective("{}"), with_objective("{integral: [], terminal: []}"),
+        std::string("duration: 1\n")}) {
     const Study study = read_text(none);
     EXPECT_TRUE(study.integral.empty() && study.terminal.empty());
   }
@@ -37,30 +40,41 @@ TEST(StudyObjective, MayBeEmptyOrLeftOut) {
 }
 
 TEST(StudyObjective, RefusesBadTerms) {
-  expect_fault(with_objective("{integrl: []}"), "objective.integrl", "did you mean \"integral\"", 3);
-  expect_fault(with_objective("{integral: {signal: speed/output}}"), "objective.integral", "expected a list", 3);
-  expect_fault(with_objective("{integral: [{weight: 1}]}"), "objective.integral[0].signal", "required key is missing", 3);
-  expect_fault(with_objective("{integral: [{signal: speed/output}, {signal: speed/ouput}]}"), "objective.integral[1].signal", "\"output\"",
+  expect_fault(with_objective("{integrl: []}"), "objective.integrl", "did you mean \"integral\"",
                3);
-  expect_fault(with_objective("{integral: [{signal: sped/output}]}"), "objective.integral[0].signal", "did you mean \"speed\"", 3);
-  expect_fault(with_objective("{integral: [{signal: crank_joint/friction}]}"), "objective.integral[0].signal", "unknown quantity", 3);
-  expect_fault(with_objective("{terminal: [{signal: slider/position}]}"), "objective.terminal[0].signal", "needs the component", 3);
-  expect_fault(with_objective("{terminal: [{signal: speed/output, wieght: 1}]}"), "objective.terminal[0].wieght", "did you mean \"weight\"",
-               3);
-  expect_fault(with_objective("{terminal: [{signal: speed/output, weight: heavy}]}"), "objective.terminal[0].weight", "not a number", 3);
-  expect_fault(with_objective("{terminal: [{signal: speed/output, reference: .nan}]}"), "objective.terminal[0].reference", "not finite", 3);
+  expect_fault(with_objective("{integral: {signal: speed/output}}"), "objective.integral",
+               "expected a list", 3);
+  expect_fault(with_objective("{integral: [{weight: 1}]}"), "objective.integral[0].signal",
+               "required key is missing", 3);
+  expect_fault(with_objective("{integral: [{signal: speed/output}, {signal: speed/ouput}]}"),
+               "objective.integral[1].signal", "\"output\"", 3);
+  expect_fault(with_objective("{integral: [{signal: sped/output}]}"),
+               "objective.integral[0].signal", "did you mean \"speed\"", 3);
+  expect_fault(with_objective("{integral: [{signal: crank_joint/friction}]}"),
+               "objective.integral[0].signal", "unknown quantity", 3);
+  expect_fault(with_objective("{terminal: [{signal: slider/position}]}"),
+               "objective.terminal[0].signal", "needs the component", 3);
+  expect_fault(with_objective("{terminal: [{signal: speed/output, wieght: 1}]}"),
+               "objective.terminal[0].wieght", "did you mean \"weight\"", 3);
+  expect_fault(with_objective("{terminal: [{signal: speed/output, weight: heavy}]}"),
+               "objective.terminal[0].weight", "not a number", 3);
+  expect_fault(with_objective("{terminal: [{signal: speed/output, reference: .nan}]}"),
+               "objective.terminal[0].reference", "not finite", 3);
 }
 
 std::string with_watched_text(const std::string& lines) {
-  return "duration: 2\ncontrollers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: {p: 1}}}\n" +
+  return "duration: 2\ncontrollers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, "
+         "output: crank_joint, gains: {p: 1}}}\n" +
          lines + "\n";
 }
 
 TEST(StudyWatched, ReadsConstraintsAndPeaks) {
-  const Study study =
-      read_text(with_watched_text("path: [{signal: speed/output, between: [-2, \"${10 * rod_length}\"], after: 0.1}]\n"
-                                  "final: [{signal: slider/position/x, between: [0.3, 0.3]}, {signal: slider/velocity/x, at_most: 1}]\n"
-                                  "objective: {peak: [{signal: crank_joint/velocity, reference: 1.0, weight: 3, before: 1.5}]}"));
+  const Study study = read_text(with_watched_text(
+      "path: [{signal: speed/output, between: [-2, \"${10 * rod_length}\"], after: 0.1}]\n"
+      "final: [{signal: slider/position/x, between: [0.3, 0.3]}, {signal: slider/velocity/x, "
+      "at_most: 1}]\n"
+      "objective: {peak: [{signal: crank_joint/velocity, reference: 1.0, weight: 3, before: "
+      "1.5}]}"));
   ASSERT_EQ(study.watched.size(), 4U);
   const WatchedSignal& path = study.watched[0];
   EXPECT_EQ(path.role, WatchedSignal::Role::kPath);
@@ -81,10 +95,12 @@ TEST(StudyWatched, ReadsConstraintsAndPeaks) {
 }
 
 TEST(StudyWatched, APeakWithinABoundIsABoundOnBothSides) {
-  const Study study = read_text(
-      with_watched_text("constraints: [rod_length >= 0.1, {peak: speed/output, at_most: \"${10*rod_length}\", reference: 0.5, after: 0.1},"
-                        " {peak: crank_joint/velocity, at_most: 4}]\nobjective: {peak: [{signal: crank_joint/velocity}]}\npath: [{signal: "
-                        "speed/output, at_most: 9}]"));
+  const Study study =
+      read_text(with_watched_text("constraints: [rod_length >= 0.1, {peak: speed/output, at_most: "
+                                  "\"${10*rod_length}\", reference: 0.5, after: 0.1},"
+                                  " {peak: crank_joint/velocity, at_most: 4}]\nobjective: {peak: "
+                                  "[{signal: crank_joint/velocity}]}\npath: [{signal: "
+                                  "speed/output, at_most: 9}]"));
   ASSERT_EQ(study.watched.size(), 4U);
   EXPECT_EQ(study.constraints.size(), 1U);
   const WatchedSignal& peak = study.watched[1];
@@ -103,22 +119,26 @@ TEST(StudyWatched, APeakWithinABoundIsABoundOnBothSides) {
 }
 
 TEST(StudyWatched, RefusesBadPeaks) {
-  const auto refuse = [](const std::string& item, const std::string& element, const std::string& message) {
+  const auto refuse = [](const std::string& item, const std::string& element,
+                         const std::string& message) {
     expect_fault(with_watched_text("constraints: [{" + item + "}]"), element, message, 3);
   };
   refuse("peak: speed/outptu, at_most: 1", "constraints[0].peak", "did you mean \"output\"");
   refuse("peak: speed/output", "constraints[0].at_most", "required key is missing");
   refuse("peak: speed/output, at_least: 1, at_most: 2", "constraints[0].at_least", "unknown key");
   refuse("peak: speed/output, at_most: 0", "constraints[0].at_most", "must be positive");
-  refuse("peak: speed/output, at_most: \"${-rod_length}\"", "constraints[0].at_most", "must be positive");
+  refuse("peak: speed/output, at_most: \"${-rod_length}\"", "constraints[0].at_most",
+         "must be positive");
   refuse("peak: speed/output, at_most: 1, after: 3", "constraints[0]", "not part of the study");
-  expect_fault(with_watched_text("constraints: [{peak: speed/output, at_most: 1}]\nsolver: {gradient: adjoint}"), "solver.gradient",
-               "peaks in constraints", 4);
+  expect_fault(with_watched_text(
+                   "constraints: [{peak: speed/output, at_most: 1}]\nsolver: {gradient: adjoint}"),
+               "solver.gradient", "peaks in constraints", 4);
 }
 
 TEST(StudyWatched, RefusesBadConstraints) {
   const std::string signal = "signal: speed/output, ";
-  const auto refuse = [&](const std::string& item, const std::string& element, const std::string& message) {
+  const auto refuse = [&](const std::string& item, const std::string& element,
+                          const std::string& message) {
     expect_fault(with_watched_text("path: [{" + item + "}]"), element, message, 3);
   };
   refuse("between: [0, 1]", "path[0].signal", "required key is missing");
@@ -132,9 +152,12 @@ TEST(StudyWatched, RefusesBadConstraints) {
   refuse(signal + "at_most: 1, after: 1, before: 1", "path[0]", "not part of the study");
   refuse(signal + "at_most: 1, before: 2.5", "path[0]", "not part of the study");
   refuse(signal + "at_most: 1, weight: 2", "path[0].weight", "unknown key");
-  expect_fault(with_watched_text("final: [{" + signal + "at_most: 1, after: 1}]"), "final[0].after", "unknown key", 3);
-  expect_fault(with_watched_text("objective: {peak: [{" + signal + "weight: 0}]}"), "objective.peak[0].weight", "must be positive", 3);
-  expect_fault(with_watched_text("path: [{" + signal + "at_most: 1}]\nsolver: {gradient: adjoint}"), "solver.gradient", "adjoint", 4);
+  expect_fault(with_watched_text("final: [{" + signal + "at_most: 1, after: 1}]"), "final[0].after",
+               "unknown key", 3);
+  expect_fault(with_watched_text("objective: {peak: [{" + signal + "weight: 0}]}"),
+               "objective.peak[0].weight", "must be positive", 3);
+  expect_fault(with_watched_text("path: [{" + signal + "at_most: 1}]\nsolver: {gradient: adjoint}"),
+               "solver.gradient", "adjoint", 4);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace codesign {
 namespace {
 
 Quantity read(const std::string& yaml) {
-  return read_quantity(YamlValue::parse({"study.yaml", yaml}).at("x"), ParameterTable(study_robot().parameters));
+  return read_quantity(YamlValue::parse({"study.yaml", yaml}).at("x"),
+                       ParameterTable(study_robot().parameters));
 }
 
 TEST(StudyValues, AQuantityIsANumberOrAnExpression) {
@@ -21,8 +22,9 @@ TEST(StudyValues, AQuantityIsANumberOrAnExpression) {
 }
 
 TEST(StudyValues, RefusesOtherThings) {
-  for (const char* text : {"x: two", "x: rod_length", "x: \"${\"", "x: \"${}\"", "x: \"2*${rod_length}\"", "x: .inf", "x: \"${1/0}\"",
-                           "x: \"${rod_lenght}\"", "x: \"${2 +}\"", "x: []", "x: ''"})
+  for (const char* text :
+       {"x: two", "x: rod_length", "x: \"${\"", "x: \"${}\"", "x: \"2*${rod_length}\"", "x: .inf",
+        "x: \"${1/0}\"", "x: \"${rod_lenght}\"", "x: \"${2 +}\"", "x: []", "x: ''"})
     EXPECT_THROW(read(text), InputError) << text;
 }
 
@@ -37,7 +39,8 @@ TEST(StudyValues, SaysWhatAQuantityMayBe) {
 }
 
 TEST(StudyValues, FindsParametersThatAreNotTuned) {
-  const YamlValue at = YamlValue::parse({"study.yaml", "set: {rod_length: 0.25, short: 0.1}"}).at("set");
+  const YamlValue at =
+      YamlValue::parse({"study.yaml", "set: {rod_length: 0.25, short: 0.1}"}).at("set");
   Study study;
   study.parameters = study_robot().parameters;
   study.tuned = {0};
@@ -54,7 +57,8 @@ TEST(StudyValues, FindsParametersThatAreNotTuned) {
 }
 
 Between bounds_in(const std::string& text) {
-  return read_between(YamlValue::parse({"study.yaml", text}), ParameterTable({{"a", 2.0, 0.0, 5.0, "", {}}}));
+  return read_between(YamlValue::parse({"study.yaml", text}),
+                      ParameterTable({{"a", 2.0, 0.0, 5.0, "", {}}}));
 }
 
 TEST(StudyBetween, ReadsOneOrTwoBounds) {

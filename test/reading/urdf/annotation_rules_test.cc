@@ -24,28 +24,36 @@ TEST(AnnotationRules, AreFoundByPath) {
 }
 
 TEST(AnnotationRules, EveryChildOfAStrictElementHasItsRule) {
-  for (const char* path : {"robot/loop", "robot/coupling", "robot/codesign:spring_damper", "robot/loop/predecessor"}) {
+  for (const char* path :
+       {"robot/loop", "robot/coupling", "robot/codesign:spring_damper", "robot/loop/predecessor"}) {
     const ElementRule* rule = find_rule(path);
     ASSERT_NE(rule, nullptr) << path;
     EXPECT_TRUE(rule->strict) << path;
-    for (const std::string& child : rule->children) EXPECT_NE(find_rule(path + ("/" + child)), nullptr) << path << "/" << child;
+    for (const std::string& child : rule->children)
+      EXPECT_NE(find_rule(path + ("/" + child)), nullptr) << path << "/" << child;
   }
 }
 
 TEST(AnnotationRules, HaveTheTwinsOfThePage) {
   const std::string link = "robot/link/", joint = "robot/joint/", loop = "robot/loop/";
-  std::map<std::string, std::string> paths = {{"<origin>", joint + "origin"}, {"<mass>", link + "inertial/mass"}};
+  std::map<std::string, std::string> paths = {{"<origin>", joint + "origin"},
+                                              {"<mass>", link + "inertial/mass"}};
   paths["<inertia>"] = link + "inertial/inertia";
-  for (const char* shape : {"box", "cylinder", "sphere"}) paths["<" + std::string(shape) + ">"] = link + "visual/geometry/" + shape;
-  for (const char* tag : {"axis", "dynamics", "codesign:actuator", "mimic", "limit"}) paths["<" + std::string(tag) + ">"] = joint + tag;
-  for (const char* tag : {"codesign:second_axis", "codesign:length"}) paths["<" + std::string(tag) + ">"] = loop + tag;
+  for (const char* shape : {"box", "cylinder", "sphere"})
+    paths["<" + std::string(shape) + ">"] = link + "visual/geometry/" + shape;
+  for (const char* tag : {"axis", "dynamics", "codesign:actuator", "mimic", "limit"})
+    paths["<" + std::string(tag) + ">"] = joint + tag;
+  for (const char* tag : {"codesign:second_axis", "codesign:length"})
+    paths["<" + std::string(tag) + ">"] = loop + tag;
   paths["<ratio>"] = "robot/coupling/ratio";
   for (const PageRow& row : page_rows("annotations.md", 1)) {
     const std::vector<std::string> parts = split_at(row.cells[0], "; ");
     for (std::size_t k = 0; k < row.keys.size(); ++k) {
       const auto path = paths.find(row.keys[k]);
       if (path == paths.end()) continue;
-      EXPECT_EQ(find_rule(path->second)->twins, quoted_in(parts.size() == row.keys.size() ? parts[k] : row.cells[0])) << path->first;
+      EXPECT_EQ(find_rule(path->second)->twins,
+                quoted_in(parts.size() == row.keys.size() ? parts[k] : row.cells[0]))
+          << path->first;
       paths.erase(path);
     }
   }
@@ -55,7 +63,8 @@ TEST(AnnotationRules, HaveTheTwinsOfThePage) {
 TEST(AnnotationRules, ListsTheElementsOfOurOwn) {
   const std::vector<std::string> names = annotation_elements();
   EXPECT_EQ(names.size(), 8u);
-  EXPECT_TRUE(has(names, "codesign:spring_damper") && has(names, "codesign:second_axis") && has(names, "codesign:length"));
+  EXPECT_TRUE(has(names, "codesign:spring_damper") && has(names, "codesign:second_axis") &&
+              has(names, "codesign:length"));
 }
 
 }  // namespace

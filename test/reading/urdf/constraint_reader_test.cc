@@ -7,18 +7,22 @@ namespace {
 
 /// Two arms on the ground, which a constraint connects to a closed linkage.
 SourceText arms(const std::string& constraint) {
-  return robot_text(kGround + link_with("a") + link_with("b") + joint_with("ja", "continuous", "ground", "a", "<axis xyz=\"0 0 1\"/>") +
-                    joint_with("jb", "continuous", "ground", "b", "<axis xyz=\"0 0 1\"/>") + "\n" + constraint);
+  return robot_text(kGround + link_with("a") + link_with("b") +
+                    joint_with("ja", "continuous", "ground", "a", "<axis xyz=\"0 0 1\"/>") +
+                    joint_with("jb", "continuous", "ground", "b", "<axis xyz=\"0 0 1\"/>") + "\n" +
+                    constraint);
 }
 
-std::string between(const std::string& attributes, const std::string& on_a, const std::string& on_b, const std::string& more = "") {
-  return "<constraint " + attributes + "><predecessor link=\"a\">" + on_a + "</predecessor><successor link=\"b\">" + on_b + "</successor>" +
-         more + "</constraint>";
+std::string between(const std::string& attributes, const std::string& on_a, const std::string& on_b,
+                    const std::string& more = "") {
+  return "<constraint " + attributes + "><predecessor link=\"a\">" + on_a +
+         "</predecessor><successor link=\"b\">" + on_b + "</successor>" + more + "</constraint>";
 }
 
 TEST(ConstraintReader, APositionIsASphericalLoop) {
   const RobotDescription robot =
-      read_urdf(arms(between("name=\"close\" type=\"position\"", "<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"0.1 0.2 0\"/>")));
+      read_urdf(arms(between("name=\"close\" type=\"position\"", "<origin xyz=\"0.3 0 0\"/>",
+                             "<origin xyz=\"0.1 0.2 0\"/>")));
   EXPECT_TRUE(robot.warnings.empty());
   ASSERT_EQ(robot.joints.size(), 3U);
   const JointDescription& loop = robot.joints[2];
@@ -30,47 +34,65 @@ TEST(ConstraintReader, APositionIsASphericalLoop) {
 }
 
 TEST(ConstraintReader, ASphericalJointIsTheSame) {
-  const RobotDescription robot = read_urdf(arms(between("name=\"close\" type=\"spherical_joint\"", "<origin xyz=\"0.3 0 0\"/>", "")));
+  const RobotDescription robot = read_urdf(
+      arms(between("name=\"close\" type=\"spherical_joint\"", "<origin xyz=\"0.3 0 0\"/>", "")));
   EXPECT_TRUE(robot.warnings.empty());
   ASSERT_EQ(robot.joints.size(), 3U);
   EXPECT_EQ(robot.joints[2].type, JointType::kSpherical);
 }
 
 TEST(ConstraintReader, ALoopInItsPlaceSilencesTheWarning) {
-  const std::string loop = "<loop name=\"x\" type=\"continuous\"><predecessor link=\"b\"/><successor link=\"a\"/></loop>";
+  const std::string loop =
+      "<loop name=\"x\" type=\"continuous\"><predecessor link=\"b\"/><successor "
+      "link=\"a\"/></loop>";
   expect_no_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "") + loop));
-  expect_no_warning(arms("<constraint type=\"spherical_joint\"><parent link=\"a\"/><child link=\"b\"/></constraint>" + loop));
+  expect_no_warning(arms(
+      "<constraint type=\"spherical_joint\"><parent link=\"a\"/><child link=\"b\"/></constraint>" +
+      loop));
 }
 
 TEST(ConstraintReader, ACouplingMayRoll) {
-  const auto coupling = [](const std::string& attributes, const std::string& a, const std::string& b, const std::string& more) {
-    return arms("<coupling name=\"gear\"" + attributes + "><predecessor link=\"a\">" + a + "</predecessor><successor link=\"b\">" + b +
-                "</successor>" + more + "</coupling>");
+  const auto coupling = [](const std::string& attributes, const std::string& a,
+                           const std::string& b, const std::string& more) {
+    return arms("<coupling name=\"gear\"" + attributes + "><predecessor link=\"a\">" + a +
+                "</predecessor><successor link=\"b\">" + b + "</successor>" + more + "</coupling>");
   };
-  const std::string on_a = "<origin xyz=\"0.3 0 0\"/>", on_b = "<origin xyz=\"-0.1 0 0\"/>", rolling = " type=\"rolling\"";
-  EXPECT_DOUBLE_EQ(read_urdf(coupling(rolling, on_a, on_b, "")).couplings.at(0).ratio.nominal(), 3.0);
-  EXPECT_EQ(read_urdf(coupling(rolling, "", "", "<ratio value=\"6\"/>")).couplings.at(0).ratio.nominal(), 6.0);
-  EXPECT_THROW(read_urdf(coupling(" type=\"slipping\"", "", "", "<ratio value=\"6\"/>")), InputError);
+  const std::string on_a = "<origin xyz=\"0.3 0 0\"/>", on_b = "<origin xyz=\"-0.1 0 0\"/>",
+                    rolling = " type=\"rolling\"";
+  EXPECT_DOUBLE_EQ(read_urdf(coupling(rolling, on_a, on_b, "")).couplings.at(0).ratio.nominal(),
+                   3.0);
+  EXPECT_EQ(
+      read_urdf(coupling(rolling, "", "", "<ratio value=\"6\"/>")).couplings.at(0).ratio.nominal(),
+      6.0);
+  EXPECT_THROW(read_urdf(coupling(" type=\"slipping\"", "", "", "<ratio value=\"6\"/>")),
+               InputError);
   EXPECT_THROW(read_urdf(coupling("", on_a, "", "<ratio value=\"6\"/>")), InputError);
   EXPECT_THROW(read_urdf(coupling("", "", "", "")), InputError);
 }
 
 TEST(ConstraintReader, ANameOfItsOwnWhereItHasNone) {
-  const RobotDescription robot = read_urdf(arms(between("type=\"position\"", "", "") + between("name=\"ja\" type=\"position\"", "", "")));
+  const RobotDescription robot = read_urdf(arms(between("type=\"position\"", "", "") +
+                                                between("name=\"ja\" type=\"position\"", "", "")));
   EXPECT_EQ(robot.joints.at(2).name, "constraint");
   EXPECT_EQ(robot.joints.at(3).name, "ja_1");
 }
 
 TEST(ConstraintReader, RollingIsACoupling) {
-  const auto ratio = [](const std::string& constraint) { return read_urdf(arms(constraint)).couplings.at(0).ratio.nominal(); };
+  const auto ratio = [](const std::string& constraint) {
+    return read_urdf(arms(constraint)).couplings.at(0).ratio.nominal();
+  };
   EXPECT_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "", "", "<ratio value=\"6\"/>")), 6.0);
-  EXPECT_DOUBLE_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "<origin xyz=\"0.3 0 0.7\"/>", "<origin xyz=\"-0.1 0 0\"/>")), 3.0);
+  EXPECT_DOUBLE_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "<origin xyz=\"0.3 0 0.7\"/>",
+                                 "<origin xyz=\"-0.1 0 0\"/>")),
+                   3.0);
   EXPECT_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "", "")), 1.0);
 }
 
 TEST(ConstraintReader, WhatCannotBeReadIsNotDroppedInSilence) {
-  expect_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "")), "loop_ignored", {"test.urdf:3:", "magnetic", "write the <loop>"});
-  expect_warning(arms("<constraint name=\"x\" type=\"position\"><predecessor link=\"aa\"/><successor link=\"b\"/></constraint>"),
+  expect_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "")), "loop_ignored",
+                 {"test.urdf:3:", "magnetic", "write the <loop>"});
+  expect_warning(arms("<constraint name=\"x\" type=\"position\"><predecessor "
+                      "link=\"aa\"/><successor link=\"b\"/></constraint>"),
                  "loop_ignored", {"unknown link, did you mean", "(value: aa"});
 }
 

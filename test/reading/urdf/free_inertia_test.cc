@@ -14,19 +14,23 @@ namespace codesign {
 namespace {
 
 std::string arm_with(const std::string& attributes, const std::string& inside) {
-  return "<robot name='r' xmlns:codesign='urn:t'><codesign:parameter name='own' value='2'/><link name='ground'/><link name='arm-1'>"
+  return "<robot name='r' xmlns:codesign='urn:t'><codesign:parameter name='own' value='2'/><link "
+         "name='ground'/><link name='arm-1'>"
          "<inertial " +
          attributes + ">" + inside +
-         "</inertial></link><joint name='hinge' type='continuous'><parent link='ground'/><child link='arm-1'/><axis xyz='0 0 1'/></joint>"
+         "</inertial></link><joint name='hinge' type='continuous'><parent link='ground'/><child "
+         "link='arm-1'/><axis xyz='0 0 1'/></joint>"
          "</robot>";
 }
 
 const char* arm_numbers() {
-  return "<origin xyz='0.1 0.2 -0.3' rpy='0.3 -0.2 0.5'/><mass value='2.5'/><inertia ixx='0.02' ixy='0.001' ixz='0.002' iyy='0.03' "
+  return "<origin xyz='0.1 0.2 -0.3' rpy='0.3 -0.2 0.5'/><mass value='2.5'/><inertia ixx='0.02' "
+         "ixy='0.001' ixz='0.002' iyy='0.03' "
          "iyz='-0.003' izz='0.04'/>";
 }
 
-RobotDescription read_arm(const std::string& attributes, const std::string& inside = arm_numbers()) {
+RobotDescription read_arm(const std::string& attributes,
+                          const std::string& inside = arm_numbers()) {
   return read_urdf({"arm.urdf", arm_with(attributes, inside)});
 }
 
@@ -53,8 +57,10 @@ TEST(FreeInertia, TenParametersThatStartAtThePlainNumbers) {
   EXPECT_EQ(free.parameters[10].name, "arm_1_t3");
   EXPECT_EQ(free.parameters[10].unit, "m");
   EXPECT_NEAR(free.parameters[1].value, 0.5 * std::log(2.5), 1e-15);
-  const MassProperties<double> a = mass_properties(*free.links[1].inertial, default_values_of(free));
-  const MassProperties<double> b = mass_properties(*plain.links[1].inertial, default_values_of(plain));
+  const MassProperties<double> a =
+      mass_properties(*free.links[1].inertial, default_values_of(free));
+  const MassProperties<double> b =
+      mass_properties(*plain.links[1].inertial, default_values_of(plain));
   EXPECT_NEAR(a.mass, b.mass, 1e-14);
   EXPECT_LT((a.centre - b.centre).norm(), 1e-15);
   EXPECT_LT((a.inertia - b.inertia).norm(), 1e-15);
@@ -69,7 +75,8 @@ TEST(FreeInertia, EveryValueIsPhysicallyPossible) {
     for (std::size_t k = 1; k < values.size(); ++k) values[k] += normal(generator);
     const MassProperties<double> m = mass_properties(*robot.links[1].inertial, values);
     EXPECT_GT(m.mass, 0.0);
-    const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.inertia).eigenvalues();
+    const Eigen::Vector3d moments =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.inertia).eigenvalues();
     EXPECT_GT(moments[0], 0.0);
     EXPECT_GT(moments[0] + moments[1], moments[2] * (1.0 - 1e-12));
   }
@@ -91,17 +98,21 @@ TEST(FreeInertia, TheTunedFileHoldsTheNumbersAndTheirParameters) {
 }
 
 TEST(FreeInertia, AnOverlayMayFreeAVendorsLink) {
-  const RobotDescription robot = read_urdf(
-      {"arm.urdf", arm_with("", arm_numbers())},
-      {{"free.urdf", "<robot name='r' xmlns:codesign='urn:t'><link name='arm-1'><inertial codesign:inertia='free'/></link></robot>"}});
+  const RobotDescription robot =
+      read_urdf({"arm.urdf", arm_with("", arm_numbers())},
+                {{"free.urdf",
+                  "<robot name='r' xmlns:codesign='urn:t'><link name='arm-1'><inertial "
+                  "codesign:inertia='free'/></link></robot>"}});
   EXPECT_EQ(robot.parameters.size(), 11u);
 }
 
 TEST(FreeInertia, ADeclaredParameterKeepsItsValueAndBounds) {
   const SourceText overlay{"found.urdf",
-                           "<robot name='r' xmlns:codesign='urn:t'><codesign:parameter name='arm_1_alpha' value='0.5' lower='0' upper='1'/>"
+                           "<robot name='r' xmlns:codesign='urn:t'><codesign:parameter "
+                           "name='arm_1_alpha' value='0.5' lower='0' upper='1'/>"
                            "<codesign:parameter name='arm_1_t3' value='-0.25'/></robot>"};
-  const RobotDescription robot = read_urdf({"arm.urdf", arm_with("codesign:inertia='free'", arm_numbers())}, {overlay});
+  const RobotDescription robot =
+      read_urdf({"arm.urdf", arm_with("codesign:inertia='free'", arm_numbers())}, {overlay});
   ASSERT_EQ(robot.parameters.size(), 11u);
   EXPECT_EQ(robot.parameters[1].name, "arm_1_alpha");
   EXPECT_EQ(robot.parameters[1].upper, 1.0);
@@ -113,14 +124,18 @@ TEST(FreeInertia, ADeclaredParameterKeepsItsValueAndBounds) {
 
 TEST(FreeInertia, RefusesWhatCannotBeFree) {
   EXPECT_EQ(arm_refusal("codesign:inertia='fre'").allowed, "free");
-  EXPECT_NE(arm_refusal("codesign:inertia='free' codesign:density='100'").message.find("shapes"), std::string::npos);
-  EXPECT_NE(arm_refusal("codesign:inertia='free'",
-                        "<mass value='2.5' codesign:value='${own+0.5}'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
-                        "iyz='0' izz='1'/>")
-                .message.find("parameters themselves"),
+  EXPECT_NE(arm_refusal("codesign:inertia='free' codesign:density='100'").message.find("shapes"),
             std::string::npos);
+  EXPECT_NE(
+      arm_refusal(
+          "codesign:inertia='free'",
+          "<mass value='2.5' codesign:value='${own+0.5}'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+          "iyz='0' izz='1'/>")
+          .message.find("parameters themselves"),
+      std::string::npos);
   const InputFault rod =
-      arm_refusal("codesign:inertia='free'", "<mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='0'/>");
+      arm_refusal("codesign:inertia='free'",
+                  "<mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='0'/>");
   EXPECT_NE(rod.message.find("extent"), std::string::npos);
   EXPECT_EQ(rod.where.line, 1);
 }

@@ -12,8 +12,12 @@ namespace {
 
 const char kPlain[] = R"(mu_static="0.4" mu_dynamic="0.3" joint_length="0.1" pin_radius="0.02")";
 
-SourceText text_with(const std::string& attributes) { return pendulum("\n<codesign:friction " + attributes + "/>"); }
-FrictionDescription friction(const std::string& attributes) { return *read_urdf(text_with(attributes)).joints.at(0).friction; }
+SourceText text_with(const std::string& attributes) {
+  return pendulum("\n<codesign:friction " + attributes + "/>");
+}
+FrictionDescription friction(const std::string& attributes) {
+  return *read_urdf(text_with(attributes)).joints.at(0).friction;
+}
 
 TEST(FrictionReader, Defaults) {
   const FrictionDescription f = friction(kPlain);
@@ -35,17 +39,21 @@ TEST(FrictionReader, Defaults) {
 /// The default that doc/annotations.md gives for a missing number.
 std::string shown_default(const FrictionNumberRule& rule) {
   using M = FrictionNumberRule::Missing;
-  static const std::map<M, std::string> kWords = {{M::kRefused, "required"},       {M::kLengthOfOne, "none"},
-                                                  {M::kPinRadius, "`pin_radius`"}, {M::kMuStatic, "`mu_static`"},
-                                                  {M::kMuDynamic, "`mu_dynamic`"}, {M::kViscous, "`viscous`"}};
+  static const std::map<M, std::string> kWords = {
+      {M::kRefused, "required"},       {M::kLengthOfOne, "none"},
+      {M::kPinRadius, "`pin_radius`"}, {M::kMuStatic, "`mu_static`"},
+      {M::kMuDynamic, "`mu_dynamic`"}, {M::kViscous, "`viscous`"}};
   const bool is_none = rule.standard == 0.0 && !rule.zero_allowed;
-  return rule.missing != M::kStandard ? kWords.at(rule.missing) : is_none ? "none" : to_decimal(rule.standard);
+  return rule.missing != M::kStandard ? kWords.at(rule.missing)
+         : is_none                    ? "none"
+                                      : to_decimal(rule.standard);
 }
 
 TEST(FrictionReader, HasTheAttributesOfThePage) {
   std::map<std::string, std::pair<std::string, std::string>> page;  // default and allowed values
   for (const PageRow& row : page_rows("annotations.md", 4))
-    for (std::size_t k = 0; k < row.keys.size(); ++k) page[row.keys[k]] = {row.part(2, k), row.part(3, k)};
+    for (std::size_t k = 0; k < row.keys.size(); ++k)
+      page[row.keys[k]] = {row.part(2, k), row.part(3, k)};
   visit_friction_numbers([&](const FrictionNumberRule& rule) {
     ASSERT_EQ(page.count(rule.attribute), 1U) << rule.attribute;
     const auto [standard, allowed] = page[rule.attribute];
@@ -60,7 +68,8 @@ TEST(FrictionReader, HasTheAttributesOfThePage) {
 }
 
 TEST(FrictionReader, AllAttributesAndTwins) {
-  const FrictionDescription f = friction(R"(model="gonthier" mu_static="0.4" codesign:mu_static="${2*length}" mu_dynamic="0.2"
+  const FrictionDescription f =
+      friction(R"(model="gonthier" mu_static="0.4" codesign:mu_static="${2*length}" mu_dynamic="0.2"
       transition_velocity="0.001" joint_length="0.2" codesign:joint_length="${length}" joint_width="0.3" pin_radius="0.02" friction_arm="0.03"
       preload="5" smoothing="0.01" viscous="0.5" transverse_axis="0 0 1" bristle_stiffness="3e4" bristle_damping="20" dwell_time="1.5"
       codesign:dwell_time="${7.5*length}")");
@@ -84,20 +93,25 @@ TEST(FrictionReader, AllAttributesAndTwins) {
 TEST(FrictionReader, Faults) {
   const std::string plain = kPlain;
   expect_error(text_with(plain + " model=\"brown_mcphe\""),
-               {"test.urdf:3: <joint name=\"hinge\"> <codesign:friction>: unknown friction model, did you mean \"brown_mcphee\"?"});
+               {"test.urdf:3: <joint name=\"hinge\"> <codesign:friction>: unknown friction model, "
+                "did you mean \"brown_mcphee\"?"});
   expect_error(text_with("mu_static=\"0.4\""), {"the attribute mu_dynamic is missing"});
   expect_error(text_with("mu_dynamic=\"0.4\""), {"the attribute mu_static is missing"});
   expect_error(text_with("mu_static=\"0.3\" mu_dynamic=\"0.4\""),
                {"mu_dynamic is above mu_static (value: 0.4, allowed: at most mu_static=0.3)"});
   expect_error(text_with("mu_static=\"0.3\" mu_dynamic=\"-0.4\""), {"mu_dynamic is negative"});
   for (const char* name : {"transition_velocity", "smoothing", "friction_arm", "joint_width"})
-    expect_error(text_with(plain + " " + name + "=\"0\""), {std::string(name) + " is not positive (value: 0, allowed: > 0)"});
+    expect_error(text_with(plain + " " + name + "=\"0\""),
+                 {std::string(name) + " is not positive (value: 0, allowed: > 0)"});
   for (const char* name : {"bristle_stiffness", "bristle_damping", "dwell_time"})
-    expect_error(text_with(plain + " model=\"gonthier\" " + name + "=\"0\""), {std::string(name) + " is not positive"});
+    expect_error(text_with(plain + " model=\"gonthier\" " + name + "=\"0\""),
+                 {std::string(name) + " is not positive"});
   for (const char* name : {"preload", "viscous"})
     expect_error(text_with(plain + " " + name + "=\"-1\""), {std::string(name) + " is negative"});
-  expect_error(text_with(plain + " transverse_axis=\"2 0 0\""), {"zero or parallel to the joint axis"});
-  expect_error(text_with(plain + " transverse_axis=\"0 0 0\""), {"zero or parallel to the joint axis"});
+  expect_error(text_with(plain + " transverse_axis=\"2 0 0\""),
+               {"zero or parallel to the joint axis"});
+  expect_error(text_with(plain + " transverse_axis=\"0 0 0\""),
+               {"zero or parallel to the joint axis"});
   expect_error(text_with(plain + " transverse_axis=\"0 1\""), {"wrong number"});
 }
 
@@ -105,58 +119,78 @@ TEST(FrictionReader, NumbersAgainstTheAxis) {
   const std::string plain = kPlain;
   const FrictionDescription none = friction(plain);
   EXPECT_FALSE(none.is_directional);
-  const FrictionDescription f = friction(plain + R"( viscous="2" mu_dynamic_backward="0.2" codesign:mu_dynamic_backward="${length}")");
+  const FrictionDescription f = friction(
+      plain + R"( viscous="2" mu_dynamic_backward="0.2" codesign:mu_dynamic_backward="${length}")");
   EXPECT_TRUE(f.is_directional);
   EXPECT_EQ(f.mu_static_backward.nominal(), 0.4) << "as along the axis";
   EXPECT_DOUBLE_EQ(f.mu_dynamic_backward.at(std::vector<double>{0.3}), 0.3);
   EXPECT_EQ(f.viscous_backward.nominal(), 2.0);
   EXPECT_TRUE(friction(plain + " model=\"lugre\" viscous_backward=\"1\"").is_directional);
-  expect_error(text_with(plain + " mu_static_backward=\"0.2\""), {"mu_dynamic_backward is above mu_static_backward"});
-  expect_error(text_with(plain + " mu_dynamic_backward=\"0.5\""), {"mu_dynamic_backward is above mu_static_backward"});
+  expect_error(text_with(plain + " mu_static_backward=\"0.2\""),
+               {"mu_dynamic_backward is above mu_static_backward"});
+  expect_error(text_with(plain + " mu_dynamic_backward=\"0.5\""),
+               {"mu_dynamic_backward is above mu_static_backward"});
   expect_error(text_with(plain + " viscous_backward=\"-1\""), {"viscous_backward is negative"});
   expect_error(text_with(plain + " model=\"lugre\" mu_static_backward=\"0.5\""),
-               {"mu_static_backward has no meaning for this friction model (value: 0.5, allowed: with model=\"brown_mcphee\")"});
-  expect_error(text_with(plain + " viscous_backwards=\"1\""), {"did you mean \"viscous_backward\"?"});
+               {"mu_static_backward has no meaning for this friction model (value: 0.5, allowed: "
+                "with model=\"brown_mcphee\")"});
+  expect_error(text_with(plain + " viscous_backwards=\"1\""),
+               {"did you mean \"viscous_backward\"?"});
 }
 
 TEST(FrictionReader, AttributesBelongToTheirModels) {
   const std::string plain = kPlain;
-  expect_error(
-      text_with(plain + " bristle_stiffness=\"1e4\""),
-      {"bristle_stiffness has no meaning for this friction model (value: 1e4, allowed: with model=\"gonthier\" or model=\"lugre\")"});
+  expect_error(text_with(plain + " bristle_stiffness=\"1e4\""),
+               {"bristle_stiffness has no meaning for this friction model (value: 1e4, allowed: "
+                "with model=\"gonthier\" or model=\"lugre\")"});
   expect_error(text_with(plain + " bristle_damping=\"10\""), {"bristle_damping has no meaning"});
   expect_error(text_with(plain + " model=\"lugre\" dwell_time=\"1\""),
-               {"dwell_time has no meaning for this friction model (value: 1, allowed: with model=\"gonthier\")"});
-  expect_error(text_with(plain + " model=\"gonthier\" bristle_stifness=\"1e4\""), {"did you mean \"bristle_stiffness\"?"});
-  expect_error(text_with("model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0\""), {"mu_dynamic is zero: the LuGre model divides by it"});
+               {"dwell_time has no meaning for this friction model (value: 1, allowed: with "
+                "model=\"gonthier\")"});
+  expect_error(text_with(plain + " model=\"gonthier\" bristle_stifness=\"1e4\""),
+               {"did you mean \"bristle_stiffness\"?"});
+  expect_error(text_with("model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0\""),
+               {"mu_dynamic is zero: the LuGre model divides by it"});
 }
 
-RobotDescription read_geared(const std::string& transmissions,
-                             const std::string& actuator = "<codesign:actuator rotor_inertia=\"1e-5\"/>") {
+RobotDescription read_geared(
+    const std::string& transmissions,
+    const std::string& actuator = "<codesign:actuator rotor_inertia=\"1e-5\"/>") {
   return read_urdf(pendulum(actuator, transmissions));
 }
 
-std::string simple(const std::string& on_actuator, const std::string& on_joint = "", const std::string& below = "") {
-  const auto reduction = [](const std::string& x) { return x.empty() ? "" : "<mechanicalReduction>" + x + "</mechanicalReduction>"; };
-  return "<transmission name=\"t\"><type>transmission_interface/SimpleTransmission</type><joint name=\"hinge\">" + reduction(on_joint) +
-         "</joint><actuator name=\"motor\">" + reduction(on_actuator) + "</actuator>" + reduction(below) + "</transmission>";
+std::string simple(const std::string& on_actuator, const std::string& on_joint = "",
+                   const std::string& below = "") {
+  const auto reduction = [](const std::string& x) {
+    return x.empty() ? "" : "<mechanicalReduction>" + x + "</mechanicalReduction>";
+  };
+  return "<transmission name=\"t\"><type>transmission_interface/SimpleTransmission</type><joint "
+         "name=\"hinge\">" +
+         reduction(on_joint) + "</joint><actuator name=\"motor\">" + reduction(on_actuator) +
+         "</actuator>" + reduction(below) + "</transmission>";
 }
 
-double ratio_of(const RobotDescription& robot) { return robot.joints[0].actuator->gear_ratio.nominal(); }
+double ratio_of(const RobotDescription& robot) {
+  return robot.joints[0].actuator->gear_ratio.nominal();
+}
 
 TEST(TransmissionReader, TheReductionIsTheGearRatio) {
   EXPECT_EQ(ratio_of(read_geared("")), 1.0);
   EXPECT_EQ(ratio_of(read_geared(simple("50"))), 50.0);
   EXPECT_EQ(ratio_of(read_geared(simple("", " -7.5 "))), -7.5);
   EXPECT_EQ(ratio_of(read_geared(simple("", "", "63.16"))), 63.16);
-  EXPECT_EQ(ratio_of(read_geared("<transmission type=\"pr2_mechanism_model/SimpleTransmission\" name=\"t\"><actuator name=\"m\"/><joint "
-                                 "name=\"hinge\"/><mechanicalReduction>20</mechanicalReduction></transmission>")),
+  EXPECT_EQ(ratio_of(read_geared(
+                "<transmission type=\"pr2_mechanism_model/SimpleTransmission\" "
+                "name=\"t\"><actuator name=\"m\"/><joint "
+                "name=\"hinge\"/><mechanicalReduction>20</mechanicalReduction></transmission>")),
             20.0);
   for (const char* none : {"50", ""}) EXPECT_TRUE(read_geared(simple(none)).warnings.empty());
 }
 
 TEST(TransmissionReader, TheAnnotationComesFirst) {
-  EXPECT_EQ(ratio_of(read_geared(simple("50"), "<codesign:actuator rotor_inertia=\"1e-5\" gear_ratio=\"3\"/>")), 3.0);
+  EXPECT_EQ(ratio_of(read_geared(simple("50"),
+                                 "<codesign:actuator rotor_inertia=\"1e-5\" gear_ratio=\"3\"/>")),
+            3.0);
 }
 
 TEST(TransmissionReader, WithoutAnActuatorNothingIsReadOrSaid) {
@@ -165,11 +199,14 @@ TEST(TransmissionReader, WithoutAnActuatorNothingIsReadOrSaid) {
   EXPECT_TRUE(robot.warnings.empty());
 }
 
-void expect_warning(const RobotDescription& robot, const std::string& code, const std::string& value) {
+void expect_warning(const RobotDescription& robot, const std::string& code,
+                    const std::string& value) {
   ASSERT_EQ(robot.warnings.size(), 1U);
   EXPECT_EQ(robot.warnings[0].code, code);
-  EXPECT_NE(robot.warnings[0].message.find("value: " + value), std::string::npos) << robot.warnings[0].message;
-  EXPECT_NE(robot.warnings[0].message.find("gear_ratio"), std::string::npos) << robot.warnings[0].message;
+  EXPECT_NE(robot.warnings[0].message.find("value: " + value), std::string::npos)
+      << robot.warnings[0].message;
+  EXPECT_NE(robot.warnings[0].message.find("gear_ratio"), std::string::npos)
+      << robot.warnings[0].message;
   EXPECT_EQ(robot.warnings[0].where.line, 3);
 }
 
@@ -182,10 +219,13 @@ TEST(TransmissionReader, WarnsOfWhatItLeavesOut) {
   expect_warning(twice, "transmission_contradicts", "2");
   EXPECT_TRUE(read_geared(simple("50", "50")).warnings.empty());
   const RobotDescription other = read_geared(
-      "<transmission name=\"t\"><type>transmission_interface/DifferentialTransmission</type><joint name=\"hinge\"/><joint name=\"b\"/>"
-      "<actuator name=\"m\"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>");
+      "<transmission name=\"t\"><type>transmission_interface/DifferentialTransmission</type><joint "
+      "name=\"hinge\"/><joint name=\"b\"/>"
+      "<actuator "
+      "name=\"m\"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>");
   EXPECT_EQ(ratio_of(other), 1.0);
-  expect_warning(other, "transmission_not_simple", "transmission_interface/DifferentialTransmission");
+  expect_warning(other, "transmission_not_simple",
+                 "transmission_interface/DifferentialTransmission");
 }
 
 }  // namespace

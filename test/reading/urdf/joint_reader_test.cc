@@ -7,7 +7,8 @@ namespace codesign {
 namespace {
 
 TEST(ReadContext, FindsLinksAndEnds) {
-  const XmlDocument document({"a.urdf", "<robot><predecessor link=\"b\"/>\n<successor link=\"a\"/></robot>"});
+  const XmlDocument document(
+      {"a.urdf", "<robot><predecessor link=\"b\"/>\n<successor link=\"a\"/></robot>"});
   const XmlElement robot(document.robot(), &document);
   const ReadContext context{{"a", "b"}, {}};
   EXPECT_EQ(context.link(robot.only("successor"), "link"), 0);
@@ -17,7 +18,8 @@ TEST(ReadContext, FindsLinksAndEnds) {
 }
 
 TEST(ReadContext, EndsMustDiffer) {
-  const XmlDocument document({"a.urdf", "<robot><predecessor link=\"a\"/>\n<successor link=\"a\"/></robot>"});
+  const XmlDocument document(
+      {"a.urdf", "<robot><predecessor link=\"a\"/>\n<successor link=\"a\"/></robot>"});
   const ReadContext context{{"a", "b"}, {}};
   try {
     context.ends(XmlElement(document.robot(), &document));
@@ -27,13 +29,18 @@ TEST(ReadContext, EndsMustDiffer) {
   }
 }
 
-JointDescription hinge(const std::string& content) { return read_urdf(pendulum(content)).joints.at(0); }
-
-SourceText typed(const std::string& type, const std::string& content = "") {
-  return robot_text(kGround + link_with("arm") + "\n" + joint_with("j", type, "ground", "arm", content));
+JointDescription hinge(const std::string& content) {
+  return read_urdf(pendulum(content)).joints.at(0);
 }
 
-SourceText read_limits(const std::string& type, const std::string& numbers) { return typed(type, "<limit " + numbers + "/>"); }
+SourceText typed(const std::string& type, const std::string& content = "") {
+  return robot_text(kGround + link_with("arm") + "\n" +
+                    joint_with("j", type, "ground", "arm", content));
+}
+
+SourceText read_limits(const std::string& type, const std::string& numbers) {
+  return typed(type, "<limit " + numbers + "/>");
+}
 
 TEST(JointReader, DefaultsAreThoseOfUrdf) {
   const JointDescription joint = hinge("");
@@ -56,12 +63,13 @@ TEST(JointReader, ReadsAllTypes) {
   EXPECT_EQ(read_urdf(typed("prismatic", limit)).joints[0].type, JointType::kPrismatic);
   EXPECT_EQ(read_urdf(typed("planar")).joints[0].type, JointType::kPlanar);
   EXPECT_EQ(read_urdf(typed("floating")).joints[0].type, JointType::kFloating);
-  expect_error(typed("revolut"), {"test.urdf:3: <joint name=\"j\">: unknown joint type, did you mean \"revolute\"?"});
+  expect_error(typed("revolut"),
+               {"test.urdf:3: <joint name=\"j\">: unknown joint type, did you mean \"revolute\"?"});
 }
 
 TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
-  const JointDescription joint =
-      hinge(R"(<axis xyz="0 0.2 1" codesign:xyz="0 ${length} 1"/><dynamics damping="0.1" codesign:damping="${length/2}" friction="0.3"/>)");
+  const JointDescription joint = hinge(
+      R"(<axis xyz="0 0.2 1" codesign:xyz="0 ${length} 1"/><dynamics damping="0.1" codesign:damping="${length/2}" friction="0.3"/>)");
   const std::vector<double> at = {0.4};
   EXPECT_DOUBLE_EQ(joint.axis[1].at(at), 0.4);
   EXPECT_DOUBLE_EQ(joint.damping.at(at), 0.2);
@@ -69,7 +77,8 @@ TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
   expect_error(pendulum("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis is zero"});
   expect_error(pendulum("<axis/>"), {"the attribute xyz is missing"});
   expect_error(pendulum("<dynamics/>"), {"neither damping nor friction"});
-  expect_warning(pendulum("<dynamics damping=\"-1\"/>"), "negative_value", {"test.urdf:2:", "damping is negative and is taken as zero"});
+  expect_warning(pendulum("<dynamics damping=\"-1\"/>"), "negative_value",
+                 {"test.urdf:2:", "damping is negative and is taken as zero"});
   EXPECT_EQ(hinge("<dynamics damping=\"-1\"/>").damping.nominal(), 0.0);
   expect_warning(pendulum("<origin/><origin/>"), "repeated_element", {"a second <origin>"});
 }
@@ -81,41 +90,52 @@ TEST(JointReader, Limits) {
   EXPECT_EQ(joint.limit->effort.nominal(), 3.0);
   EXPECT_EQ(joint.limit->velocity.nominal(), 4.0);
   expect_error(typed("prismatic"), {"needs a <limit>"});
-  const SourceText reversed = read_limits("revolute", R"(lower="2" upper="1" effort="1" velocity="1")");
-  expect_warning(reversed, "limits_reversed", {"test.urdf:", "the lower limit is above the upper limit (1): the joint has no stops"});
+  const SourceText reversed =
+      read_limits("revolute", R"(lower="2" upper="1" effort="1" velocity="1")");
+  expect_warning(
+      reversed, "limits_reversed",
+      {"test.urdf:", "the lower limit is above the upper limit (1): the joint has no stops"});
   EXPECT_FALSE(has_stops(read_urdf(reversed).joints[0]));
-  expect_warning(pendulum(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"), "limit_ignored", {"turns without end", "-1 ... 1"});
+  expect_warning(pendulum(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"),
+                 "limit_ignored", {"turns without end", "-1 ... 1"});
   expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
-  expect_warning(pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value",
-                 {"<limit>: effort is negative and means, as in SDF, that there is no limit", "(value: -1)"});
+  expect_warning(
+      pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value",
+      {"<limit>: effort is negative and means, as in SDF, that there is no limit", "(value: -1)"});
 }
 
 TEST(JointReader, LimitsThatDependOnTheDesign) {
-  const JointDescription joint =
-      hinge(R"(<limit lower="-0.2" codesign:lower="${-length}" effort="2" codesign:effort="${10*length}" velocity="4"/>)");
+  const JointDescription joint = hinge(
+      R"(<limit lower="-0.2" codesign:lower="${-length}" effort="2" codesign:effort="${10*length}" velocity="4"/>)");
   EXPECT_EQ(joint.limit->lower.at(std::vector<double>{0.3}), -0.3);
   EXPECT_EQ(joint.limit->effort.at(std::vector<double>{0.3}), 3.0);
 }
 
 TEST(JointReader, ZeroLimitsBoundNothing) {
-  const auto limit = [](const std::string& numbers) { return *read_urdf(typed("revolute", "<limit " + numbers + "/>")).joints[0].limit; };
+  const auto limit = [](const std::string& numbers) {
+    return *read_urdf(typed("revolute", "<limit " + numbers + "/>")).joints[0].limit;
+  };
   const LimitDescription unknown = limit(R"(lower="0" upper="0" effort="0" velocity="0")");
   EXPECT_FALSE(unknown.bounds_position() || unknown.bounds_effort() || unknown.bounds_velocity());
   EXPECT_FALSE(limit(R"(effort="1" velocity="2")").bounds_position());
   const LimitDescription known = limit(R"(upper="1" effort="1" velocity="2")");
   EXPECT_TRUE(known.bounds_position() && known.bounds_effort() && known.bounds_velocity());
-  EXPECT_TRUE(has_stops(read_urdf(typed("revolute", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
-  EXPECT_FALSE(has_stops(read_urdf(typed("continuous", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
+  EXPECT_TRUE(has_stops(
+      read_urdf(typed("revolute", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
+  EXPECT_FALSE(has_stops(
+      read_urdf(typed("continuous", R"(<limit upper="1" effort="1" velocity="2"/>)")).joints[0]));
 }
 
 TEST(JointReader, Springs) {
-  const JointDescription joint =
-      hinge(R"(<codesign:torsion_spring stiffness="5" damping="1" free_position="0.2" codesign:free_position="${length}"/>)");
+  const JointDescription joint = hinge(
+      R"(<codesign:torsion_spring stiffness="5" damping="1" free_position="0.2" codesign:free_position="${length}"/>)");
   EXPECT_EQ(joint.spring->stiffness.nominal(), 5.0);
   EXPECT_EQ(joint.spring->damping.nominal(), 1.0);
   EXPECT_EQ(joint.spring->free_position.at(std::vector<double>{0.3}), 0.3);
-  expect_error(pendulum("<codesign:torsion_spring damping=\"1\"/>"), {"the attribute stiffness is missing"});
-  expect_error(typed("floating", "<codesign:torsion_spring stiffness=\"1\"/>"), {"no single coordinate for a spring"});
+  expect_error(pendulum("<codesign:torsion_spring damping=\"1\"/>"),
+               {"the attribute stiffness is missing"});
+  expect_error(typed("floating", "<codesign:torsion_spring stiffness=\"1\"/>"),
+               {"no single coordinate for a spring"});
 }
 
 TEST(JointReader, Actuators) {
@@ -123,30 +143,40 @@ TEST(JointReader, Actuators) {
       R"(<codesign:actuator gear_ratio="-10" codesign:gear_ratio="${-50*length}" rotor_inertia="2e-5" codesign:rotor_inertia="${length/1e4}"/>)");
   EXPECT_EQ(joint.actuator->gear_ratio.at(std::vector<double>{0.3}), -15.0);
   EXPECT_DOUBLE_EQ(joint.actuator->rotor_inertia.at(std::vector<double>{0.3}), 3e-5);
-  EXPECT_EQ(hinge("<codesign:actuator rotor_inertia=\"1e-5\"/>").actuator->gear_ratio.nominal(), 1.0);
-  expect_error(pendulum("<codesign:actuator gear_ratio=\"3\"/>"), {"the attribute rotor_inertia is missing"});
-  expect_error(pendulum("<codesign:actuator gear_ratio=\"0\" rotor_inertia=\"1\"/>"), {"the gear ratio is zero"});
-  expect_error(pendulum("<codesign:actuator rotor_inertia=\"-1\"/>"), {"rotor_inertia is negative"});
-  expect_error(pendulum("<codesign:actuator rotor_inertia=\"1\" gear_ration=\"2\"/>"), {"did you mean \"gear_ratio\""});
-  expect_error(typed("floating", "<codesign:actuator rotor_inertia=\"1\"/>"), {"no single coordinate for a rotor"});
+  EXPECT_EQ(hinge("<codesign:actuator rotor_inertia=\"1e-5\"/>").actuator->gear_ratio.nominal(),
+            1.0);
+  expect_error(pendulum("<codesign:actuator gear_ratio=\"3\"/>"),
+               {"the attribute rotor_inertia is missing"});
+  expect_error(pendulum("<codesign:actuator gear_ratio=\"0\" rotor_inertia=\"1\"/>"),
+               {"the gear ratio is zero"});
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"-1\"/>"),
+               {"rotor_inertia is negative"});
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"1\" gear_ration=\"2\"/>"),
+               {"did you mean \"gear_ratio\""});
+  expect_error(typed("floating", "<codesign:actuator rotor_inertia=\"1\"/>"),
+               {"no single coordinate for a rotor"});
 }
 
 TEST(JointReader, Mimics) {
   const std::string second =
-      link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");
+      link_with("tip") + joint_with("wrist", "continuous", "arm", "tip",
+                                    R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");
   const MimicDescription mimic = *read_urdf(pendulum("", second)).joints[1].mimic;
   EXPECT_EQ(mimic.joint, "hinge");
   EXPECT_EQ(mimic.multiplier.nominal(), -2.0);
   EXPECT_EQ(mimic.offset.nominal(), 1.0);
-  expect_warning(typed("planar", "<mimic joint=\"x\"/>"), "mimic_ignored", {"a joint of this type cannot mimic", "planar"});
+  expect_warning(typed("planar", "<mimic joint=\"x\"/>"), "mimic_ignored",
+                 {"a joint of this type cannot mimic", "planar"});
 }
 
 TEST(JointReader, WhatReadersOfURDFPassOverIsNotJudged) {
   const std::string nonsense =
-      "<axis xyz=\"0 0 0\"/><limit lower=\"3\" upper=\"1\" effort=\"1\" velocity=\"1\"/><dynamics damping=\"-1\"/>";
+      "<axis xyz=\"0 0 0\"/><limit lower=\"3\" upper=\"1\" effort=\"1\" velocity=\"1\"/><dynamics "
+      "damping=\"-1\"/>";
   expect_no_warning(typed("fixed", nonsense));
   expect_no_warning(typed("floating", "<axis xyz=\"0 0 0\"/><limit effort=\"1\" velocity=\"1\"/>"));
-  expect_warning(typed("fixed", "<mimic joint=\"other\"/>"), "mimic_ignored", {"cannot mimic", "fixed"});
+  expect_warning(typed("fixed", "<mimic joint=\"other\"/>"), "mimic_ignored",
+                 {"cannot mimic", "fixed"});
   const SourceText damped = typed("planar", "<dynamics damping=\"0.1\"/>");
   expect_warning(damped, "dynamics_ignored", {"it moves freely"});
   EXPECT_EQ(read_urdf(damped).joints[0].damping.nominal(), 0.0);
@@ -154,7 +184,8 @@ TEST(JointReader, WhatReadersOfURDFPassOverIsNotJudged) {
 
 TEST(JointReader, AnOverlayMeansWhatItSays) {
   const auto refused = [](const std::string& joint, const char* fault) {
-    expect_error(pendulum("<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"), {"notes.urdf:2:", fault},
+    expect_error(pendulum("<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
+                 {"notes.urdf:2:", fault},
                  {overlay_text("<joint name=\"hinge\" type=\"revolute\">" + joint + "</joint>")});
   };
   refused("<dynamics damping=\"-1\"/>", "damping is negative (value: -1, allowed: >= 0)");
@@ -165,26 +196,36 @@ TEST(JointReader, AnOverlayMeansWhatItSays) {
 TEST(JointReader, Links) {
   expect_error(robot_text(kGround + link_with("arm") + joint_with("j", "fixed", "ground", "amr")),
                {"<joint name=\"j\"> <child>: unknown link, did you mean \"arm\"? (value: amr"});
-  expect_error(robot_text(kGround + joint_with("j", "fixed", "grund", "ground")), {"did you mean \"ground\"?"});
-  expect_error(robot_text(kGround + joint_with("j", "fixed", "ground", "ground")), {"parent and child are the same link"});
-  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>"),
-               {"the element <child> is missing"});
-  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\"/>"), {"the attribute type is missing"});
-  expect_error(robot_text("<link name=\"a\"/><joint type=\"fixed\"/>"), {"the attribute name is missing"});
+  expect_error(robot_text(kGround + joint_with("j", "fixed", "grund", "ground")),
+               {"did you mean \"ground\"?"});
+  expect_error(robot_text(kGround + joint_with("j", "fixed", "ground", "ground")),
+               {"parent and child are the same link"});
+  expect_error(
+      robot_text("<link name=\"a\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>"),
+      {"the element <child> is missing"});
+  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\"/>"),
+               {"the attribute type is missing"});
+  expect_error(robot_text("<link name=\"a\"/><joint type=\"fixed\"/>"),
+               {"the attribute name is missing"});
 }
 
 /// A robot with the loop on line 3.
-SourceText loop_text(const std::string& type, const std::string& content = "",
-                     const std::string& ends = "<predecessor link=\"ground\"/><successor link=\"arm\"/>") {
+SourceText loop_text(
+    const std::string& type, const std::string& content = "",
+    const std::string& ends = "<predecessor link=\"ground\"/><successor link=\"arm\"/>") {
   return pendulum("", "<loop name=\"l\" type=\"" + type + "\">" + ends + content + "</loop>");
 }
 
-JointDescription loop(const std::string& type, const std::string& content = "") { return read_urdf(loop_text(type, content)).joints.at(1); }
+JointDescription loop(const std::string& type, const std::string& content = "") {
+  return read_urdf(loop_text(type, content)).joints.at(1);
+}
 
 TEST(LoopReader, ReadsEndsWithTheirOrigins) {
   const JointDescription l =
-      read_urdf(loop_text("revolute", "<axis xyz=\"0 0 1\"/>",
-                          R"(<predecessor link="ground"><origin xyz="0 0 0.2" codesign:xyz="0 0 ${length}"/></predecessor>
+      read_urdf(
+          loop_text(
+              "revolute", "<axis xyz=\"0 0 1\"/>",
+              R"(<predecessor link="ground"><origin xyz="0 0 0.2" codesign:xyz="0 0 ${length}"/></predecessor>
                  <successor link="arm"><origin rpy="0 0 1"/></successor>)"))
           .joints.at(1);
   EXPECT_TRUE(l.is_loop);
@@ -205,26 +246,32 @@ TEST(LoopReader, ReadsAllTypes) {
   EXPECT_EQ(loop("codesign:spherical").type, JointType::kSpherical);
   EXPECT_EQ(loop("codesign:cylindrical").type, JointType::kCylindrical);
   EXPECT_EQ(loop("revolute").axis[0].nominal(), 1.0) << "URDF's default axis";
-  expect_error(loop_text("spherical"), {"test.urdf:3: <loop name=\"l\">: unknown loop type", "codesign:spherical"});
+  expect_error(loop_text("spherical"),
+               {"test.urdf:3: <loop name=\"l\">: unknown loop type", "codesign:spherical"});
   expect_error(loop_text("codesign:sperical"), {"did you mean \"codesign:spherical\"?"});
   expect_error(loop_text("floating"), {"unknown loop type"});
 }
 
 TEST(LoopReader, UniversalHasASecondAxis) {
-  const JointDescription l = loop("codesign:universal", "<axis xyz=\"0 0 1\"/><codesign:second_axis xyz=\"1 0 0\"/>");
+  const JointDescription l =
+      loop("codesign:universal", "<axis xyz=\"0 0 1\"/><codesign:second_axis xyz=\"1 0 0\"/>");
   EXPECT_EQ(l.axis[2].nominal(), 1.0);
   EXPECT_EQ(l.second_axis[0].nominal(), 1.0);
   EXPECT_EQ(loop("codesign:universal").second_axis[1].nominal(), 1.0);
-  expect_error(loop_text("revolute", "<codesign:second_axis xyz=\"1 0 0\"/>"), {"only a loop of type codesign:universal"});
+  expect_error(loop_text("revolute", "<codesign:second_axis xyz=\"1 0 0\"/>"),
+               {"only a loop of type codesign:universal"});
 }
 
 TEST(LoopReader, DistanceHasALength) {
-  const JointDescription l = loop("codesign:distance", R"(<codesign:length value="0.4" codesign:value="${2*length}"/>)");
+  const JointDescription l =
+      loop("codesign:distance", R"(<codesign:length value="0.4" codesign:value="${2*length}"/>)");
   EXPECT_EQ(l.type, JointType::kDistance);
   EXPECT_DOUBLE_EQ(l.distance.at(std::vector<double>{0.3}), 0.6);
   expect_error(loop_text("codesign:distance"), {"the element <codesign:length> is missing"});
-  expect_error(loop_text("codesign:distance", "<codesign:length value=\"0\"/>"), {"value is not positive"});
-  expect_error(loop_text("planar", "<codesign:length value=\"1\"/>"), {"only a loop of type codesign:distance"});
+  expect_error(loop_text("codesign:distance", "<codesign:length value=\"0\"/>"),
+               {"value is not positive"});
+  expect_error(loop_text("planar", "<codesign:length value=\"1\"/>"),
+               {"only a loop of type codesign:distance"});
 }
 
 TEST(LoopReader, TakesFrictionDampingAndSprings) {
@@ -237,12 +284,16 @@ TEST(LoopReader, TakesFrictionDampingAndSprings) {
 }
 
 TEST(LoopReader, Faults) {
-  expect_error(loop_text("fixed", "", "<predecessor link=\"ground\"/>"), {"the element <successor> is missing"});
+  expect_error(loop_text("fixed", "", "<predecessor link=\"ground\"/>"),
+               {"the element <successor> is missing"});
   expect_error(loop_text("fixed", "", "<predecessor link=\"arm\"/><successor link=\"arm\"/>"),
                {"predecessor and successor are the same link"});
-  expect_error(loop_text("fixed", "", "<predecessor link=\"arn\"/><successor link=\"ground\"/>"), {"did you mean \"arm\"?"});
+  expect_error(loop_text("fixed", "", "<predecessor link=\"arn\"/><successor link=\"ground\"/>"),
+               {"did you mean \"arm\"?"});
   expect_error(pendulum("", "<loop type=\"fixed\"/>"), {"the attribute name is missing"});
-  expect_error(pendulum("", "<loop name=\"hinge\" type=\"fixed\"><predecessor link=\"ground\"/><successor link=\"arm\"/></loop>"),
+  expect_error(pendulum("",
+                        "<loop name=\"hinge\" type=\"fixed\"><predecessor "
+                        "link=\"ground\"/><successor link=\"arm\"/></loop>"),
                {"test.urdf:3: <loop>: a second loop of this name"});
 }
 

@@ -20,11 +20,14 @@ TEST(PlainNumbers, WhatIsMissingOrNoNumberIsZero) {
 
 TEST(PlainOrigin, TurnsAboutFixedAxesXThenYThenZ) {
   tinyxml2::XMLDocument document;
-  document.Parse("<visual><origin xyz='1 2 3' rpy='1.5707963267948966 0 1.5707963267948966'/></visual>");
+  document.Parse(
+      "<visual><origin xyz='1 2 3' rpy='1.5707963267948966 0 1.5707963267948966'/></visual>");
   // About x the y axis becomes z, which the turn about z leaves.
   const Eigen::Isometry3d pose = plain_origin(document.RootElement());
-  EXPECT_TRUE((pose * Eigen::Vector3d(0.0, 1.0, 0.0)).isApprox(Eigen::Vector3d(1.0, 2.0, 4.0), 1e-12));
-  EXPECT_TRUE(plain_origin(document.RootElement()->FirstChildElement()).isApprox(pose)) << "an element with its own xyz and rpy";
+  EXPECT_TRUE(
+      (pose * Eigen::Vector3d(0.0, 1.0, 0.0)).isApprox(Eigen::Vector3d(1.0, 2.0, 4.0), 1e-12));
+  EXPECT_TRUE(plain_origin(document.RootElement()->FirstChildElement()).isApprox(pose))
+      << "an element with its own xyz and rpy";
   EXPECT_TRUE(plain_origin(nullptr).isApprox(Eigen::Isometry3d::Identity()));
 }
 
@@ -49,7 +52,8 @@ TEST(LinkBoxes, OfEachSolidInTheOrderOfTheNames) {
 }
 
 TEST(LinkBoxes, OfWhatIsNoUrdfThereAreNone) {
-  for (const char* text : {"", "no XML", "<robot/>"}) EXPECT_TRUE(link_boxes(text, {"a"}).at(0).empty()) << text;
+  for (const char* text : {"", "no XML", "<robot/>"})
+    EXPECT_TRUE(link_boxes(text, {"a"}).at(0).empty()) << text;
 }
 
 }  // namespace

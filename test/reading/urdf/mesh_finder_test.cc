@@ -48,7 +48,8 @@ TEST(MeshFinder, FindsFilesOfPackagesBelowTheEntriesOfThePath) {
     EXPECT_FALSE(meshes.is_there("package://arm_description"));
   }
   const PackagePath path(package.string());
-  EXPECT_TRUE(MeshFinder().is_there("package://arm_description/meshes/link.stl")) << "the entry is the package";
+  EXPECT_TRUE(MeshFinder().is_there("package://arm_description/meshes/link.stl"))
+      << "the entry is the package";
   EXPECT_TRUE(MeshFinder().is_there("file://" + (package / "meshes" / "link.stl").string()));
   EXPECT_FALSE(MeshFinder().is_there("file://" + (package / "meshes").string())) << "a folder";
   EXPECT_FALSE(MeshFinder().is_there("meshes/link.stl")) << "viewers want a scheme";

@@ -9,12 +9,17 @@
 namespace codesign {
 namespace {
 
-SourceText with_origin(const std::string& attributes) { return pendulum("<origin " + attributes + "/>"); }
+SourceText with_origin(const std::string& attributes) {
+  return pendulum("<origin " + attributes + "/>");
+}
 
-QuantityVector xyz_of(const std::string& attributes) { return read_urdf(with_origin(attributes)).joints[0].origin.xyz; }
+QuantityVector xyz_of(const std::string& attributes) {
+  return read_urdf(with_origin(attributes)).joints[0].origin.xyz;
+}
 
 TEST(Twin, MixesNumbersAndExpressions) {
-  const QuantityVector xyz = xyz_of(R"(xyz="0.5 -0.1 0.4" codesign:xyz="0.5 -${length/2} ${2 * length}")");
+  const QuantityVector xyz =
+      xyz_of(R"(xyz="0.5 -0.1 0.4" codesign:xyz="0.5 -${length/2} ${2 * length}")");
   EXPECT_TRUE(xyz[0].is_constant());
   EXPECT_DOUBLE_EQ(xyz[1].nominal(), -0.1);
   EXPECT_DOUBLE_EQ(xyz[1].at(std::vector<double>{0.3}), -0.15);
@@ -22,12 +27,16 @@ TEST(Twin, MixesNumbersAndExpressions) {
 }
 
 TEST(Twin, ASignBeforeAnExpressionAppliesToTheWhole) {
-  EXPECT_DOUBLE_EQ(xyz_of(R"(xyz="-0.3 0.3 0" codesign:xyz="-${length + 0.1} +${length + 0.1} 0")")[0].at(std::vector<double>{0.3}), -0.4);
+  EXPECT_DOUBLE_EQ(
+      xyz_of(R"(xyz="-0.3 0.3 0" codesign:xyz="-${length + 0.1} +${length + 0.1} 0")")[0].at(
+          std::vector<double>{0.3}),
+      -0.4);
 }
 
 TEST(Twin, MustEqualThePlainValue) {
   expect_error(with_origin(R"(xyz="0 0 0.3" codesign:xyz="0 0 ${length}")"),
-               {"test.urdf:2: <joint name=\"hinge\"> <origin>: ", "codesign:xyz is 0 0 0.2 at the default parameters, xyz is 0 0 0.3"});
+               {"test.urdf:2: <joint name=\"hinge\"> <origin>: ",
+                "codesign:xyz is 0 0 0.2 at the default parameters, xyz is 0 0 0.3"});
   EXPECT_NO_THROW(xyz_of(R"(xyz="0 0 0.2000001" codesign:xyz="0 0 ${length}")"));
   expect_error(with_origin(R"(xyz="0 0 0.200001" codesign:xyz="0 0 ${length}")"), {"equal values"});
   EXPECT_NO_THROW(xyz_of(R"(xyz="0 0 1e-13" codesign:xyz="0 0 ${length - length}")"));
@@ -36,12 +45,17 @@ TEST(Twin, MustEqualThePlainValue) {
 TEST(Twin, BadExpressions) {
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${lenght}")"),
                {"unknown name 'lenght', did you mean 'length'?", "value: 0 0 ${lenght}"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"), {"a number is missing"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"),
+               {"a number is missing"});
   expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length")"), {"${ without its }"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 length")"), {"'length' in codesign:xyz is not a number"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"), {"'2${length}' is not an expression"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${sqrt(-length)}")"), {"not finite at the default parameters"});
-  expect_error(with_origin(R"(xyz="0 0 ${length}")"), {"a plain attribute contains an expression", "codesign:xyz"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 length")"),
+               {"'length' in codesign:xyz is not a number"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"),
+               {"'2${length}' is not an expression"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${sqrt(-length)}")"),
+               {"not finite at the default parameters"});
+  expect_error(with_origin(R"(xyz="0 0 ${length}")"),
+               {"a plain attribute contains an expression", "codesign:xyz"});
 }
 
 TEST(Twin, BadNumbers) {
@@ -55,12 +69,14 @@ TEST(Twin, BadNumbers) {
 }
 
 TEST(Twin, CountsOfTwinAndPlainMustAgree) {
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 ${length}")"), {"codesign:xyz has the wrong number"});
+  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 ${length}")"),
+               {"codesign:xyz has the wrong number"});
 }
 
 TEST(Twin, OfVisualsAreCheckedToo) {
   const auto visual = [](const char* box) {
-    return robot_text(link_with("ground", std::string("<visual><geometry><box ") + box + "/></geometry></visual>"));
+    return robot_text(link_with(
+        "ground", std::string("<visual><geometry><box ") + box + "/></geometry></visual>"));
   };
   EXPECT_NO_THROW(read_urdf(visual(R"(size="1 1 0.2" codesign:size="1 1 ${length}")")));
   expect_error(visual(R"(size="1 1 0.3" codesign:size="1 1 ${length}")"),
@@ -70,7 +86,8 @@ TEST(Twin, OfVisualsAreCheckedToo) {
 class QuantityReader : public ::testing::Test {
  protected:
   XmlDocument document_{
-      {"a.urdf", R"(<robot zero="0" minus="-1" a="0.5" codesign:a="${p}" xyz="0 0 0"><x><origin xyz="1 2 3"/></x><y/></robot>)"}};
+      {"a.urdf",
+       R"(<robot zero="0" minus="-1" a="0.5" codesign:a="${p}" xyz="0 0 0"><x><origin xyz="1 2 3"/></x><y/></robot>)"}};
   XmlElement robot_{document_.robot(), &document_};
   ParameterTable table_{{Parameter{"p", 0.5, 0.0, 1.0, "", {}}}};
 };
@@ -84,7 +101,9 @@ TEST_F(QuantityReader, RangesAreChecked) {
 
 TEST_F(QuantityReader, FallbacksStandInForWhatIsMissing) {
   EXPECT_EQ(read_quantity_or(7.0, robot_, "none", Range::kPositive, table_).nominal(), 7.0);
-  EXPECT_EQ(read_quantity_or(7.0, robot_, "a", Range::kPositive, table_).at(std::vector<double>{0.6}), 0.6);
+  EXPECT_EQ(
+      read_quantity_or(7.0, robot_, "a", Range::kPositive, table_).at(std::vector<double>{0.6}),
+      0.6);
   EXPECT_EQ(read_number_or(7.0, robot_, "none", Range::kAny), 7.0);
   EXPECT_EQ(read_number_or(7.0, robot_, "minus", Range::kAny), -1.0);
   EXPECT_THROW(read_number(robot_, "none", Range::kAny), InputError);
@@ -99,11 +118,15 @@ TEST_F(QuantityReader, OriginsAndAxes) {
 }
 
 SourceText with_parameter(const std::string& attributes) {
-  return {"test.urdf", "<robot name=\"x\" xmlns:codesign=\"urn:x\"><link name=\"a\"/>\n<codesign:parameter " + attributes + "/></robot>"};
+  return {"test.urdf",
+          "<robot name=\"x\" xmlns:codesign=\"urn:x\"><link name=\"a\"/>\n<codesign:parameter " +
+              attributes + "/></robot>"};
 }
 
 TEST(ParameterReader, ReadsValueBoundsAndUnit) {
-  const Parameter p = read_urdf(with_parameter(R"(name="rod_length" value="0.3" lower="0.2" upper="0.4" unit="m")")).parameters.at(0);
+  const Parameter p =
+      read_urdf(with_parameter(R"(name="rod_length" value="0.3" lower="0.2" upper="0.4" unit="m")"))
+          .parameters.at(0);
   EXPECT_EQ(p.name, "rod_length");
   EXPECT_EQ(p.value, 0.3);
   EXPECT_EQ(p.lower, 0.2);
@@ -128,10 +151,12 @@ TEST(ParameterReader, Faults) {
   expect_error(with_parameter(R"(name="k" value="inf")"), {"value is not finite"});
   expect_error(with_parameter(R"(name="k" value="one")"), {"'one' in value is not a number"});
   expect_error(with_parameter(R"(name="2k" value="1")"), {"'2k' is not an identifier"});
-  expect_error(with_parameter(R"(name="sin" value="1")"), {"'sin' is a function or constant of expressions"});
+  expect_error(with_parameter(R"(name="sin" value="1")"),
+               {"'sin' is a function or constant of expressions"});
   expect_error(with_parameter(R"(name="k" value="1" min="0")"), {"unknown attribute min"});
-  expect_error(with_parameter("name=\"k\" value=\"1\"/>\n<codesign:parameter name=\"k\" value=\"2\""),
-               {"test.urdf:3:", "a second parameter of this name"});
+  expect_error(
+      with_parameter("name=\"k\" value=\"1\"/>\n<codesign:parameter name=\"k\" value=\"2\""),
+      {"test.urdf:3:", "a second parameter of this name"});
 }
 
 }  // namespace

@@ -7,7 +7,10 @@ namespace codesign {
 namespace {
 
 TEST(TreeCheck, TheRootIsFoundWhereverItStands) {
-  EXPECT_EQ(read_urdf(robot_text(link_with("arm") + kGround + joint_with("j", "continuous", "ground", "arm"))).root, 1);
+  EXPECT_EQ(read_urdf(robot_text(link_with("arm") + kGround +
+                                 joint_with("j", "continuous", "ground", "arm")))
+                .root,
+            1);
 }
 
 TEST(TreeCheck, TwoRoots) {
@@ -16,16 +19,22 @@ TEST(TreeCheck, TwoRoots) {
 }
 
 TEST(TreeCheck, Rings) {
-  const std::string ab = "<link name=\"a\"/><link name=\"b\"/>" + joint_with("ab", "fixed", "a", "b") + joint_with("ba", "fixed", "b", "a");
+  const std::string ab = "<link name=\"a\"/><link name=\"b\"/>" +
+                         joint_with("ab", "fixed", "a", "b") + joint_with("ba", "fixed", "b", "a");
   expect_error(robot_text(ab), {"the joints form a ring that is not connected to the root"});
-  expect_error(robot_text(kGround + ab), {"<joint name=\"ba\">: the joints form a ring that is not connected to the root (value: a"});
+  expect_error(
+      robot_text(kGround + ab),
+      {"<joint name=\"ba\">: the joints form a ring that is not connected to the root (value: a"});
 }
 
 TEST(TreeCheck, ASecondParentClosesALoop) {
   // b is the child of a, and also of a hinge on the ground, which comes first in the file.
-  const SourceText text = robot_text(kGround + link_with("a") + link_with("b") + "\n" + joint_with("ring", "continuous", "b", "a") + "\n" +
-                                     joint_with("ga", "continuous", "ground", "a") + "\n" + joint_with("ab", "continuous", "a", "b"));
-  expect_warning(text, "second_parent", {"test.urdf:3: <joint name=\"ring\">", "read as a loop", "(value: a)"});
+  const SourceText text = robot_text(kGround + link_with("a") + link_with("b") + "\n" +
+                                     joint_with("ring", "continuous", "b", "a") + "\n" +
+                                     joint_with("ga", "continuous", "ground", "a") + "\n" +
+                                     joint_with("ab", "continuous", "a", "b"));
+  expect_warning(text, "second_parent",
+                 {"test.urdf:3: <joint name=\"ring\">", "read as a loop", "(value: a)"});
   const RobotDescription robot = read_urdf(text);
   ASSERT_EQ(robot.joints.size(), 3U);
   EXPECT_EQ(robot.joints[0].name, "ga");
@@ -34,30 +43,39 @@ TEST(TreeCheck, ASecondParentClosesALoop) {
 }
 
 TEST(TreeCheck, InAnOverlayALinkHangsOnOneJoint) {
-  expect_error(pendulum(""), {"notes.urdf:2: <joint name=\"two\">: its child arm is already the child of the joint hinge", "<loop>"},
-               {overlay_text(joint_with("two", "continuous", "ground", "arm"))});
+  expect_error(
+      pendulum(""),
+      {"notes.urdf:2: <joint name=\"two\">: its child arm is already the child of the joint hinge",
+       "<loop>"},
+      {overlay_text(joint_with("two", "continuous", "ground", "arm"))});
 }
 
 TEST(TreeCheck, NoLinks) { expect_error(robot_text(""), {"the robot has no links"}); }
 
 TEST(TreeCheck, NamesAreUnique) {
-  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"a\"/>"), {"test.urdf:3: <link>: a second link of this name (value: a"});
-  expect_error(pendulum("", link_with("b") + joint_with("hinge", "fixed", "arm", "b")), {"a second joint of this name (value: hinge"});
+  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"a\"/>"),
+               {"test.urdf:3: <link>: a second link of this name (value: a"});
+  expect_error(pendulum("", link_with("b") + joint_with("hinge", "fixed", "arm", "b")),
+               {"a second joint of this name (value: hinge"});
   const std::string coupling =
-      "<coupling name=\"c\"><predecessor link=\"arm\"/><successor link=\"ground\"/><ratio value=\"2\"/></coupling>";
+      "<coupling name=\"c\"><predecessor link=\"arm\"/><successor link=\"ground\"/><ratio "
+      "value=\"2\"/></coupling>";
   expect_error(pendulum("", coupling + coupling), {"a second coupling of this name"});
   const std::string spring =
-      "<codesign:spring_damper name=\"s\" stiffness=\"1\"><predecessor link=\"arm\"/><successor link=\"ground\"/></codesign:spring_damper>";
+      "<codesign:spring_damper name=\"s\" stiffness=\"1\"><predecessor link=\"arm\"/><successor "
+      "link=\"ground\"/></codesign:spring_damper>";
   expect_error(pendulum("", spring + spring), {"a second codesign:spring_damper of this name"});
 }
 
 TEST(TreeCheck, Mimics) {
   const auto second = [](const std::string& joint) {
-    return link_with("tip") + joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"" + joint + "\"/>");
+    return link_with("tip") +
+           joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"" + joint + "\"/>");
   };
   const SourceText unknown = pendulum("", second("hing"));
   expect_warning(unknown, "mimic_ignored",
-                 {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?", "moves freely"});
+                 {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?",
+                  "moves freely"});
   EXPECT_FALSE(read_urdf(unknown).joints[1].mimic);
   expect_warning(pendulum("", second("wrist")), "mimic_ignored", {"mimic each other in a ring"});
   const RobotDescription ring = read_urdf(pendulum("<mimic joint=\"wrist\"/>", second("hinge")));
@@ -69,8 +87,9 @@ TEST(TreeCheck, FrictionOfOrdinaryJointsNeedsItsDimensions) {
   const char* friction = "<codesign:friction mu_static=\"0.4\" mu_dynamic=\"0.3\"/>";
   expect_error(pendulum(friction), {"<joint name=\"hinge\"> <codesign:friction>", "joint_length"});
   const std::string chain = kGround + link_with("massless", "") + link_with("arm");
-  EXPECT_NO_THROW(read_urdf(robot_text(chain + joint_with("x", "continuous", "ground", "massless", friction) +
-                                       joint_with("y", "continuous", "massless", "arm", friction))))
+  EXPECT_NO_THROW(
+      read_urdf(robot_text(chain + joint_with("x", "continuous", "ground", "massless", friction) +
+                           joint_with("y", "continuous", "massless", "arm", friction))))
       << "they will be one universal joint, whose needs are another's to check";
 }
 

@@ -12,53 +12,68 @@ namespace {
 
 const char kEnds[] = "<predecessor link=\"ground\"/><successor link=\"arm\"/>";
 
-SourceText coupling_text(const std::string& content) { return pendulum("", "<coupling name=\"c\">" + content + "</coupling>"); }
+SourceText coupling_text(const std::string& content) {
+  return pendulum("", "<coupling name=\"c\">" + content + "</coupling>");
+}
 SourceText spring_text(const std::string& attributes, const std::string& content) {
-  return pendulum("", "<codesign:spring_damper " + attributes + ">" + content + "</codesign:spring_damper>");
+  return pendulum(
+      "", "<codesign:spring_damper " + attributes + ">" + content + "</codesign:spring_damper>");
 }
 
 TEST(AnnotatedUrdf, Couplings) {
-  const RobotDescription robot = read_urdf(coupling_text(std::string(kEnds) + R"(<ratio value="0.4" codesign:value="${2*length}"/>)"));
+  const RobotDescription robot = read_urdf(
+      coupling_text(std::string(kEnds) + R"(<ratio value="0.4" codesign:value="${2*length}"/>)"));
   ASSERT_EQ(robot.couplings.size(), 1u);
   EXPECT_EQ(robot.couplings[0].predecessor, 0);
   EXPECT_EQ(robot.couplings[0].successor, 1);
   EXPECT_DOUBLE_EQ(robot.couplings[0].ratio.at(std::vector<double>{0.3}), 0.6);
-  expect_error(coupling_text(kEnds), {"test.urdf:3: <coupling name=\"c\">: the element <ratio> is missing"});
+  expect_error(coupling_text(kEnds),
+               {"test.urdf:3: <coupling name=\"c\">: the element <ratio> is missing"});
   expect_error(coupling_text(std::string(kEnds) + "<ratio value=\"0\"/>"), {"the ratio is zero"});
-  expect_error(coupling_text("<predecessor link=\"arm\"/><successor link=\"arm\"/><ratio value=\"1\"/>"), {"the same link"});
+  expect_error(
+      coupling_text("<predecessor link=\"arm\"/><successor link=\"arm\"/><ratio value=\"1\"/>"),
+      {"the same link"});
 }
 
 TEST(AnnotatedUrdf, SpringDampers) {
-  const RobotDescription robot =
-      read_urdf(spring_text(R"(name="s" stiffness="1000" damping="50" free_length="0.2" codesign:free_length="${length}")",
-                            R"(<predecessor link="ground"><origin xyz="0 0 1"/></predecessor><successor link="arm"/>)"));
+  const RobotDescription robot = read_urdf(spring_text(
+      R"(name="s" stiffness="1000" damping="50" free_length="0.2" codesign:free_length="${length}")",
+      R"(<predecessor link="ground"><origin xyz="0 0 1"/></predecessor><successor link="arm"/>)"));
   const SpringDamperDescription& spring = robot.spring_dampers.at(0);
   EXPECT_EQ(spring.name, "s");
   EXPECT_EQ(spring.stiffness.nominal(), 1000.0);
   EXPECT_EQ(spring.damping.nominal(), 50.0);
   EXPECT_EQ(spring.free_length.at(std::vector<double>{0.3}), 0.3);
   EXPECT_EQ(spring.predecessor_origin.xyz[2].nominal(), 1.0);
-  expect_error(spring_text("name=\"s\"", kEnds), {"test.urdf:3: <codesign:spring_damper name=\"s\">: the attribute stiffness is missing"});
+  expect_error(
+      spring_text("name=\"s\"", kEnds),
+      {"test.urdf:3: <codesign:spring_damper name=\"s\">: the attribute stiffness is missing"});
   expect_error(spring_text("name=\"s\" stiffness=\"-1\"", kEnds), {"stiffness is negative"});
   expect_error(spring_text("stiffness=\"1\"", kEnds), {"the attribute name is missing"});
-  expect_error(spring_text("name=\"s\" stiffness=\"1\"", "<predecessor link=\"ground\"/>"), {"the element <successor> is missing"});
+  expect_error(spring_text("name=\"s\" stiffness=\"1\"", "<predecessor link=\"ground\"/>"),
+               {"the element <successor> is missing"});
 }
 
 TEST(AnnotatedUrdf, ARobotHasAName) {
-  expect_error({"a.urdf", "<robot><link name=\"a\"/></robot>"}, {"a.urdf:1: <robot>: the attribute name is missing"});
+  expect_error({"a.urdf", "<robot><link name=\"a\"/></robot>"},
+               {"a.urdf:1: <robot>: the attribute name is missing"});
 }
 
-RobotDescription shipped(const std::string& name) { return read_urdf(read_source(source_dir() + "/urdf/" + name + ".urdf")); }
+RobotDescription shipped(const std::string& name) {
+  return read_urdf(read_source(source_dir() + "/urdf/" + name + ".urdf"));
+}
 
 /// Pose of a link in the root's frame with all joints at zero.
-void pose_at_zero(const RobotDescription& robot, int link, const std::vector<double>& at, Matrix3<double>* R, Vector3<double>* t) {
+void pose_at_zero(const RobotDescription& robot, int link, const std::vector<double>& at,
+                  Matrix3<double>* R, Vector3<double>* t) {
   *R = Matrix3<double>::Identity();
   *t = Vector3<double>::Zero();
   for (bool found = true; found;) {
     found = false;
     for (const JointDescription& joint : robot.joints) {
       if (joint.is_loop || joint.child != link) continue;
-      const Matrix3<double> R_j = rotation_from_rpy<double>(internal::values_at(joint.origin.rpy, at));
+      const Matrix3<double> R_j =
+          rotation_from_rpy<double>(internal::values_at(joint.origin.rpy, at));
       *t = R_j * *t + internal::values_at(joint.origin.xyz, at);
       *R = R_j * *R;
       link = joint.parent;
@@ -78,11 +93,15 @@ void loop_gap(const RobotDescription& robot, double slider, double* distance, do
   Vector3<double> t_i, t_j;
   pose_at_zero(robot, loop.parent, at, &R_i, &t_i);
   pose_at_zero(robot, loop.child, at, &R_j, &t_j);
-  *distance = (R_i * internal::values_at(loop.origin.xyz, at) + t_i - t_j - slider * Vector3<double>::UnitX()).norm();
-  *cosine = (R_i * internal::values_at(loop.axis, at)).dot(R_j * internal::values_at(loop.second_axis, at));
+  *distance = (R_i * internal::values_at(loop.origin.xyz, at) + t_i - t_j -
+               slider * Vector3<double>::UnitX())
+                  .norm();
+  *cosine = (R_i * internal::values_at(loop.axis, at))
+                .dot(R_j * internal::values_at(loop.second_axis, at));
 }
 
-MassProperties<double> mass_of(const RobotDescription& robot, const std::string& link, const std::vector<double>& at) {
+MassProperties<double> mass_of(const RobotDescription& robot, const std::string& link,
+                               const std::vector<double>& at) {
   for (const LinkDescription& candidate : robot.links)
     if (candidate.name == link) return mass_properties(candidate.inertial.value(), at);
   throw std::out_of_range(link);
@@ -112,17 +131,21 @@ TEST(UrdfReader, TheSliderCrankIsThePapers) {
   const std::vector<double> at = {0.08, 0.3, 0.05, 0.025};
   expect_inertia(mass_of(robot, "crank", at), 0.12, 1e-4, 1e-5, 1e-4);
   expect_inertia(mass_of(robot, "rod", at), 0.5, 4e-4, 4e-3, 4e-3);
-  expect_inertia(mass_of(robot, "slider", at), 2.0, 2.0 * 0.00125 / 12.0, 2.0 * 0.003125 / 12.0, 2.0 * 0.003125 / 12.0);
+  expect_inertia(mass_of(robot, "slider", at), 2.0, 2.0 * 0.00125 / 12.0, 2.0 * 0.003125 / 12.0,
+                 2.0 * 0.003125 / 12.0);
   EXPECT_NEAR(mass_of(robot, "rod", at).centre[0], 0.15, 1e-16);
 }
 
 TEST(UrdfReader, TheSliderCrankGrowsWithItsParameters) {
   const RobotDescription robot = shipped("slider_crank");
   const std::vector<double> at = {0.1, 0.2, 0.06, 0.03};
-  const double r = 0.1 / 0.08, L = 0.2 / 0.3, m = 2.0 * (0.06 * 0.03 * 0.03) / (0.05 * 0.025 * 0.025);
-  expect_inertia(mass_of(robot, "crank", at), 0.12 * r, 1e-4 * r * r * r, 1e-5 * r, 1e-4 * r * r * r);
+  const double r = 0.1 / 0.08, L = 0.2 / 0.3,
+               m = 2.0 * (0.06 * 0.03 * 0.03) / (0.05 * 0.025 * 0.025);
+  expect_inertia(mass_of(robot, "crank", at), 0.12 * r, 1e-4 * r * r * r, 1e-5 * r,
+                 1e-4 * r * r * r);
   expect_inertia(mass_of(robot, "rod", at), 0.5 * L, 4e-4 * L, 4e-3 * L * L * L, 4e-3 * L * L * L);
-  expect_inertia(mass_of(robot, "slider", at), m, m * 0.0018 / 12.0, m * 0.0045 / 12.0, m * 0.0045 / 12.0);
+  expect_inertia(mass_of(robot, "slider", at), m, m * 0.0018 / 12.0, m * 0.0045 / 12.0,
+                 m * 0.0045 / 12.0);
 }
 
 TEST(UrdfReader, HaugsSliderCrankKeepsItsMasses) {
@@ -131,7 +154,8 @@ TEST(UrdfReader, HaugsSliderCrankKeepsItsMasses) {
   loop_gap(robot, 0.2, &distance, &cosine);
   EXPECT_LT(distance, 1e-15);
   EXPECT_LT(std::abs(cosine), 1e-15);
-  for (const std::vector<double>& at : {std::vector<double>{0.08, 0.3, 0.05, 0.025}, {0.1, 0.2, 0.06, 0.03}}) {
+  for (const std::vector<double>& at :
+       {std::vector<double>{0.08, 0.3, 0.05, 0.025}, {0.1, 0.2, 0.06, 0.03}}) {
     expect_inertia(mass_of(robot, "crank", at), 0.12, 1e-4, 1e-5, 1e-4);
     expect_inertia(mass_of(robot, "rod", at), 0.5, 4e-3, 4e-4, 4e-3);
     expect_inertia(mass_of(robot, "slider", at), 2.0, 1e-4, 1e-4, 1e-4);

@@ -25,18 +25,22 @@ TEST(DesignWriter, ChangesDefaultsBoundsAndTwins) {
 
 TEST(DesignWriter, RefusesWhatIsNotFinite) {
   XmlDocument document = load_annotated_urdf(jointed(), {});
-  EXPECT_THROW(write_design(read_robot(document), {std::numeric_limits<double>::quiet_NaN()}, &document), InputError);
+  EXPECT_THROW(
+      write_design(read_robot(document), {std::numeric_limits<double>::quiet_NaN()}, &document),
+      InputError);
 }
 
 SourceText slider_crank() { return read_source(source_dir() + "/urdf/slider_crank.urdf"); }
 
-SourceText tuned(const SourceText& urdf, const std::vector<double>& at, const std::vector<SourceText>& overlays = {}) {
+SourceText tuned(const SourceText& urdf, const std::vector<double>& at,
+                 const std::vector<SourceText>& overlays = {}) {
   return {"tuned.urdf", write_tuned_urdf(urdf, overlays, at)};
 }
 
 TEST(UrdfWriter, ReadsBackAsTheSameDesignAtItsNewDefaults) {
   const std::vector<double> at = {0.0612345678901234, 0.22358, 0.04, 0.02, 5.0};
-  const RobotDescription before = read_urdf(slider_crank()), after = read_urdf(tuned(slider_crank(), at));
+  const RobotDescription before = read_urdf(slider_crank()),
+                         after = read_urdf(tuned(slider_crank(), at));
   ASSERT_EQ(after.parameters.size(), before.parameters.size());
   for (std::size_t k = 0; k < after.parameters.size(); ++k) {
     EXPECT_EQ(after.parameters[k].value, at[k]);
@@ -46,7 +50,8 @@ TEST(UrdfWriter, ReadsBackAsTheSameDesignAtItsNewDefaults) {
   const std::vector<double> elsewhere = {0.09, 0.35, 0.05, 0.03};
   for (std::size_t k = 0; k < after.links.size(); ++k) {
     if (!before.links[k].inertial) continue;
-    const auto a = mass_properties(*before.links[k].inertial, elsewhere), b = mass_properties(*after.links[k].inertial, elsewhere);
+    const auto a = mass_properties(*before.links[k].inertial, elsewhere),
+               b = mass_properties(*after.links[k].inertial, elsewhere);
     EXPECT_DOUBLE_EQ(a.mass, b.mass);
     EXPECT_EQ((a.inertia - b.inertia).norm(), 0.0);
   }
@@ -56,8 +61,8 @@ TEST(UrdfWriter, ReadsBackAsTheSameDesignAtItsNewDefaults) {
 
 TEST(UrdfWriter, WritesWhatReadersOfPlainUrdfSee) {
   const std::string text = tuned(slider_crank(), {0.06, 0.2, 0.04, 0.02}).text;
-  for (const char* part :
-       {"size=\"0.04 0.02 0.02\"", "<mass value=\"1.024", "xyz=\"0.1 0 0\"", "SPDX-License-Identifier", "codesign:size=\"${slider_length}"})
+  for (const char* part : {"size=\"0.04 0.02 0.02\"", "<mass value=\"1.024", "xyz=\"0.1 0 0\"",
+                           "SPDX-License-Identifier", "codesign:size=\"${slider_length}"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
@@ -67,23 +72,28 @@ TEST(UrdfWriter, ItsDefaultsChangeNothing) {
 }
 
 TEST(UrdfWriter, InertialsFromShapesFollow) {
-  const SourceText urdf = robot_text(link_with("a", R"(<inertial codesign:density="1000"><mass value="2"/>
+  const SourceText urdf =
+      robot_text(link_with("a", R"(<inertial codesign:density="1000"><mass value="2"/>
       <origin xyz="0 0 0.1" rpy="0 0 1.5707963267948966"/>
       <inertia ixx="0.0083333333333333332" ixy="0" ixz="0" iyy="0.0083333333333333332" iyz="0" izz="0.0033333333333333335"/></inertial>
       <visual><origin xyz="0 0 0.1" codesign:xyz="0 0 ${length/2}"/><geometry><box size="0.1 0.1 0.2" codesign:size="0.1 0.1 ${length}"/></geometry></visual>)"));
   const SourceText written = tuned(urdf, {0.3});
   EXPECT_NE(written.text.find("<mass value=\"3"), std::string::npos) << written.text;
   const RobotDescription robot = read_urdf(written);
-  EXPECT_DOUBLE_EQ(mass_properties(*robot.links[0].inertial, std::vector<double>{0.3}).centre[2], 0.15);
+  EXPECT_DOUBLE_EQ(mass_properties(*robot.links[0].inertial, std::vector<double>{0.3}).centre[2],
+                   0.15);
 }
 
 TEST(UrdfWriter, OverlaysAreMergedIn) {
-  const SourceText vendor = {"vendor.urdf", std::string("<robot name=\"vendor\">") + kGround + link_with("arm") +
-                                                joint_with("hinge", "continuous", "ground", "arm", "<origin xyz=\"0 0 0.2\"/>") +
-                                                "</robot>"};
-  const SourceText overlay = {"notes.urdf",
-                              "<robot xmlns:codesign=\"urn:x\"><codesign:parameter name=\"height\" value=\"0.2\"/>"
-                              "<joint name=\"hinge\"><origin codesign:xyz=\"0 0 ${height}\"/></joint></robot>"};
+  const SourceText vendor = {
+      "vendor.urdf",
+      std::string("<robot name=\"vendor\">") + kGround + link_with("arm") +
+          joint_with("hinge", "continuous", "ground", "arm", "<origin xyz=\"0 0 0.2\"/>") +
+          "</robot>"};
+  const SourceText overlay = {
+      "notes.urdf",
+      "<robot xmlns:codesign=\"urn:x\"><codesign:parameter name=\"height\" value=\"0.2\"/>"
+      "<joint name=\"hinge\"><origin codesign:xyz=\"0 0 ${height}\"/></joint></robot>"};
   const RobotDescription robot = read_urdf(tuned(vendor, {0.5}, {overlay}));
   EXPECT_EQ(robot.name, "vendor");
   EXPECT_EQ(robot.parameters.at(0).value, 0.5);
@@ -100,30 +110,39 @@ TEST(UrdfWriter, BoundsThatAStudyWidenedFollow) {
 TEST(UrdfWriter, AnotherFrictionLawReadsBackWithTheNumbersThatItUses) {
   const auto friction = [](const std::string& content) {
     return pendulum(
-        "<codesign:friction mu_static=\"0.2\" codesign:mu_static=\"${length}\" mu_dynamic=\"0.1\" joint_length=\"0.05\" "
+        "<codesign:friction mu_static=\"0.2\" codesign:mu_static=\"${length}\" mu_dynamic=\"0.1\" "
+        "joint_length=\"0.05\" "
         "joint_width=\"0.05\" pin_radius=\"0.01\" " +
         content + "/>");
   };
-  const std::string numbers = "bristle_stiffness=\"4000\" bristle_damping=\"7\" codesign:bristle_damping=\"${35*length}\"";
+  const std::string numbers =
+      "bristle_stiffness=\"4000\" bristle_damping=\"7\" codesign:bristle_damping=\"${35*length}\"";
   const SourceText plain = friction(""), lugre = friction("model=\"lugre\" " + numbers),
-                   gonthier = friction("model=\"gonthier\" dwell_time=\"3\" codesign:dwell_time=\"${15*length}\" " + numbers);
+                   gonthier = friction(
+                       "model=\"gonthier\" dwell_time=\"3\" codesign:dwell_time=\"${15*length}\" " +
+                       numbers);
   for (const SourceText& urdf : {plain, lugre, gonthier})
-    for (const FrictionModel law : {FrictionModel::kBrownMcPhee, FrictionModel::kGonthier, FrictionModel::kLuGre}) {
+    for (const FrictionModel law :
+         {FrictionModel::kBrownMcPhee, FrictionModel::kGonthier, FrictionModel::kLuGre}) {
       const std::string text = write_tuned_urdf(urdf, {}, {0.3}, law);
-      const FrictionDescription read = *read_urdf({"written.urdf", text}).joints[0].friction, own = *read_urdf(urdf).joints[0].friction;
+      const FrictionDescription read = *read_urdf({"written.urdf", text}).joints[0].friction,
+                                own = *read_urdf(urdf).joints[0].friction;
       EXPECT_EQ(read.model, law);
       EXPECT_EQ(read.mu_static.nominal(), 0.3) << "the twin at the design";
-      const bool both = own.model != FrictionModel::kBrownMcPhee && law != FrictionModel::kBrownMcPhee;
+      const bool both =
+          own.model != FrictionModel::kBrownMcPhee && law != FrictionModel::kBrownMcPhee;
       EXPECT_EQ(read.bristle_stiffness.nominal(), both ? 4000.0 : 1e4) << text;
       EXPECT_DOUBLE_EQ(read.bristle_damping.nominal(), both ? 10.5 : 10.0) << text;
       const bool dwells = own.model == FrictionModel::kGonthier && law == FrictionModel::kGonthier;
       EXPECT_DOUBLE_EQ(read.dwell_time.nominal(), dwells ? 4.5 : 2.0) << text;
     }
-  EXPECT_EQ(write_tuned_urdf(pendulum(""), {}, {0.3}, FrictionModel::kLuGre), write_tuned_urdf(pendulum(""), {}, {0.3}));
+  EXPECT_EQ(write_tuned_urdf(pendulum(""), {}, {0.3}, FrictionModel::kLuGre),
+            write_tuned_urdf(pendulum(""), {}, {0.3}));
 }
 
 TEST(UrdfWriter, TheFrictionLawIsThatOfLoopsToo) {
-  const RobotDescription robot = read_urdf({"w", write_tuned_urdf(slider_crank(), {}, {0.08, 0.3, 0.05, 0.025}, FrictionModel::kLuGre)});
+  const RobotDescription robot = read_urdf(
+      {"w", write_tuned_urdf(slider_crank(), {}, {0.08, 0.3, 0.05, 0.025}, FrictionModel::kLuGre)});
   int frictions = 0;
   for (const JointDescription& joint : robot.joints) {
     if (!joint.friction) continue;
@@ -136,7 +155,8 @@ TEST(UrdfWriter, TheFrictionLawIsThatOfLoopsToo) {
 TEST(UrdfWriter, Faults) {
   EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {}), InputError);
   EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {std::nan("")}), InputError);
-  const SourceText root = pendulum(R"(<origin xyz="0 0 0.31622776601683794" codesign:xyz="0 0 ${sqrt(length - 0.1)}"/>)");
+  const SourceText root = pendulum(
+      R"(<origin xyz="0 0 0.31622776601683794" codesign:xyz="0 0 ${sqrt(length - 0.1)}"/>)");
   EXPECT_NO_THROW(write_tuned_urdf(root, {}, {0.3}));
   EXPECT_THROW(write_tuned_urdf(root, {}, {0.05}), InputError) << "not finite there";
 }

@@ -11,7 +11,8 @@ namespace codesign {
 namespace {
 
 TEST(UrdfdomCheck, ItsOwnWordsComeThrough) {
-  expect_error(pendulum("<safety_controller/>"), {"test.urdf:2: <robot>: urdfdom refuses the file: ", "no k_velocity", "[hinge]"});
+  expect_error(pendulum("<safety_controller/>"),
+               {"test.urdf:2: <robot>: urdfdom refuses the file: ", "no k_velocity", "[hinge]"});
 }
 
 TEST(UrdfdomCheck, WhatItOnlyGrumblesAboutIsRead) {
@@ -20,7 +21,8 @@ TEST(UrdfdomCheck, WhatItOnlyGrumblesAboutIsRead) {
 
 TEST(UrdfdomCheck, LeavesTheOutputHandlerAsItWas) {
   console_bridge::OutputHandler* before = console_bridge::getOutputHandler();
-  EXPECT_NO_THROW(check_with_urdfdom(XmlDocument({"a", "<robot name=\"x\"><link name=\"a\"/></robot>"})));
+  EXPECT_NO_THROW(
+      check_with_urdfdom(XmlDocument({"a", "<robot name=\"x\"><link name=\"a\"/></robot>"})));
   EXPECT_THROW(check_with_urdfdom(XmlDocument({"a", "<robot/>"})), InputError);
   EXPECT_EQ(console_bridge::getOutputHandler(), before);
 }
@@ -32,7 +34,8 @@ TEST(UrdfdomCheck, ThreadsKeepTheirMessagesApart) {
     threads.emplace_back([&messages, k] {
       const std::string name = "link_" + std::to_string(k);
       try {
-        check_with_urdfdom(XmlDocument({"a", "<robot name=\"x\"><link name=\"" + name + "\"/>\n<link name=\"" + name + "\"/></robot>"}));
+        check_with_urdfdom(XmlDocument({"a", "<robot name=\"x\"><link name=\"" + name +
+                                                 "\"/>\n<link name=\"" + name + "\"/></robot>"}));
       } catch (const InputError& error) {
         messages[k] = error.what();
       }
@@ -42,7 +45,8 @@ TEST(UrdfdomCheck, ThreadsKeepTheirMessagesApart) {
   for (std::size_t k = 0; k < messages.size(); ++k) {
     EXPECT_EQ(messages[k].substr(0, 4), "a:2:") << "the second link of this name";
     for (std::size_t other = 0; other < messages.size(); ++other)
-      EXPECT_EQ(messages[k].find("link_" + std::to_string(other)) != std::string::npos, other == k) << messages[k];
+      EXPECT_EQ(messages[k].find("link_" + std::to_string(other)) != std::string::npos, other == k)
+          << messages[k];
   }
 }
 

@@ -7,30 +7,37 @@ namespace codesign {
 namespace {
 
 TEST(XmlDocument, WhatIsNoRobotIsRefusedWithItsLine) {
-  expect_error({"a.urdf", "<robot name=\"x\">\n<link>\n</robot>"}, {"a.urdf:2: the text is not XML", "does not end"});
+  expect_error({"a.urdf", "<robot name=\"x\">\n<link>\n</robot>"},
+               {"a.urdf:2: the text is not XML", "does not end"});
   expect_error({"a.urdf", "<robot name=\"x\"\n name=\"y\"/>"}, {"a.urdf:2: the text is not XML"});
   expect_error({"a.urdf", "plain words"}, {"a.urdf"});
   expect_error({"a.urdf", ""}, {"a.urdf"});
   expect_error({"a.urdf", "<!-- nothing -->"}, {"a.urdf:1: the text contains no XML element"});
-  expect_error({"a.urdf", "\n<model/>"}, {"a.urdf:2: the root element is not a robot", "value: <model>, allowed: <robot>"});
+  expect_error({"a.urdf", "\n<model/>"},
+               {"a.urdf:2: the root element is not a robot", "value: <model>, allowed: <robot>"});
 }
 
 TEST(XmlDocument, ADeclarationAfterACommentIsReadWithAWarning) {
-  const XmlDocument late({"a.urdf", "<!-- by\n us -->\n<?xml version=\"1.0\"?>\n<robot name=\"x\">\n<link/>\n</robot>"});
+  const XmlDocument late(
+      {"a.urdf",
+       "<!-- by\n us -->\n<?xml version=\"1.0\"?>\n<robot name=\"x\">\n<link/>\n</robot>"});
   ASSERT_EQ(late.warnings().size(), 1U);
   EXPECT_EQ(late.warnings()[0].code, "late_declaration");
   EXPECT_EQ(late.warnings()[0].where.line, 3);
   EXPECT_EQ(late.location(late.robot()->FirstChildElement()).line, 5);
   const XmlDocument usual({"a.urdf", "<?xml version=\"1.0\"?><!-- by us --><robot name=\"x\"/>"});
   EXPECT_TRUE(usual.warnings().empty());
-  expect_error({"a.urdf", "<robot name=\"x\"/><?xml version=\"1.0\"?>"}, {"declaration is malformed or not at the beginning"});
+  expect_error({"a.urdf", "<robot name=\"x\"/><?xml version=\"1.0\"?>"},
+               {"declaration is malformed or not at the beginning"});
 }
 
 TEST(XmlDocument, CopiesKeepTheirPlaceOfOrigin) {
   XmlDocument base({"base.urdf", "<robot>\n<link/>\n</robot>"});
-  const XmlDocument other({"other.urdf", "<robot>\n\n<link\n a=\"1\"><mass\n b=\"2\"/></link>\n</robot>"});
+  const XmlDocument other(
+      {"other.urdf", "<robot>\n\n<link\n a=\"1\"><mass\n b=\"2\"/></link>\n</robot>"});
   const tinyxml2::XMLElement* own = base.robot()->FirstChildElement();
-  const tinyxml2::XMLElement* copy = base.append_copy(base.robot(), other.robot()->FirstChildElement(), other);
+  const tinyxml2::XMLElement* copy =
+      base.append_copy(base.robot(), other.robot()->FirstChildElement(), other);
   EXPECT_EQ(base.location(own).file, "base.urdf");
   EXPECT_EQ(base.location(own).line, 2);
   EXPECT_EQ(base.location(copy).file, "other.urdf");

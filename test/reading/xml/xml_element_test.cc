@@ -6,7 +6,9 @@
 namespace codesign {
 namespace {
 
-const char kText[] = "<robot name=\"r\">\n<joint name=\"j\"><origin\n xyz=\"1\" rpy=\"\"/></joint><link/><link/></robot>";
+const char kText[] =
+    "<robot name=\"r\">\n<joint name=\"j\"><origin\n xyz=\"1\" "
+    "rpy=\"\"/></joint><link/><link/></robot>";
 
 class XmlElementTest : public ::testing::Test {
  protected:
@@ -34,7 +36,8 @@ TEST_F(XmlElementTest, ChildrenAreCounted) {
   EXPECT_EQ(robot_.children().size(), 3u);
   EXPECT_EQ(robot_.children("link").size(), 2u);
   EXPECT_FALSE(robot_.child("none"));
-  EXPECT_EQ(robot_.child("link")->find("name"), robot_.children("link").front().find("name")) << "of several the first";
+  EXPECT_EQ(robot_.child("link")->find("name"), robot_.children("link").front().find("name"))
+      << "of several the first";
   EXPECT_THROW(robot_.only("none"), InputError);
 }
 
@@ -43,7 +46,8 @@ TEST_F(XmlElementTest, FailuresNameThePlace) {
     origin_.fail_at("xyz", "too few values", "3");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "a.urdf:3: <joint name=\"j\"> <origin>: too few values (value: 1, allowed: 3)");
+    EXPECT_STREQ(error.what(),
+                 "a.urdf:3: <joint name=\"j\"> <origin>: too few values (value: 1, allowed: 3)");
   }
 }
 

@@ -46,7 +46,8 @@ TEST(YamlReader, RefusesOtherKinds) {
   EXPECT_EQ(fault_of([&] { root.at("map").number(); }).message, "expected a number, found a map");
   EXPECT_EQ(fault_of([&] { root.at("list").text(); }).message, "expected text, found a list");
   EXPECT_EQ(fault_of([&] { root.at("word").items(); }).message, "expected a list, found a scalar");
-  EXPECT_EQ(fault_of([&] { root.at("nothing").entries(); }).message, "expected a map of keys and values, found nothing");
+  EXPECT_EQ(fault_of([&] { root.at("nothing").entries(); }).message,
+            "expected a map of keys and values, found nothing");
   EXPECT_EQ(fault_of([&] { root.at("huge").number(); }).message, "not finite");
   EXPECT_EQ(fault_of([&] { root.at("half").integer(); }).message, "not an integer");
   const InputFault fault = fault_of([&] { root.at("word").number(); });
@@ -58,20 +59,26 @@ TEST(YamlReader, RefusesOtherKinds) {
 
 TEST(YamlReader, ChecksKeys) {
   const YamlValue root = parse("x: 1\nnested:\n  wieght:\n    deep: 1\n");
-  const InputFault unknown = fault_of([&] { root.at("nested").require_keys({}, {"weight", "reference"}); });
+  const InputFault unknown = fault_of([&] {
+    root.at("nested").require_keys({}, {"weight", "reference"});
+  });
   EXPECT_EQ(unknown.element, "nested.wieght");
   EXPECT_EQ(unknown.where.line, 3);
   EXPECT_EQ(unknown.message, "unknown key, did you mean \"weight\"?");
   EXPECT_EQ(unknown.allowed, "weight, reference");
-  const InputFault missing = fault_of([&] { root.at("nested").require_keys({"wieght", "signal"}, {}); });
+  const InputFault missing = fault_of([&] {
+    root.at("nested").require_keys({"wieght", "signal"}, {});
+  });
   EXPECT_EQ(missing.element, "nested.signal");
   EXPECT_EQ(missing.message, "required key is missing");
   EXPECT_EQ(fault_of([&] { parse("a: 1\nb: 2\na: 3\n").entries(); }).where.line, 3);
-  EXPECT_EQ(fault_of([&] { parse("? [a, b]\n: 3\n").entries(); }).message, "a key must be a plain word, found a list");
+  EXPECT_EQ(fault_of([&] { parse("? [a, b]\n: 3\n").entries(); }).message,
+            "a key must be a plain word, found a list");
 }
 
 TEST(YamlReader, MergesMapsKeyByKey) {
-  const YamlValue root = parse("base:\n  a: {x: 1, y: 2}\n  b: [1, 2]\n  c: 3\nchange:\n  d: 4\n  b: [5]\n  a:\n    y: 6\n");
+  const YamlValue root = parse(
+      "base:\n  a: {x: 1, y: 2}\n  b: [1, 2]\n  c: 3\nchange:\n  d: 4\n  b: [5]\n  a:\n    y: 6\n");
   const YamlValue merged = root.at("base").merged(root.at("change"));
   std::vector<std::string> keys;
   for (const auto& [key, value] : merged.entries()) keys.push_back(key);
@@ -93,8 +100,9 @@ TEST(YamlReader, MergesMapsKeyByKey) {
 }
 
 TEST(YamlReader, AMapOfAnotherTypeReplacesTheWhole) {
-  const YamlValue root =
-      parse("{base: {f: {type: sine, phase: 1}}, same: {f: {type: sine, offset: 2}}, other: {f: {type: line, slope: 2}}, none: {f: 3}}");
+  const YamlValue root = parse(
+      "{base: {f: {type: sine, phase: 1}}, same: {f: {type: sine, offset: 2}}, other: {f: {type: "
+      "line, slope: 2}}, none: {f: 3}}");
   EXPECT_EQ(root.at("base").merged(root.at("same")).at("f").entries().size(), 3U);
   const YamlValue other = root.at("base").merged(root.at("other")).at("f");
   EXPECT_EQ(other.entries().size(), 2U);

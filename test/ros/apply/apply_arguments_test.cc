@@ -12,9 +12,9 @@ namespace codesign {
 namespace {
 
 TEST(ApplyArgumentsOfALine, AreReadInBothSpellings) {
-  const ApplyArguments arguments =
-      parse_apply_arguments({"job", "--ramp", "0.5", "--hold=2", "--limit", "elbow/effort=-2:2", "--limit=/t=0:1", "--server=/simulation",
-                             "--deviation", "0.1", "--dry-run", "--json"});
+  const ApplyArguments arguments = parse_apply_arguments(
+      {"job", "--ramp", "0.5", "--hold=2", "--limit", "elbow/effort=-2:2", "--limit=/t=0:1",
+       "--server=/simulation", "--deviation", "0.1", "--dry-run", "--json"});
   EXPECT_EQ(arguments.request.result, "job");
   EXPECT_EQ(arguments.request.ramp, 0.5);
   EXPECT_EQ(arguments.request.hold, 2.0);
@@ -48,8 +48,8 @@ TEST(ApplyArgumentsOfALine, MistakesAreNamed) {
 
 TEST(ApplyArgumentsOfALine, TheHelpNamesEveryOption) {
   EXPECT_TRUE(parse_apply_arguments({"--help"}).help);
-  for (const char* option :
-       {"--dry-run", "--server", "--ramp", "--hold", "--limit", "--deviation", "--joint-states", "--max-age", "--unwatched", "--json"})
+  for (const char* option : {"--dry-run", "--server", "--ramp", "--hold", "--limit", "--deviation",
+                             "--joint-states", "--max-age", "--unwatched", "--json"})
     EXPECT_NE(apply_usage().find(option), std::string::npos) << option;
   std::istringstream lines(apply_usage());
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
@@ -65,7 +65,8 @@ TEST(ApplyAnswer, IsATableOrJson) {
   response.changes[0].name = "p";
   response.changes[0].before = 1.0;
   response.changes[0].after = response.changes[0].now = 0.1;
-  EXPECT_NE(apply_table(response).find("/arm/gains/elbow  p                      1            0.1            0.1\ndone\n"),
+  EXPECT_NE(apply_table(response).find(
+                "/arm/gains/elbow  p                      1            0.1            0.1\ndone\n"),
             std::string::npos)
       << apply_table(response);
   Json object = Json::parse(apply_json(response));
@@ -98,7 +99,8 @@ TEST(ApplyOptions, ZeroIsTheDefault) {
 }
 
 TEST(ApplyOptions, ATimeThatIsNoneIsRefusedWithItsRange) {
-  for (double ApplyRequest::*field : {&ApplyRequest::ramp, &ApplyRequest::hold, &ApplyRequest::max_age}) {
+  for (double ApplyRequest::*field :
+       {&ApplyRequest::ramp, &ApplyRequest::hold, &ApplyRequest::max_age}) {
     const auto read = [](const ApplyRequest& request) {
       ramp_options(request);
       watch_options(request);
@@ -106,7 +108,8 @@ TEST(ApplyOptions, ATimeThatIsNoneIsRefusedWithItsRange) {
     ApplyRequest request;
     request.*field = 1e5;
     EXPECT_EQ(refusal_of(read, request), "accepted");
-    for (const double wrong : {100000.5, 2e8, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double wrong : {100000.5, 2e8, -1.0, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()}) {
       request.*field = wrong;
       const std::string sentence = refusal_of(read, request);
       EXPECT_NE(sentence.find("not a time"), std::string::npos) << sentence;

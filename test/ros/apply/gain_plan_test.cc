@@ -54,7 +54,9 @@ TEST(GainPlan, AClampMayHaveOneName) {
   state.now.erase("i_clamp_min");
   state.now.erase("i_clamp_max");
   const GainOrder order = orders_of(planned_job(), "")[0];
-  EXPECT_NE(fault_of(order, state).find("i_clamp: the server has no such parameter"), std::string::npos) << fault_of(order, state);
+  EXPECT_NE(fault_of(order, state).find("i_clamp: the server has no such parameter"),
+            std::string::npos)
+      << fault_of(order, state);
   state.now["i_clamp"] = {0.0, false};
   EXPECT_EQ(wanted_values(order, state, "/arm/elbow").at("i_clamp").number, 2.0);
   GainOrder without_integral = order;
@@ -67,13 +69,17 @@ TEST(GainPlan, WhatAServerDoesNotTakeIsRefused) {
   const GainOrder order = orders_of(planned_job(), "")[0];
   GainServerState state = toolbox();
   state.upper["p"] = {0.5, false};
-  EXPECT_EQ(fault_of(order, state), "/arm/elbow: p: the value is outside the limits of the server (value: 1, allowed: -1000 to 0.5)");
+  EXPECT_EQ(fault_of(order, state),
+            "/arm/elbow: p: the value is outside the limits of the server (value: 1, allowed: "
+            "-1000 to 0.5)");
   state = toolbox();
   state.now["antiwindup"] = {0.0, false};
-  EXPECT_NE(fault_of(order, state).find("antiwindup: the server has a parameter of another type"), std::string::npos);
+  EXPECT_NE(fault_of(order, state).find("antiwindup: the server has a parameter of another type"),
+            std::string::npos);
   state = toolbox();
   state.now.erase("antiwindup");
-  EXPECT_NE(fault_of(order, state).find("antiwindup: the server has no such parameter"), std::string::npos);
+  EXPECT_NE(fault_of(order, state).find("antiwindup: the server has no such parameter"),
+            std::string::npos);
 }
 
 TEST(GainPlan, OneServerGetsTheTunedParametersByName) {
@@ -81,10 +87,12 @@ TEST(GainPlan, OneServerGetsTheTunedParametersByName) {
   ASSERT_EQ(orders.size(), 1U);
   GainServerState state;
   for (const char* name : {"length", "mass", "Kp"}) state.now[name] = {2.0, false};
-  EXPECT_EQ(wanted_values(orders[0], state, "/simulation"), (GainValues{{"length", {0.5, false}}, {"Kp", {1.0, false}}}));
+  EXPECT_EQ(wanted_values(orders[0], state, "/simulation"),
+            (GainValues{{"length", {0.5, false}}, {"Kp", {1.0, false}}}));
   state.now.erase("length");
   state.now["lenght"] = {2.0, false};
-  EXPECT_NE(fault_of(orders[0], state).find("did you mean \"lenght\"?"), std::string::npos) << fault_of(orders[0], state);
+  EXPECT_NE(fault_of(orders[0], state).find("did you mean \"lenght\"?"), std::string::npos)
+      << fault_of(orders[0], state);
 }
 
 TEST(GainPlan, AStudyWithoutHardwareNeedsAServer) {

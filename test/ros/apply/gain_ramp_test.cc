@@ -24,7 +24,10 @@ class MockServer : public GainServer {
   }
   void overtake() override { ++overtaken; }
 
-  GainValues has = {{"p", {1.0, false}}, {"d", {4.0, false}}, {"antiwindup", {0.0, true}}, {"other", {7.0, false}}};
+  GainValues has = {{"p", {1.0, false}},
+                    {"d", {4.0, false}},
+                    {"antiwindup", {0.0, true}},
+                    {"other", {7.0, false}}};
   std::vector<GainValues> sent;
   std::vector<std::function<void(const Answer&)>> late;
   double largest = 100.0;
@@ -69,7 +72,9 @@ TEST_F(Ramp, AnAlarmTakesBackOnceAndAtOnce) {
   for (const std::size_t when : {2U, 3U, 4U, 8U}) {
     left = MockServer("/left");
     right = MockServer("/right");
-    guard = [this, when]() { return requests() >= when ? std::optional<RampAlarm>({"elbow/effort is 9"}) : std::nullopt; };
+    guard = [this, when]() {
+      return requests() >= when ? std::optional<RampAlarm>({"elbow/effort is 9"}) : std::nullopt;
+    };
     const RampOutcome outcome = run();
     EXPECT_EQ(outcome.alarm, "elbow/effort is 9");
     EXPECT_EQ(requests(), (when + 1) / 2 * 2 + 2) << "after an alarm at " << when;
@@ -112,7 +117,8 @@ TEST_F(Ramp, AServerThatDoesNotAnswerHoldsUpNobody) {
   RampOutcome outcome = run();
   EXPECT_EQ(outcome.alarm, "/right has not answered within 0.2 s");
   EXPECT_EQ(left.sent.back(), before);
-  EXPECT_EQ(right.sent, (std::vector<GainValues>{right.sent.front(), before})) << "it gets its values before as soon as it listens again";
+  EXPECT_EQ(right.sent, (std::vector<GainValues>{right.sent.front(), before}))
+      << "it gets its values before as soon as it listens again";
   EXPECT_FALSE(outcome.is_known());
   EXPECT_EQ(right.overtaken, 1) << "the way back does not wait for the answer to the step";
   EXPECT_EQ(left.overtaken, 0) << "which has answered";
@@ -120,7 +126,9 @@ TEST_F(Ramp, AServerThatDoesNotAnswerHoldsUpNobody) {
   // An alarm while the answer is waited for: the other one is taken back without waiting for it.
   left = MockServer("/left");
   int glances = 0;
-  guard = [&glances]() { return ++glances > 4 ? std::optional<RampAlarm>({"stop"}) : std::nullopt; };
+  guard = [&glances]() {
+    return ++glances > 4 ? std::optional<RampAlarm>({"stop"}) : std::nullopt;
+  };
   outcome = run();
   EXPECT_EQ(outcome.alarm, "stop");
   EXPECT_EQ(left.sent.size(), 2U);
@@ -128,7 +136,8 @@ TEST_F(Ramp, AServerThatDoesNotAnswerHoldsUpNobody) {
 }
 
 TEST(Between, GoesFromOneToTheOther) {
-  const GainValues before = {{"p", {0.1, false}}, {"on", {1.0, true}}}, after = {{"p", {0.3, false}}, {"on", {0.0, true}}};
+  const GainValues before = {{"p", {0.1, false}}, {"on", {1.0, true}}},
+                   after = {{"p", {0.3, false}}, {"on", {0.0, true}}};
   EXPECT_EQ(between(before, after, 1.0), after);
   EXPECT_DOUBLE_EQ(between(before, after, 0.5).at("p").number, 0.2);
   EXPECT_EQ(between(before, after, 0.5).at("on").number, 0.0);

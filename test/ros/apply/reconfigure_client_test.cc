@@ -17,13 +17,15 @@ TEST(Reconfigure, ValuesGoToAMessageAndBack) {
 TEST(Reconfigure, AServerTellsNumbersAndTruthValuesWithLimits) {
   dynamic_reconfigure::ConfigDescription description;
   description.groups.resize(1);
-  for (const auto& [name, type] : {std::pair{"p", "double"}, std::pair{"on", "bool"}, std::pair{"mode", "int"}}) {
+  for (const auto& [name, type] :
+       {std::pair{"p", "double"}, std::pair{"on", "bool"}, std::pair{"mode", "int"}}) {
     dynamic_reconfigure::ParamDescription parameter;
     parameter.name = name;
     parameter.type = type;
     description.groups[0].parameters.push_back(parameter);
   }
-  dynamic_reconfigure::Config now = config_of({{"p", {2.0, false}}, {"on", {1.0, true}}, {"stranger", {3.0, false}}});
+  dynamic_reconfigure::Config now =
+      config_of({{"p", {2.0, false}}, {"on", {1.0, true}}, {"stranger", {3.0, false}}});
   now.ints.resize(1);
   now.ints[0].name = "mode";
   description.min = config_of({{"p", {-1.0, false}}, {"on", {0.0, true}}});

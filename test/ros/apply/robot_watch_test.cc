@@ -25,7 +25,8 @@ TEST(Ranges, OfTheModel) {
   SafeRanges ranges;
   ranges.add_limits_of(problem, problem.parameters());
   EXPECT_EQ(ranges.check("hinge/effort", -3.0), "");
-  EXPECT_EQ(ranges.check("hinge/effort", -3.5), "hinge/effort is -3.5, outside -3 to 3, the limit of the model");
+  EXPECT_EQ(ranges.check("hinge/effort", -3.5),
+            "hinge/effort is -3.5, outside -3 to 3, the limit of the model");
   EXPECT_NE(ranges.check("hinge/velocity", 2.5), "");
   EXPECT_EQ(ranges.check("hinge/position", 100.0), "") << "a continuous joint has no stops";
   EXPECT_EQ(ranges.check("hinge/effort", kNotANumber), "") << "not measured";
@@ -49,8 +50,9 @@ TEST(Ranges, OneThatIsGivenReplacesThatOfTheModel) {
 
 TEST(Ranges, AnotherTextIsRefused) {
   SafeRanges ranges;
-  for (const char* text : {"", "hinge/effort", "hinge/effort=1", "=1:2", "hinge/effort=2:1", "hinge/effort=a:1", "hinge/effort=nan:1",
-                           "hinge/power=0:1", "hinge=0:1", "hinge/effort=0:1:2"})
+  for (const char* text :
+       {"", "hinge/effort", "hinge/effort=1", "=1:2", "hinge/effort=2:1", "hinge/effort=a:1",
+        "hinge/effort=nan:1", "hinge/power=0:1", "hinge=0:1", "hinge/effort=0:1:2"})
     EXPECT_THROW(ranges.add(text, "limits"), InputError) << text;
 }
 

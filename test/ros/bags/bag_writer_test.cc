@@ -24,8 +24,8 @@ class Bags : public testing::Test {
  protected:
   bool is_empty() const { return std::filesystem::is_empty(directory_.path()); }
 
-  /// Runs `action` in a process of its own, where no file may grow beyond `bytes`, as on a full disk. Returns its exit code; an abort is
-  /// 134.
+  /// Runs `action` in a process of its own, where no file may grow beyond `bytes`, as on a full
+  /// disk. Returns its exit code; an abort is 134.
   static int with_room_for(rlim_t bytes, const std::function<int()>& action) {
     const pid_t child = fork();
     if (child == 0) {
@@ -72,7 +72,8 @@ TEST_F(Bags, OneThatIsNotFinishedLeavesNothing) {
 }
 
 TEST_F(Bags, NoRoomAtAnyPlaceIsAnErrorThatLeavesNothing) {
-  // The bag has 440 kB: no room for its header, within its first chunk, at the chunk's end, in the index; and just enough.
+  // The bag has 440 kB: no room for its header, within its first chunk, at the chunk's end, in the
+  // index; and just enough.
   for (rlim_t room = 1000; room < 460000; room = room * 9 / 8 + 100) {
     const int code = with_room_for(room, [this] { return write_some(); });
     if (code == 0) std::filesystem::remove(path_);
@@ -85,7 +86,8 @@ TEST_F(Bags, NoRoomAtAnyPlaceIsAnErrorThatLeavesNothing) {
   }();
   std::filesystem::remove(path_);
   for (const rlim_t missing : {1U, 100U, 4000U, 5000U, 10000U, 20000U}) {
-    EXPECT_EQ(with_room_for(size - missing, [this] { return write_some(); }), 1) << missing << " bytes short";
+    EXPECT_EQ(with_room_for(size - missing, [this] { return write_some(); }), 1)
+        << missing << " bytes short";
     EXPECT_TRUE(is_empty()) << missing << " bytes short";
   }
   EXPECT_EQ(with_room_for(size, [this] { return write_some(); }), 0);

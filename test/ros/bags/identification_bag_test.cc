@@ -18,7 +18,8 @@
 namespace codesign {
 namespace {
 
-/// Two recordings of one second, the first with frames at 7 and 8 s of its clock and three residuals, the holdout with two of each.
+/// Two recordings of one second, the first with frames at 7 and 8 s of its clock and three
+/// residuals, the holdout with two of each.
 IdentificationShow sample_show() {
   IdentificationShow show;
   show.study = "identify: {}";
@@ -30,10 +31,15 @@ IdentificationShow sample_show() {
   show.motion.joints = {{1, 1, Eigen::Vector3d::UnitX(), true}};
   for (const double start : {7.0, 0.0}) {
     const std::vector<Frame> frames{sample_frame(start), sample_frame(start + 1.0)};
-    show.motion.recordings.push_back({start > 0.0 ? "identify.data[0]" : "identify.holdout[0]", frames, frames, {}});
+    show.motion.recordings.push_back(
+        {start > 0.0 ? "identify.data[0]" : "identify.holdout[0]", frames, frames, {}});
   }
-  show.data = {{3}, {7.0, 7.5, 8.0}, Eigen::MatrixXd::Constant(3, 1, 2.0), Eigen::MatrixXd::Constant(3, 1, 2.5)};
-  show.holdout = {{2}, {0.0, 1.0}, Eigen::MatrixXd::Constant(2, 1, 1.0), Eigen::MatrixXd::Constant(2, 1, 0.75)};
+  show.data = {{3},
+               {7.0, 7.5, 8.0},
+               Eigen::MatrixXd::Constant(3, 1, 2.0),
+               Eigen::MatrixXd::Constant(3, 1, 2.5)};
+  show.holdout = {
+      {2}, {0.0, 1.0}, Eigen::MatrixXd::Constant(2, 1, 1.0), Eigen::MatrixXd::Constant(2, 1, 0.75)};
   return show;
 }
 
@@ -54,7 +60,8 @@ class IdentificationBag : public testing::Test {
   std::vector<boost::shared_ptr<Message>> read(const std::string& topic) {
     std::vector<boost::shared_ptr<Message>> messages;
     rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    for (const rosbag::MessageInstance& instance : view) messages.push_back(instance.instantiate<Message>());
+    for (const rosbag::MessageInstance& instance : view)
+      messages.push_back(instance.instantiate<Message>());
     return messages;
   }
 
@@ -76,10 +83,12 @@ TEST_F(IdentificationBag, HoldsBothSidesAndEverythingAroundThem) {
                                       {"efforts", 4},
                                       {"residuals", 5},
                                       {"scene", 1}};
-  for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers"})
+  for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors",
+                            "signals", "friction_markers"})
     expected[std::string("identified/") + topic] = 4;
   EXPECT_EQ(counts(), expected);
-  EXPECT_EQ(read<std_msgs::String>("measured/robot_description").at(0)->data, "<robot name='identified'/>");
+  EXPECT_EQ(read<std_msgs::String>("measured/robot_description").at(0)->data,
+            "<robot name='identified'/>");
 }
 
 TEST_F(IdentificationBag, RecordingsFollowOneAnother) {
@@ -88,7 +97,8 @@ TEST_F(IdentificationBag, RecordingsFollowOneAnother) {
   EXPECT_EQ(view.getBeginTime(), ros::Time(1.0));
   EXPECT_EQ(view.getEndTime(), ros::Time(3.5));
   std::vector<double> stamps;
-  for (const auto& state : read<sensor_msgs::JointState>("identified/joint_states")) stamps.push_back(state->header.stamp.toSec());
+  for (const auto& state : read<sensor_msgs::JointState>("identified/joint_states"))
+    stamps.push_back(state->header.stamp.toSec());
   EXPECT_EQ(stamps, (std::vector<double>{1.0, 2.0, 2.5, 3.5}));
   const auto residuals = read<mechanism_codesign::Residuals>("residuals");
   EXPECT_EQ(residuals[1]->header.stamp, ros::Time(1.5));
@@ -106,7 +116,8 @@ TEST_F(IdentificationBag, BothSidesHaveFramesOfTheirOwn) {
   std::map<std::string, std::string> parents;
   for (const char* topic : {"tf", "tf_static"})
     for (const auto& message : read<tf2_msgs::TFMessage>(topic))
-      for (const auto& transform : message->transforms) parents[transform.child_frame_id] = transform.header.frame_id;
+      for (const auto& transform : message->transforms)
+        parents[transform.child_frame_id] = transform.header.frame_id;
   for (const std::string side : {"measured", "identified"}) {
     EXPECT_EQ(parents.at(side), "world");
     EXPECT_EQ(parents.at(side + "/ground"), side);

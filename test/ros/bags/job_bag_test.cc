@@ -23,7 +23,10 @@ namespace {
 
 JobRecord sample_record() {
   JobRecord record;
-  RecordedRun run{sample_names(), {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)}, {}, sample_parents()};
+  RecordedRun run{sample_names(),
+                  {sample_frame(0.0), sample_frame(0.5), sample_frame(1.0)},
+                  {},
+                  sample_parents()};
   run.frames[1].objective = 1.5;
   record.nominal = {{"<robot name='before'/>", run}, {"<robot name='after'/>", run}};
   record.trials.resize(5);
@@ -47,7 +50,8 @@ class JobBag : public testing::Test {
   std::vector<boost::shared_ptr<Message>> read(const std::string& topic) {
     std::vector<boost::shared_ptr<Message>> messages;
     rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    for (const rosbag::MessageInstance& instance : view) messages.push_back(instance.instantiate<Message>());
+    for (const rosbag::MessageInstance& instance : view)
+      messages.push_back(instance.instantiate<Message>());
     return messages;
   }
 
@@ -60,19 +64,30 @@ TEST_F(JobBag, HoldsBothRunsAndEverythingAroundThem) {
   std::map<std::string, int> counts;
   rosbag::View view(bag_);
   for (const rosbag::MessageInstance& instance : view) ++counts[instance.getTopic()];
-  std::map<std::string, int> expected{{"study", 1},     {"study_files", 2}, {"request", 1}, {"result", 1}, {"optimization_progress", 5},
-                                      {"tf_static", 1}, {"labels", 1},      {"scene", 1},   {"tf", 6},     {"caption", 3}};
-  for (const char* topic : {"tf_static", "labels", "scene"}) expected[std::string("overlay/") + topic] = 1;
+  std::map<std::string, int> expected{{"study", 1},
+                                      {"study_files", 2},
+                                      {"request", 1},
+                                      {"result", 1},
+                                      {"optimization_progress", 5},
+                                      {"tf_static", 1},
+                                      {"labels", 1},
+                                      {"scene", 1},
+                                      {"tf", 6},
+                                      {"caption", 3}};
+  for (const char* topic : {"tf_static", "labels", "scene"})
+    expected[std::string("overlay/") + topic] = 1;
   for (const std::string side : {"initial/", "tuned/"}) {
     expected[side + "robot_description"] = 1;
-    for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers"})
+    for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors",
+                              "signals", "friction_markers"})
       expected[side + topic] = 3;
   }
   EXPECT_EQ(counts, expected);
 }
 
 TEST_F(JobBag, ContentsSurvive) {
-  EXPECT_EQ(read<std_msgs::String>("initial/robot_description").at(0)->data, "<robot name='before'/>");
+  EXPECT_EQ(read<std_msgs::String>("initial/robot_description").at(0)->data,
+            "<robot name='before'/>");
   EXPECT_EQ(read<std_msgs::String>("tuned/robot_description").at(0)->data, "<robot name='after'/>");
   EXPECT_EQ(read<std_msgs::String>("study").at(0)->data, "duration: 1.0");
   EXPECT_EQ(read<std_msgs::String>("study_files").at(0)->data, "{\"names\": []}");
@@ -85,7 +100,8 @@ TEST_F(JobBag, LinksHangOnTheirParentsAsInTheNode) {
   for (const std::string side : {"initial", "tuned"}) {
     std::map<std::string, std::string> parents;
     for (const auto& message : read<tf2_msgs::TFMessage>("tf"))
-      for (const auto& transform : message->transforms) parents[transform.child_frame_id] = transform.header.frame_id;
+      for (const auto& transform : message->transforms)
+        parents[transform.child_frame_id] = transform.header.frame_id;
     EXPECT_EQ(parents.at(side + "/ground"), side);
     EXPECT_EQ(parents.at(side + "/cart"), side + "/ground");
     EXPECT_EQ(parents.at(side + "/plate"), side + "/cart");
@@ -110,10 +126,12 @@ TEST_F(JobBag, SideBySideTheMechanismsStandApartAndLaidOverEachOtherInOnePlace) 
     EXPECT_EQ(transforms[0].child_frame_id, "initial");
     EXPECT_EQ(transforms[1].child_frame_id, "tuned");
     EXPECT_EQ(transforms[2].child_frame_id, "caption");
-    const auto &initial = transforms[0].transform.translation, &tuned = transforms[1].transform.translation;
+    const auto &initial = transforms[0].transform.translation,
+               &tuned = transforms[1].transform.translation;
     EXPECT_EQ(std::hypot(initial.x - tuned.x, initial.y - tuned.y) < 1e-12, place == "overlay/");
   }
-  const auto apart = read<mechanism_codesign::Scene>("scene").at(0), over = read<mechanism_codesign::Scene>("overlay/scene").at(0);
+  const auto apart = read<mechanism_codesign::Scene>("scene").at(0),
+             over = read<mechanism_codesign::Scene>("overlay/scene").at(0);
   EXPECT_EQ(apart->header.frame_id, "world");
   EXPECT_GT(apart->distance, over->distance);
   EXPECT_EQ(read<visualization_msgs::MarkerArray>("labels").at(0)->markers.size(), 2U);
@@ -135,8 +153,10 @@ TEST_F(JobBag, DescriptionsAndPlacesAreLatched) {
     const auto latching = connection->header->find("latching");
     const bool is_latched = latching != connection->header->end() && latching->second == "1";
     const bool is_run = connection->topic == "tf" || connection->topic == "caption" ||
-                        connection->datatype.find("Joint") != std::string::npos || connection->topic.find("_states") != std::string::npos ||
-                        connection->topic.find("_errors") != std::string::npos || connection->topic.find("_markers") != std::string::npos ||
+                        connection->datatype.find("Joint") != std::string::npos ||
+                        connection->topic.find("_states") != std::string::npos ||
+                        connection->topic.find("_errors") != std::string::npos ||
+                        connection->topic.find("_markers") != std::string::npos ||
                         connection->datatype == "mechanism_codesign/Signals";
     EXPECT_NE(is_latched, is_run) << connection->topic;
   }
@@ -164,9 +184,13 @@ TEST_F(JobBag, TheWorstRunHasTheTopicsOfTheNominalOneBelowItsName) {
   EXPECT_EQ(text.begin()->instantiate<std_msgs::String>()->data, "<robot name='worst'/>");
 }
 
-TEST_F(JobBag, NothingUnfinishedIsLeft) { EXPECT_FALSE(std::filesystem::exists(path_ + ".active")); }
+TEST_F(JobBag, NothingUnfinishedIsLeft) {
+  EXPECT_FALSE(std::filesystem::exists(path_ + ".active"));
+}
 
-TEST(WriteBag, AFullOrMissingDirectoryIsAnError) { EXPECT_THROW(write_bag("/nonexistent_directory/a.bag", sample_record()), OutputError); }
+TEST(WriteBag, AFullOrMissingDirectoryIsAnError) {
+  EXPECT_THROW(write_bag("/nonexistent_directory/a.bag", sample_record()), OutputError);
+}
 
 TEST(ProgressMessage, OfAFailedTrialSaysWhy) {
   Trial trial;

@@ -19,7 +19,8 @@
 namespace codesign {
 namespace {
 
-/// Writes bags of 30 messages at 100 Hz, stamped 2 ms before they are received, 1 s after the bag's first message.
+/// Writes bags of 30 messages at 100 Hz, stamped 2 ms before they are received, 1 s after the bag's
+/// first message.
 class RecordedStates : public testing::Test {
  protected:
   using Change = std::function<void(int k, sensor_msgs::JointState* message)>;
@@ -59,8 +60,12 @@ class RecordedStates : public testing::Test {
     all << std::ifstream(path(), std::ios::binary).rdbuf();
     return all.str();
   }
-  void set_bytes(const std::string& bytes) const { std::ofstream(path(), std::ios::binary) << bytes; }
-  JointRecording read() { return read_recording_bag(description_, path(), {"hinge", "elbow", "wrist"}, &warnings_); }
+  void set_bytes(const std::string& bytes) const {
+    std::ofstream(path(), std::ios::binary) << bytes;
+  }
+  JointRecording read() {
+    return read_recording_bag(description_, path(), {"hinge", "elbow", "wrist"}, &warnings_);
+  }
   InputFault fault() {
     try {
       read();
@@ -127,7 +132,8 @@ TEST_F(RecordedStates, WhatIsNotThereIsSaid) {
 TEST_F(RecordedStates, ABagThatIsStillRecordedIsSaidToBe) {
   write();
   std::filesystem::rename(path(), path() + ".active");
-  EXPECT_NE(fault().allowed.find("states.bag.active is there"), std::string::npos) << fault().allowed;
+  EXPECT_NE(fault().allowed.find("states.bag.active is there"), std::string::npos)
+      << fault().allowed;
 }
 
 TEST_F(RecordedStates, OfAnotherRobotAreRefused) {
@@ -145,7 +151,8 @@ TEST_F(RecordedStates, JointsMayChangePlaces) {
   });
   const JointRecording recording = read();
   ASSERT_EQ(recording.times.size(), 30U);
-  for (std::size_t k = 0; k < 30; ++k) EXPECT_DOUBLE_EQ(recording.find("elbow")->position[k], 0.1 * static_cast<double>(k));
+  for (std::size_t k = 0; k < 30; ++k)
+    EXPECT_DOUBLE_EQ(recording.find("elbow")->position[k], 0.1 * static_cast<double>(k));
 }
 
 TEST_F(RecordedStates, OfSeveralPublishersTheOneWithMostJointsCounts) {
@@ -171,7 +178,9 @@ TEST_F(RecordedStates, ArraysMustFitTheNames) {
 }
 
 TEST_F(RecordedStates, WhatIsNotANumberThroughoutWasNotMeasured) {
-  write([](int, sensor_msgs::JointState* message) { message->effort.assign(3, std::numeric_limits<double>::quiet_NaN()); });
+  write([](int, sensor_msgs::JointState* message) {
+    message->effort.assign(3, std::numeric_limits<double>::quiet_NaN());
+  });
   EXPECT_TRUE(read().find("hinge")->effort.empty());
   write([](int k, sensor_msgs::JointState* message) {
     if (k == 7) message->effort[2] = std::numeric_limits<double>::quiet_NaN();
@@ -182,13 +191,17 @@ TEST_F(RecordedStates, WhatIsNotANumberThroughoutWasNotMeasured) {
 }
 
 TEST_F(RecordedStates, StampsAreCheckedAgainstTheTimesOfReception) {
-  write([](int k, sensor_msgs::JointState* message) { message->header.stamp += ros::Duration(k < 20 ? 0.0 : 3600.0); });
-  expect_warning("recording_clock", "message 21 was received -3600 s after its stamp, the one before 0.002 s");
+  write([](int k, sensor_msgs::JointState* message) {
+    message->header.stamp += ros::Duration(k < 20 ? 0.0 : 3600.0);
+  });
+  expect_warning("recording_clock",
+                 "message 21 was received -3600 s after its stamp, the one before 0.002 s");
   EXPECT_NEAR(read().times[29], 3601.29, 1e-6);
   description_.stamp = StampKind::kReceive;
   EXPECT_NEAR(read().times[29], 1.29, 1e-9);
   description_.stamp = StampKind::kHeader;
-  write([](int, sensor_msgs::JointState* message) { message->header.stamp -= ros::Duration(90.0); });
+  write(
+      [](int, sensor_msgs::JointState* message) { message->header.stamp -= ros::Duration(90.0); });
   expect_warning("recording_clock", "message 1 was received 90.002 s after its stamp");
   EXPECT_NEAR(read().times[0], 1.0, 1e-9);
   write([](int, sensor_msgs::JointState* message) { message->header.stamp = ros::Time(); });
@@ -210,7 +223,8 @@ TEST_F(RecordedStates, AWrongLengthIsNamedWithItsPlace) {
   write();
   const std::string whole = bytes();
   std::string damaged = whole;
-  // The header of a message begins with its kind: a length of 4, then op=2. One changed byte makes the length 262148.
+  // The header of a message begins with its kind: a length of 4, then op=2. One changed byte makes
+  // the length 262148.
   const std::string kind("\4\0\0\0op=\2", 8);
   const std::size_t place = whole.find(kind);
   ASSERT_NE(place, std::string::npos);
@@ -231,7 +245,8 @@ TEST_F(RecordedStates, AWrongLengthIsNamedWithItsPlace) {
 TEST_F(RecordedStates, OfAnyBytesAreReadOrRefused) {
   fuzz::Dice dice(24);
   int refused = 0;
-  for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
     write({}, "/joint_states", compression);
     const std::string whole = bytes();
     for (int k = 0; k < 120; ++k) {

@@ -18,7 +18,8 @@
 namespace codesign {
 namespace {
 
-/// A bag with a trajectory of two joints on `arm`, one without velocities, two for one joint on `twice`, and a text on `words`.
+/// A bag with a trajectory of two joints on `arm`, one without velocities, two for one joint on
+/// `twice`, and a text on `words`.
 class TrajectoryBag : public testing::Test {
  protected:
   TrajectoryBag() {
@@ -43,10 +44,13 @@ class TrajectoryBag : public testing::Test {
     bag.write("empty", time, message);
   }
 
-  RecordedTrajectory load(const std::string& topic, const std::string& joint, const std::string& bag = "moves.bag") const {
-    return bag_trajectory_loader(directory_.path().string())({bag, topic, joint, {"study.yaml", 4}, "setpoint"});
+  RecordedTrajectory load(const std::string& topic, const std::string& joint,
+                          const std::string& bag = "moves.bag") const {
+    return bag_trajectory_loader(directory_.path().string())(
+        {bag, topic, joint, {"study.yaml", 4}, "setpoint"});
   }
-  InputFault fault(const std::string& topic, const std::string& joint, const std::string& bag = "moves.bag") const {
+  InputFault fault(const std::string& topic, const std::string& joint,
+                   const std::string& bag = "moves.bag") const {
     try {
       load(topic, joint, bag);
     } catch (const InputError& error) {
@@ -70,11 +74,13 @@ TEST_F(TrajectoryBag, GivesTheWaypointsOfOneJoint) {
 }
 
 TEST_F(TrajectoryBag, WhatIsNotThereIsSaid) {
-  EXPECT_NE(fault("arm", "wrist").message.find("no trajectory on this topic names the joint"), std::string::npos);
+  EXPECT_NE(fault("arm", "wrist").message.find("no trajectory on this topic names the joint"),
+            std::string::npos);
   EXPECT_EQ(fault("arm", "wrist").element, "setpoint.joint");
   EXPECT_NE(fault("leg", "hinge").message.find("no message on this topic"), std::string::npos);
   EXPECT_NE(fault("words", "hinge").message.find("std_msgs/String"), std::string::npos);
-  EXPECT_NE(fault("twice", "hinge").message.find("2 trajectories name the joint"), std::string::npos);
+  EXPECT_NE(fault("twice", "hinge").message.find("2 trajectories name the joint"),
+            std::string::npos);
   EXPECT_NE(fault("empty", "hinge").message.find("no positions"), std::string::npos);
   EXPECT_NE(fault("arm", "hinge", "lost.bag").message.find("cannot be read"), std::string::npos);
 }
@@ -97,14 +103,18 @@ TEST_F(TrajectoryBag, OfAnyBytesIsReadOrRefused) {
 TEST_F(TrajectoryBag, ARelativePathNeedsAFolder) {
   const TrajectoryLoader loader = bag_trajectory_loader("");
   EXPECT_THROW(loader({"moves.bag", "arm", "hinge", {}, ""}), InputError);
-  EXPECT_EQ(loader({(directory_.path() / "moves.bag").string(), "arm", "hinge", {}, ""}).times.size(), 3U);
+  EXPECT_EQ(
+      loader({(directory_.path() / "moves.bag").string(), "arm", "hinge", {}, ""}).times.size(),
+      3U);
 }
 
 TEST_F(TrajectoryBag, AStudyFollowsIt) {
   std::string study = kPendulumStudy;
-  study.replace(study.find("setpoint: 0.0"), 13, "setpoint: {type: trajectory, bag: moves.bag, topic: arm, joint: hinge}");
+  study.replace(study.find("setpoint: 0.0"), 13,
+                "setpoint: {type: trajectory, bag: moves.bag, topic: arm, joint: hinge}");
   const Problem problem =
-      load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, bag_trajectory_loader(directory_.path().string()));
+      load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {},
+                   bag_trajectory_loader(directory_.path().string()));
   Simulation simulation(problem.system(), problem.parameters());
   std::vector<double> setpoints;
   simulate(&simulation, 0.5, 3, [&setpoints](const Frame& frame) {
@@ -152,14 +162,15 @@ TEST(JointTrajectoryBag, IsReadBack) {
 TEST(JointTrajectoryBag, IsAReferenceOfAStudy) {
   const TemporaryDirectory directory;
   write_joint_trajectory_bag((directory.path() / "trajectory.bag").string(), some_points());
-  const RecordedTrajectory trajectory =
-      bag_trajectory_loader(directory.path().string())({"trajectory.bag", kTrajectoryTopic, "elbow", {"study.yaml", 4}, "setpoint"});
+  const RecordedTrajectory trajectory = bag_trajectory_loader(directory.path().string())(
+      {"trajectory.bag", kTrajectoryTopic, "elbow", {"study.yaml", 4}, "setpoint"});
   EXPECT_EQ(trajectory.times, (std::vector<double>{0.0, 0.01, 0.02}));
   EXPECT_EQ(trajectory.positions, (std::vector<double>{1.1, 1.2, 1.3}));
 }
 
 TEST(JointTrajectoryBag, AFolderThatIsMissingIsAnOutputError) {
-  EXPECT_THROW(write_joint_trajectory_bag("/nowhere/at/all/trajectory.bag", some_points()), OutputError);
+  EXPECT_THROW(write_joint_trajectory_bag("/nowhere/at/all/trajectory.bag", some_points()),
+               OutputError);
 }
 
 }  // namespace

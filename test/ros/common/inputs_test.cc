@@ -51,7 +51,8 @@ XmlRpc::XmlRpcValue on_the_server(const YAML::Node& node) {
   if (node.IsScalar()) return XmlRpc::XmlRpcValue(node.Scalar());
   if (node.IsSequence()) value.setSize(static_cast<int>(node.size()));
   if (node.IsSequence())
-    for (std::size_t i = 0; i < node.size(); ++i) value[static_cast<int>(i)] = on_the_server(node[i]);
+    for (std::size_t i = 0; i < node.size(); ++i)
+      value[static_cast<int>(i)] = on_the_server(node[i]);
   if (node.IsMap())
     for (const auto& entry : node) {
       XmlRpc::XmlRpcValue child = on_the_server(entry.second);
@@ -71,7 +72,8 @@ Inputs as_tree(const std::string& urdf, const std::string& study) {
 TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
   const Inputs inputs = as_tree(kPendulumUrdf, kPendulumStudy);
   const Problem problem = load(inputs);
-  EXPECT_EQ(problem.tuned_names(), std::vector<std::string>{"Kp"}) << "the study says {length: {}}, and that is what is lost";
+  EXPECT_EQ(problem.tuned_names(), std::vector<std::string>{"Kp"})
+      << "the study says {length: {}}, and that is what is lost";
   try {
     require_every_parameter(inputs, problem.robot());
     FAIL() << "accepted";
@@ -92,14 +94,17 @@ TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
   int studies = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/config")) {
     const SourceText study = read_source(entry.path().string());
-    const SourceText urdf = read_source(source_dir() + "/urdf/" + entry.path().stem().string() + ".urdf");
+    const SourceText urdf =
+        read_source(source_dir() + "/urdf/" + entry.path().stem().string() + ".urdf");
     Inputs tree = as_tree(urdf.text, study.text);
-    const std::string overlay = source_dir() + "/urdf/overlays/" + entry.path().stem().string() + ".urdf";
+    const std::string overlay =
+        source_dir() + "/urdf/overlays/" + entry.path().stem().string() + ".urdf";
     if (std::filesystem::exists(overlay)) tree.overlays.push_back(read_source(overlay));
     const Problem problem = load(tree);
     EXPECT_NO_THROW(require_every_parameter(tree, problem.robot())) << entry.path();
     // XML-RPC sorts by name.
-    std::vector<std::string> from_file = load_problem(urdf, tree.overlays, study).tuned_names(), from_tree = problem.tuned_names();
+    std::vector<std::string> from_file = load_problem(urdf, tree.overlays, study).tuned_names(),
+                             from_tree = problem.tuned_names();
     std::sort(from_file.begin(), from_file.end());
     std::sort(from_tree.begin(), from_tree.end());
     EXPECT_EQ(from_tree, from_file) << entry.path();
@@ -108,13 +113,18 @@ TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
   EXPECT_GE(studies, 2);
 }
 
-std::string effective(const Problem& problem) { return write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters()); }
+std::string effective(const Problem& problem) {
+  return write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters());
+}
 
 TEST(Description, TheModelDescribesItselfAtItsOwnValues) {
   const Problem problem = pendulum();
-  EXPECT_TRUE(describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
-  EXPECT_TRUE(describes("\n" + effective(problem) + "\n", problem, effective(problem), with_sticks(effective(problem))));
-  EXPECT_FALSE(describes("<robot name='pendulum'/>", problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_TRUE(
+      describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_TRUE(describes("\n" + effective(problem) + "\n", problem, effective(problem),
+                        with_sticks(effective(problem))));
+  EXPECT_FALSE(describes("<robot name='pendulum'/>", problem, effective(problem),
+                         with_sticks(effective(problem))));
 }
 
 TEST(Description, SticksForLinksWithoutVisualDoNotMakeItAnotherMechanism) {
@@ -126,14 +136,20 @@ TEST(Description, SticksForLinksWithoutVisualDoNotMakeItAnotherMechanism) {
 
 TEST(Description, AValueMakesItAnotherMechanism) {
   const Problem problem = with_settings(pendulum(), {{"length", 0.6}});
-  EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
-  EXPECT_TRUE(describes(effective(problem), problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_FALSE(
+      describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
+  EXPECT_TRUE(
+      describes(effective(problem), problem, effective(problem), with_sticks(effective(problem))));
 }
 
 TEST(Description, AnOverlayMakesItAnotherMechanism) {
-  const SourceText overlay{"overlay.urdf", R"(<robot name="pendulum"><joint name="hinge"><dynamics damping="0.1"/></joint></robot>)"};
-  const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {overlay}, {"pendulum.yaml", kPendulumStudy});
-  EXPECT_FALSE(describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
+  const SourceText overlay{
+      "overlay.urdf",
+      R"(<robot name="pendulum"><joint name="hinge"><dynamics damping="0.1"/></joint></robot>)"};
+  const Problem problem =
+      load_problem({"pendulum.urdf", kPendulumUrdf}, {overlay}, {"pendulum.yaml", kPendulumStudy});
+  EXPECT_FALSE(
+      describes(kPendulumUrdf, problem, effective(problem), with_sticks(effective(problem))));
   EXPECT_NE(effective(problem).find("damping=\"0.1\""), std::string::npos);
 }
 

@@ -11,7 +11,8 @@ using Names = std::vector<std::string>;
 TEST(Parameters, ACommandLineGivesListsAsText) {
   EXPECT_EQ(names_in("elbow"), Names{"elbow"});
   const Names both{"elbow_servo", "wrist/1"};
-  for (const char* text : {"elbow_servo,wrist/1", "[elbow_servo, wrist/1]", "['elbow_servo','wrist/1']", " elbow_servo , wrist/1 "})
+  for (const char* text : {"elbow_servo,wrist/1", "[elbow_servo, wrist/1]",
+                           "['elbow_servo','wrist/1']", " elbow_servo , wrist/1 "})
     EXPECT_EQ(names_in(text), both) << text;
   EXPECT_EQ(names_in("left elbow"), Names{"left elbow"});
   for (const char* text : {"", "[]", " , "}) EXPECT_EQ(names_in(text), Names()) << text;
@@ -25,7 +26,8 @@ TEST(Parameters, LaunchFilesPassNumbersAsTextToo) {
   }
   EXPECT_TRUE(is_number(XmlRpc::XmlRpcValue(3), &number));
   EXPECT_EQ(number, 3.0);
-  for (const char* text : {"", "fast", "1e6 s", "0x10", "1,5", "true"}) EXPECT_FALSE(is_number(XmlRpc::XmlRpcValue(text), &number)) << text;
+  for (const char* text : {"", "fast", "1e6 s", "0x10", "1,5", "true"})
+    EXPECT_FALSE(is_number(XmlRpc::XmlRpcValue(text), &number)) << text;
   EXPECT_FALSE(is_number(XmlRpc::XmlRpcValue(true), &number));
 }
 

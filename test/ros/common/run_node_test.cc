@@ -13,7 +13,9 @@ namespace {
 class EndRequest : public testing::Test {
  protected:
   EndRequest()
-      : interrupt_(std::signal(SIGINT, SIG_DFL)), terminate_(std::signal(SIGTERM, SIG_DFL)), hang_up_(std::signal(SIGHUP, SIG_DFL)) {}
+      : interrupt_(std::signal(SIGINT, SIG_DFL)),
+        terminate_(std::signal(SIGTERM, SIG_DFL)),
+        hang_up_(std::signal(SIGHUP, SIG_DFL)) {}
   ~EndRequest() override {
     std::signal(SIGINT, interrupt_);
     std::signal(SIGTERM, terminate_);
@@ -40,7 +42,8 @@ TEST_F(EndRequest, EverySignalThatEndsIsPassedOn) {
 
 TEST_F(EndRequest, ComesBeforeTheAnswerOfRosToAShutdown) {
   on_end_request([] {});
-  EXPECT_FALSE(ros::XMLRPCManager::instance()->bind("shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue&) {}));
+  EXPECT_FALSE(ros::XMLRPCManager::instance()->bind(
+      "shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue&) {}));
 }
 
 TEST_F(EndRequest, AnIgnoredHangUpStaysIgnored) {

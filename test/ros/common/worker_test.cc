@@ -12,7 +12,8 @@ TEST(Worker, RefusesASecondJobUntilTheFirstIsDone) {
   std::promise<void> release, done;
   Worker worker;
   EXPECT_FALSE(worker.busy());
-  ASSERT_TRUE(worker.try_start([&](const std::atomic<bool>&) { release.get_future().wait(); }, [&] { done.set_value(); }));
+  ASSERT_TRUE(worker.try_start([&](const std::atomic<bool>&) { release.get_future().wait(); },
+                               [&] { done.set_value(); }));
   EXPECT_TRUE(worker.busy());
   EXPECT_FALSE(worker.try_start([](const std::atomic<bool>&) { FAIL(); }, [] { FAIL(); }));
   release.set_value();
@@ -47,7 +48,8 @@ TEST(Worker, CancelReachesTheRunningJobOnly) {
   EXPECT_FALSE(worker.cancel()) << "it is cancelled already";
   done.get_future().wait();
   std::promise<bool> cancelled;
-  ASSERT_TRUE(worker.try_start([&](const std::atomic<bool>& cancel) { cancelled.set_value(cancel); }, [] {}));
+  ASSERT_TRUE(worker.try_start(
+      [&](const std::atomic<bool>& cancel) { cancelled.set_value(cancel); }, [] {}));
   EXPECT_FALSE(cancelled.get_future().get());
 }
 

@@ -12,7 +12,9 @@ using mechanism_codesign::EvaluateRequest;
 
 class EvaluationJob : public testing::Test {
  protected:
-  mechanism_codesign::EvaluateResponse run(const EvaluateRequest& request) { return run_evaluation(pendulum(), request, cancel_); }
+  mechanism_codesign::EvaluateResponse run(const EvaluateRequest& request) {
+    return run_evaluation(pendulum(), request, cancel_);
+  }
   std::atomic<bool> cancel_{false};
 };
 
@@ -37,13 +39,16 @@ TEST_F(EvaluationJob, TheObjectiveAloneIsTheSame) {
 }
 
 TEST_F(EvaluationJob, ChecksItsGradient) {
-  for (const auto& [check, tolerance] : {std::pair<const char*, double>{"complex_step", 1e-9}, {"ridders", 1e-4}}) {
+  for (const auto& [check, tolerance] :
+       {std::pair<const char*, double>{"complex_step", 1e-9}, {"ridders", 1e-4}}) {
     EvaluateRequest request;
     request.check = check;
     const auto reply = run(request);
     ASSERT_TRUE(reply.success) << reply.message;
     ASSERT_EQ(reply.reference.size(), 2U);
-    for (int k : {0, 1}) EXPECT_NEAR(reply.gradient[k], reply.reference[k], tolerance * std::abs(reply.reference[k])) << check;
+    for (int k : {0, 1})
+      EXPECT_NEAR(reply.gradient[k], reply.reference[k], tolerance * std::abs(reply.reference[k]))
+          << check;
     EXPECT_LT(reply.largest_relative_difference, tolerance);
   }
 }

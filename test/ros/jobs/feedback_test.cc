@@ -14,12 +14,23 @@ class IdentificationFeedbackTest : public testing::Test {
   IdentificationFeedbackTest() { ros::Time::init(); }
 
   FitTrial trial(int evaluation, int profile = 0) const {
-    FitTrial one{evaluation, {}, 4.0, Eigen::VectorXd::Constant(1, 0.5), Eigen::VectorXd::Constant(2, 3.0), {"hinge"}, 1, profile, 5};
+    FitTrial one{evaluation,
+                 {},
+                 4.0,
+                 Eigen::VectorXd::Constant(1, 0.5),
+                 Eigen::VectorXd::Constant(2, 3.0),
+                 {"hinge"},
+                 1,
+                 profile,
+                 5};
     return one;
   }
 
   std::vector<mechanism_codesign::IdentificationProgress> told_;
-  IdentificationFeedback feedback_{"arm_1", {"inertia", "viscous"}, 10, [this](const auto& progress) { told_.push_back(progress); }};
+  IdentificationFeedback feedback_{
+      "arm_1", {"inertia", "viscous"}, 10, [this](const auto& progress) {
+        told_.push_back(progress);
+      }};
 };
 
 TEST_F(IdentificationFeedbackTest, TellsStagesEvaluationsAndTheTimeLeft) {
@@ -31,7 +42,8 @@ TEST_F(IdentificationFeedbackTest, TellsStagesEvaluationsAndTheTimeLeft) {
   feedback_.begin("recording");
   feedback_.finish();
   ASSERT_EQ(told_.size(), 7U);
-  const char* stages[] = {"reading", "fitting", "fitting", "profiling", "profiling", "recording", "recording"};
+  const char* stages[] = {"reading",   "fitting",   "fitting",  "profiling",
+                          "profiling", "recording", "recording"};
   for (std::size_t k = 0; k < told_.size(); ++k) {
     EXPECT_EQ(told_[k].stage, stages[k]);
     EXPECT_EQ(told_[k].job, "arm_1");
@@ -89,7 +101,8 @@ class JobFeedbackTest : public testing::Test {
   }
 
   std::vector<Message> told_;
-  JobFeedback feedback_{"arm_1", {"a", "b"}, [this](const Message& message) { told_.push_back(message); }};
+  JobFeedback feedback_{
+      "arm_1", {"a", "b"}, [this](const Message& message) { told_.push_back(message); }};
 };
 
 TEST_F(JobFeedbackTest, BeforeTheFirstTrialPointItTellsOnlyHowFarTheJobIs) {
@@ -175,11 +188,14 @@ std::vector<unsigned> kept_of(unsigned count, std::size_t capacity) {
     log.add(logged);
   }
   std::vector<unsigned> evaluations;
-  for (const LoggedTrial& logged : log.take()) evaluations.push_back(static_cast<unsigned>(logged.trial.evaluation));
+  for (const LoggedTrial& logged : log.take())
+    evaluations.push_back(static_cast<unsigned>(logged.trial.evaluation));
   return evaluations;
 }
 
-TEST(TrialLog, KeepsAllWhileThereIsRoom) { EXPECT_EQ(kept_of(4, 4), (std::vector<unsigned>{1, 2, 3, 4})); }
+TEST(TrialLog, KeepsAllWhileThereIsRoom) {
+  EXPECT_EQ(kept_of(4, 4), (std::vector<unsigned>{1, 2, 3, 4}));
+}
 
 TEST(TrialLog, ThinsEvenlyAndKeepsTheLast) {
   EXPECT_EQ(kept_of(5, 4), (std::vector<unsigned>{1, 3, 5}));

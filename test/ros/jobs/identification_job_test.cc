@@ -28,9 +28,10 @@ class IdentificationJobTest : public testing::Test {
     std::ofstream(folder_.path() / "data.csv") << SwingingRig().table();
   }
 
-  IdentificationOutcome run(const IdentifyGoal& request = {}, const std::string& more = "", const IdentificationObserver& observer = {}) {
-    return run_identification(swinging_problem("{csv: data.csv}", more), folder_.path().string(), request, {out(), 20.0}, observer,
-                              cancel_);
+  IdentificationOutcome run(const IdentifyGoal& request = {}, const std::string& more = "",
+                            const IdentificationObserver& observer = {}) {
+    return run_identification(swinging_problem("{csv: data.csv}", more), folder_.path().string(),
+                              request, {out(), 20.0}, observer, cancel_);
   }
   std::string out() const { return (folder_.path() / "out").string(); }
   static std::string text_of(const std::string& path) {
@@ -41,7 +42,8 @@ class IdentificationJobTest : public testing::Test {
   }
   void expect_files(const IdentificationOutcome& outcome) {
     const auto& result = outcome.result;
-    for (const std::string& path : {result.report, result.urdf, result.overlay, result.residuals, result.bag}) {
+    for (const std::string& path :
+         {result.report, result.urdf, result.overlay, result.residuals, result.bag}) {
       EXPECT_TRUE(std::filesystem::is_regular_file(path)) << path;
       EXPECT_EQ(path.rfind(out() + "/" + result.job + ".", 0), 0U) << path;
     }
@@ -56,7 +58,8 @@ class IdentificationJobTest : public testing::Test {
 TEST_F(IdentificationJobTest, FindsTheRigsNumbersAndWritesAllFiles) {
   std::vector<IdentificationProgress> told;
   const IdentificationOutcome outcome =
-      run({}, "  holdout: [{csv: data.csv, from: 2.0}]\n", [&](const auto& progress) { told.push_back(progress); });
+      run({}, "  holdout: [{csv: data.csv, from: 2.0}]\n",
+          [&](const auto& progress) { told.push_back(progress); });
   const auto& result = outcome.result;
   ASSERT_TRUE(result.success) << result.message;
   ASSERT_EQ(result.numbers.size(), 2U);
@@ -77,7 +80,8 @@ TEST_F(IdentificationJobTest, FindsTheRigsNumbersAndWritesAllFiles) {
   const Json report = Json::parse(text_of(result.report));
   EXPECT_EQ(report["identified"]["inertia"]["value"], result.numbers[0].value);
   EXPECT_TRUE(report.contains("warnings"));
-  EXPECT_EQ(read_urdf({"identified", text_of(result.urdf)}).parameters[0].value, result.numbers[0].value);
+  EXPECT_EQ(read_urdf({"identified", text_of(result.urdf)}).parameters[0].value,
+            result.numbers[0].value);
   EXPECT_EQ(outcome.identified_urdf, text_of(result.urdf));
   ASSERT_FALSE(told.empty());
   EXPECT_EQ(told.front().stage, "reading");
@@ -91,13 +95,15 @@ TEST_F(IdentificationJobTest, TheBagHoldsWhatWasMeasuredBesideWhatTheModelSays) 
   std::vector<sensor_msgs::JointStateConstPtr> sides[2];
   const std::string topics[] = {"measured/joint_states", "identified/joint_states"};
   for (int side = 0; side < 2; ++side)
-    for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topics[side])))
+    for (const rosbag::MessageInstance& instance :
+         rosbag::View(bag, rosbag::TopicQuery(topics[side])))
       sides[side].push_back(instance.instantiate<sensor_msgs::JointState>());
   ASSERT_EQ(sides[0].size(), 100U);  // 5 s at 20 a second
   ASSERT_EQ(sides[1].size(), 100U);
   const SwingingRig rig;
   for (std::size_t k = 2; k < 99; ++k) {
-    const double t = 0.02 + 0.05 * static_cast<double>(k);  // four samples at the ends are not fitted
+    const double t =
+        0.02 + 0.05 * static_cast<double>(k);  // four samples at the ends are not fitted
     EXPECT_NEAR(sides[0][k]->effort.at(0), rig.torque(t), 1e-5);
     EXPECT_NEAR(sides[1][k]->effort.at(0), rig.torque(t), 1e-2);
     EXPECT_NEAR(sides[1][k]->position.at(0), rig.position(t), 1e-5);
@@ -110,7 +116,8 @@ TEST_F(IdentificationJobTest, ARequestChoosesParametersAndStarts) {
   request.start = {2.0};
   request.max_evaluations = 7;
   std::uint32_t most = 0;
-  const auto result = run(request, "", [&](const auto& progress) { most = std::max(most, progress.of); }).result;
+  const auto result =
+      run(request, "", [&](const auto& progress) { most = std::max(most, progress.of); }).result;
   ASSERT_TRUE(result.success) << result.message;
   ASSERT_EQ(result.numbers.size(), 1U);
   EXPECT_EQ(result.numbers[0].start, 2.0);
@@ -123,7 +130,8 @@ TEST_F(IdentificationJobTest, CancelledItKeepsTheBestPointAndItsFiles) {
   request.start = {4.0, 9.0};
   request.parameters = {"inertia", "viscous"};
   const IdentificationOutcome outcome =
-      run(request, "  intervals: {profiles: true}\n", [&](const auto& progress) { cancel_ = progress.evaluation >= 2; });
+      run(request, "  intervals: {profiles: true}\n",
+          [&](const auto& progress) { cancel_ = progress.evaluation >= 2; });
   EXPECT_EQ(outcome.result.code, "cancelled");
   EXPECT_EQ(outcome.result.termination, "cancelled");
   ASSERT_EQ(outcome.result.numbers.size(), 2U);
@@ -137,7 +145,8 @@ TEST_F(IdentificationJobTest, CancelledItKeepsTheBestPointAndItsFiles) {
 
 TEST_F(IdentificationJobTest, CancelledWhileProfilesAreFoundItIsCancelled) {
   const IdentificationOutcome outcome =
-      run({}, "  intervals: {profiles: true}\n", [&](const auto& progress) { cancel_ = progress.stage == "profiling"; });
+      run({}, "  intervals: {profiles: true}\n",
+          [&](const auto& progress) { cancel_ = progress.stage == "profiling"; });
   EXPECT_EQ(outcome.result.code, "cancelled");
   EXPECT_NEAR(outcome.result.numbers.at(0).value, 0.3, 1e-3);
   expect_files(outcome);
@@ -154,11 +163,16 @@ TEST_F(IdentificationJobTest, CancelledBeforeTheFirstEvaluationItLeavesNothing) 
 TEST_F(IdentificationJobTest, CancelledWhileItReadsABagItLeavesNothing) {
   {
     rosbag::Bag bag((folder_.path() / "data.bag").string(), rosbag::bagmode::Write);
-    for (int k = 0; k < 100; ++k) bag.write("joint_states", ros::Time(1.0 + 0.01 * k), sensor_msgs::JointState());
+    for (int k = 0; k < 100; ++k)
+      bag.write("joint_states", ros::Time(1.0 + 0.01 * k), sensor_msgs::JointState());
   }
   const Problem problem = swinging_problem("{bag: data.bag, topic: joint_states}");
-  const auto cancel_at_once = [this](const IdentificationProgress& progress) { cancel_ = progress.stage == "reading"; };
-  const auto result = run_identification(problem, folder_.path().string(), {}, {out(), 20.0}, cancel_at_once, cancel_).result;
+  const auto cancel_at_once = [this](const IdentificationProgress& progress) {
+    cancel_ = progress.stage == "reading";
+  };
+  const auto result = run_identification(problem, folder_.path().string(), {}, {out(), 20.0},
+                                         cancel_at_once, cancel_)
+                          .result;
   EXPECT_EQ(result.code, "cancelled") << result.message;
   EXPECT_TRUE(std::filesystem::is_empty(out()));
 }
@@ -179,7 +193,8 @@ TEST_F(IdentificationJobTest, BadInputIsAnsweredWithItsPlace) {
 }
 
 TEST_F(IdentificationJobTest, AStudyWithoutRecordingsIsBadInput) {
-  const Problem problem = load_problem({"arm.urdf", kSwingingArm}, {}, {"study.yaml", "duration: 1.0\n"});
+  const Problem problem =
+      load_problem({"arm.urdf", kSwingingArm}, {}, {"study.yaml", "duration: 1.0\n"});
   const auto result = run_identification(problem, "", {}, {out(), 20.0}, {}, cancel_).result;
   EXPECT_EQ(result.code, "bad_input");
   EXPECT_NE(result.message.find("identify"), std::string::npos) << result.message;

@@ -15,7 +15,8 @@ using Numbers = std::vector<double>;
 
 TEST(EnsembleMessages, ScenariosAndTheWorstAreNumberedFromOne) {
   OptimizationResult result;
-  result.scenarios = {{"light", -1, 0.5, {{"mass", 1.0}}, 3.0, 2.0}, {"heavy", 4, 0.5, {{"mass", 9.0}, {"mu", 0.25}}, 5.0, 4.0, "lugre"}};
+  result.scenarios = {{"light", -1, 0.5, {{"mass", 1.0}}, 3.0, 2.0},
+                      {"heavy", 4, 0.5, {{"mass", 9.0}, {"mu", 0.25}}, 5.0, 4.0, "lugre"}};
   result.scenarios[0].failed = true;
   mechanism_codesign::OptimizeResult message;
   set_ensemble(result, &message);
@@ -45,15 +46,24 @@ TEST(EnsembleMessages, Validation) {
   const mechanism_codesign::Validation& validation = message.validation[0];
   EXPECT_EQ(validation.samples, 100U);
   EXPECT_EQ(validation.failed, 2U);
-  EXPECT_EQ((Numbers{validation.promised, validation.objective, validation.mean, validation.worst}), (Numbers{1.5, 1.75, 1.25, 3.25}));
-  EXPECT_EQ((Numbers{message.value_at_risk, validation.value_at_risk, validation.within}), (Numbers{2.25, 2.5, 0.875}));
+  EXPECT_EQ((Numbers{validation.promised, validation.objective, validation.mean, validation.worst}),
+            (Numbers{1.5, 1.75, 1.25, 3.25}));
+  EXPECT_EQ((Numbers{message.value_at_risk, validation.value_at_risk, validation.within}),
+            (Numbers{2.25, 2.5, 0.875}));
 }
 
 TEST(EnsembleMessages, SearchesNameTheirOptimum) {
   OptimizationResult result;
   const Eigen::Vector2d start(1.0, 2.0), end(3.0, 4.0);
   result.starts = {{start, end, 9.0, 0.5, {}, "objective_tolerance_reached", 12, 0},
-                   {start, start, 10.0, 10.0, {StatusCode::kUnstableMotion, 0.1, "too fast"}, "start_failed", 1, -1}};
+                   {start,
+                    start,
+                    10.0,
+                    10.0,
+                    {StatusCode::kUnstableMotion, 0.1, "too fast"},
+                    "start_failed",
+                    1,
+                    -1}};
   result.optima = {{end, 0.5, 1}};
   result.screened = 8;
   result.unusable = 3;
@@ -104,7 +114,8 @@ TEST(IdentificationMessage, SaysWhatIsNotKnown) {
   EXPECT_FALSE(message.success);
   EXPECT_EQ(message.code, "not_identifiable");
   EXPECT_EQ(message.message, "the data do not determine all numbers");
-  EXPECT_TRUE(std::isnan(message.numbers[0].deviation) && std::isnan(message.numbers[0].low) && std::isnan(message.numbers[0].high));
+  EXPECT_TRUE(std::isnan(message.numbers[0].deviation) && std::isnan(message.numbers[0].low) &&
+              std::isnan(message.numbers[0].high));
   EXPECT_FALSE(message.numbers[1].determined);
   EXPECT_TRUE(std::isinf(message.numbers[1].deviation));
   EXPECT_TRUE(std::isnan(message.numbers[1].profile_low));
@@ -163,7 +174,8 @@ TEST(WatchedMessages, NameNoScenarioWhereThereIsOne) {
 }
 
 TEST(Warnings, WarningsOfFilesComeFirstAndOnce) {
-  const std::vector<mechanism_codesign::Warning> messages = warning_messages({{"a", "one", {}}}, {{"b", "two", {}}, {"a", "one", {}}});
+  const std::vector<mechanism_codesign::Warning> messages =
+      warning_messages({{"a", "one", {}}}, {{"b", "two", {}}, {"a", "one", {}}});
   ASSERT_EQ(messages.size(), 2U);
   EXPECT_EQ(messages[0].code, "a");
   EXPECT_EQ(messages[1].message, "two");

@@ -31,8 +31,10 @@ class OptimizationJob : public testing::Test {
  protected:
   OptimizationJob() { ros::Time::init(); }
 
-  OptimizationOutcome run(const OptimizeGoal& request = OptimizeGoal(), const FeedbackObserver& observer = {}) {
-    return run_optimization(pendulum(), "the study", request, {directory_.path().string(), 20.0}, observer, cancel_);
+  OptimizationOutcome run(const OptimizeGoal& request = OptimizeGoal(),
+                          const FeedbackObserver& observer = {}) {
+    return run_optimization(pendulum(), "the study", request, {directory_.path().string(), 20.0},
+                            observer, cancel_);
   }
 
   bool left_nothing() const { return std::filesystem::is_empty(directory_.path()); }
@@ -43,11 +45,12 @@ class OptimizationJob : public testing::Test {
 
 TEST_F(OptimizationJob, ImprovesAndReportsEveryTrial) {
   unsigned trials = 0;
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        // Between trial points the last one may be repeated.
-                        EXPECT_LE(progress.evaluation, trials + 1);
-                        trials = progress.evaluation;
-                      }).result;
+  const auto result =
+      run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+        // Between trial points the last one may be repeated.
+        EXPECT_LE(progress.evaluation, trials + 1);
+        trials = progress.evaluation;
+      }).result;
   EXPECT_TRUE(result.success) << result.message;
   EXPECT_EQ(result.code, "success");
   EXPECT_EQ(result.parameters, (std::vector<std::string>{"length", "Kp"}));
@@ -78,8 +81,11 @@ TEST_F(OptimizationJob, TheBagHoldsBothRuns) {
 }
 
 TEST_F(OptimizationJob, OfAStudyWithScenariosTheBagHoldsTheWorstRun) {
-  const Problem problem = block("runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 8.0}}}\nrobust: {measure: worst}\n");
-  const auto result = run_optimization(problem, "", OptimizeGoal(), {directory_.path().string(), 20.0}, {}, cancel_).result;
+  const Problem problem = block(
+      "runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 8.0}}}\nrobust: {measure: worst}\n");
+  const auto result =
+      run_optimization(problem, "", OptimizeGoal(), {directory_.path().string(), 20.0}, {}, cancel_)
+          .result;
   ASSERT_TRUE(result.success) << result.message;
   ASSERT_EQ(result.scenarios.size(), 2U);
   ASSERT_GT(result.worst, 0U);
@@ -87,23 +93,27 @@ TEST_F(OptimizationJob, OfAStudyWithScenariosTheBagHoldsTheWorstRun) {
   EXPECT_NEAR(worst.objective, result.objective, 1e-9 * result.objective);
   rosbag::Bag bag(result.bag);
   std::vector<double> ends;
-  for (const std::string topic : {"tuned/joint_states", "worst/tuned/joint_states", "worst/initial/joint_states"}) {
+  for (const std::string topic :
+       {"tuned/joint_states", "worst/tuned/joint_states", "worst/initial/joint_states"}) {
     rosbag::View view(bag, rosbag::TopicQuery(topic));
     EXPECT_EQ(view.size(), 17U) << topic;
     for (const rosbag::MessageInstance& instance : view)
-      if (instance.getTime() == view.getEndTime()) ends.push_back(instance.instantiate<sensor_msgs::JointState>()->position.at(0));
+      if (instance.getTime() == view.getEndTime())
+        ends.push_back(instance.instantiate<sensor_msgs::JointState>()->position.at(0));
   }
   ASSERT_EQ(ends.size(), 3U);
   EXPECT_NE(ends[0], ends[1]) << "the mass of the run is not the nominal one";
   rosbag::View text(bag, rosbag::TopicQuery("worst/tuned/robot_description"));
-  const RobotDescription robot = read_urdf({"worst", text.begin()->instantiate<std_msgs::String>()->data});
+  const RobotDescription robot =
+      read_urdf({"worst", text.begin()->instantiate<std_msgs::String>()->data});
   EXPECT_EQ(robot.parameters[1].value, worst.values.at(0));
 }
 
 TEST_F(OptimizationJob, ACancelledOneKeepsItsBestPointAndIsRecorded) {
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        if (progress.evaluation == 2) cancel_ = true;
-                      }).result;
+  const auto result =
+      run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+        if (progress.evaluation == 2) cancel_ = true;
+      }).result;
   EXPECT_FALSE(result.success);
   EXPECT_EQ(result.code, "cancelled");
   EXPECT_LE(result.objective, result.initial_objective);
@@ -124,10 +134,12 @@ TEST_F(OptimizationJob, CancelledBeforeTheFirstEvaluationItRecordsItsStart) {
 
 TEST_F(OptimizationJob, TheBestPointIsOnDiskUntilTheBagIs) {
   std::set<unsigned> seen;
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
-                          if (entry.path().string().find(".best.json") != std::string::npos) seen.insert(progress.evaluation);
-                      }).result;
+  const auto result =
+      run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+        for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
+          if (entry.path().string().find(".best.json") != std::string::npos)
+            seen.insert(progress.evaluation);
+      }).result;
   EXPECT_EQ(seen.size(), result.evaluations);
   const auto entries = std::filesystem::directory_iterator(directory_.path());
   EXPECT_EQ(std::distance(begin(entries), end(entries)), 2) << "the bag and its folder alone";
@@ -138,20 +150,24 @@ TEST_F(OptimizationJob, TheFolderBesideTheBagReproducesTheObjective) {
   ASSERT_TRUE(result.success) << result.message;
   const std::filesystem::path folder = std::filesystem::path(result.bag).replace_extension();
   const auto source = [&folder](const char* name) { return read_source((folder / name).string()); };
-  const Problem again = load_problem(source("tuned.urdf"), {}, source("job_study.yaml"), read_result(source("result.json")));
+  const Problem again = load_problem(source("tuned.urdf"), {}, source("job_study.yaml"),
+                                     read_result(source("result.json")));
   EXPECT_EQ(again.start(), Eigen::Map<const Eigen::VectorXd>(result.tuned.data(), 2));
   const Evaluation evaluation = Evaluator(again).evaluate(again.start(), true);
   EXPECT_NEAR(evaluation.objective, result.objective, 1e-12 * result.objective);
   const std::string convergence = source("convergence.csv").text;
-  EXPECT_EQ(static_cast<unsigned>(std::count(convergence.begin(), convergence.end(), '\n')), result.evaluations + 1);
-  for (const char* name : {"details.json", "initial.csv", "tuned.csv"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  EXPECT_EQ(static_cast<unsigned>(std::count(convergence.begin(), convergence.end(), '\n')),
+            result.evaluations + 1);
+  for (const char* name : {"details.json", "initial.csv", "tuned.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
 TEST_F(OptimizationJob, AFolderThatCannotBeWrittenIsAWarning) {
   // In the way of the folder's convergence.csv, once its name is known.
-  const auto result = run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
-                        std::filesystem::create_directories(directory_.path() / progress.job / "convergence.csv");
-                      }).result;
+  const auto result =
+      run(OptimizeGoal(), [&](const mechanism_codesign::OptimizationProgress& progress) {
+        std::filesystem::create_directories(directory_.path() / progress.job / "convergence.csv");
+      }).result;
   EXPECT_TRUE(result.success) << result.message;
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_EQ(result.warnings.back().code, "folder_incomplete");
@@ -174,15 +190,20 @@ TEST_F(OptimizationJob, ADiskThatIsFullAtTheEndKeepsWhatWasComputedInTheReply) {
     const rlimit limit{20000, 20000};
     setrlimit(RLIMIT_FSIZE, &limit);
     const auto result = run().result;
-    const bool is_told = result.code == "output_failed" && result.message.find(": cannot be written: File too large") != std::string::npos;
-    _exit(is_told && !result.success && result.bag.empty() && result.tuned.size() == 2 && result.objective < result.initial_objective ? 0
-                                                                                                                                      : 1);
+    const bool is_told =
+        result.code == "output_failed" &&
+        result.message.find(": cannot be written: File too large") != std::string::npos;
+    _exit(is_told && !result.success && result.bag.empty() && result.tuned.size() == 2 &&
+                  result.objective < result.initial_objective
+              ? 0
+              : 1);
   }
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
   for (const auto& entry : std::filesystem::directory_iterator(directory_.path())) {
-    const bool is_kept = entry.path().string().find(".best.") != std::string::npos || entry.path().extension() == ".jsonl";
+    const bool is_kept = entry.path().string().find(".best.") != std::string::npos ||
+                         entry.path().extension() == ".jsonl";
     EXPECT_TRUE(is_kept) << entry.path();
   }
 }
@@ -198,7 +219,9 @@ TEST_F(OptimizationJob, ABadRequestIsAnAnswerAndLeavesNothing) {
 }
 
 TEST_F(OptimizationJob, AnOutputDirectoryThatCannotBeMadeIsAnAnswer) {
-  const auto result = run_optimization(pendulum(), "", OptimizeGoal(), {"/dev/null/bags", 20.0}, {}, cancel_).result;
+  const auto result =
+      run_optimization(pendulum(), "", OptimizeGoal(), {"/dev/null/bags", 20.0}, {}, cancel_)
+          .result;
   EXPECT_FALSE(result.success);
   EXPECT_EQ(result.code, "output_failed");
 }

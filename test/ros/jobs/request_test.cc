@@ -16,7 +16,8 @@ using mechanism_codesign::EvaluateRequest;
 using mechanism_codesign::OptimizeGoal;
 using Names = std::vector<std::string>;
 
-/// The error message of a request, beginning with the field; the test fails if the request is valid.
+/// The error message of a request, beginning with the field; the test fails if the request is
+/// valid.
 std::string fault_of(const std::function<void()>& use) {
   try {
     use();
@@ -129,7 +130,8 @@ TEST(ARequest, OfMoreNamesThanThereAreParametersIsRefusedAtOnce) {
 TEST(ARequest, OfMoreValuesThanThereAreParametersIsRefusedAtOnce) {
   OptimizeGoal goal;
   goal.start.resize(1000000);
-  EXPECT_NE(fault_of(goal).find("more values than there are parameters"), std::string::npos) << fault_of(goal);
+  EXPECT_NE(fault_of(goal).find("more values than there are parameters"), std::string::npos)
+      << fault_of(goal);
   EvaluateRequest evaluation;
   evaluation.values.resize(1000000);
   EXPECT_NE(fault_of(evaluation).find("1000000 values"), std::string::npos) << fault_of(evaluation);
@@ -152,8 +154,8 @@ TEST(PathOfAJob, LiesInTheOutputDirectory) {
   const std::string folder = std::filesystem::canonical(directory.path()).string();
   EXPECT_EQ(path_in(folder, "arm_1"), folder + "/arm_1");
   EXPECT_EQ(path_in(folder, folder + "/arm_1.bag"), folder + "/arm_1.bag");
-  for (const std::string& outside :
-       {std::string("../arm_1"), std::string("/etc/passwd"), folder, folder + "_other/arm_1", std::string(".")})
+  for (const std::string& outside : {std::string("../arm_1"), std::string("/etc/passwd"), folder,
+                                     folder + "_other/arm_1", std::string(".")})
     EXPECT_THROW(path_in(folder, outside), InputError) << outside;
 }
 

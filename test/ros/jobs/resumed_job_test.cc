@@ -30,10 +30,14 @@ class ResumedJob : public testing::Test {
   ResumedJob() { ros::Time::init(); }
 
   OptimizeResult run(const OptimizeGoal& request = {}, const FeedbackObserver& observer = {}) {
-    return run_optimization(problem_, "the study", request, {directory_.path().string(), 20.0}, observer, cancel_).result;
+    return run_optimization(problem_, "the study", request, {directory_.path().string(), 20.0},
+                            observer, cancel_)
+        .result;
   }
   OptimizeResult cancelled_at(unsigned evaluation) {
-    const OptimizeResult result = run({}, [&](const Progress& progress) { cancel_ = cancel_ || progress.evaluation >= evaluation; });
+    const OptimizeResult result = run({}, [&](const Progress& progress) {
+      cancel_ = cancel_ || progress.evaluation >= evaluation;
+    });
     cancel_ = false;
     return result;
   }
@@ -62,7 +66,8 @@ class ResumedJob : public testing::Test {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(directory_.path())) {
       const std::string name = entry.path().filename();
-      const bool ends = name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+      const bool ends = name.size() > ending.size() &&
+                        name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
       if (ends) names.push_back(name.substr(0, name.size() - ending.size()));
     }
     return names;
@@ -102,13 +107,15 @@ TEST_F(ResumedJob, AKilledOneEndsAsIfItHadNotBeenAndComputesNothingTwice) {
     EXPECT_EQ(result.remembered_runs, before);
     EXPECT_EQ(result.job, job);
     EXPECT_EQ(result.bag, (directory_.path() / (job + ".bag")).string());
-    for (const char* gone : {".journal.jsonl", ".job", ".best.json", ".best.urdf", ".active"}) EXPECT_TRUE(files(gone).empty()) << gone;
+    for (const char* gone : {".journal.jsonl", ".job", ".best.json", ".best.urdf", ".active"})
+      EXPECT_TRUE(files(gone).empty()) << gone;
   }
 }
 
 TEST_F(ResumedJob, ACancelledOneGoesOnAndItsBagStays) {
   const OptimizeResult whole = run(), first = cancelled_at(1), second = [&] {
-    OptimizeResult result = run(resuming(first.job), [&](const Progress& progress) { cancel_ = progress.evaluation >= 3; });
+    OptimizeResult result = run(
+        resuming(first.job), [&](const Progress& progress) { cancel_ = progress.evaluation >= 3; });
     cancel_ = false;
     return result;
   }();
@@ -133,7 +140,8 @@ TEST_F(ResumedJob, AnotherRequestIsRefusedAndLosesNothing) {
   other.max_evaluations = 7;
   const OptimizeResult refusal = run(other);
   EXPECT_EQ(refusal.code, "bad_input");
-  EXPECT_NE(refusal.message.find("the options of the optimizer differ"), std::string::npos) << refusal.message;
+  EXPECT_NE(refusal.message.find("the options of the optimizer differ"), std::string::npos)
+      << refusal.message;
   other = resuming(job);
   other.start = {0.4, 1.0};
   EXPECT_NE(run(other).message.find("a request's start"), std::string::npos);
@@ -197,29 +205,37 @@ TEST(CancelledJob, DoesNotWaitForTheEndOfLongRuns) {
   const Problem usual = pendulum();
   std::string study = usual.study_text().text;
   study.replace(study.find("duration: 0.5"), 13, "duration: 20000.0");
-  study.replace(study.find("absolute_tolerance: 1.0e-7"), 26, "absolute_tolerance: 1.0e-7, maximum_steps: 100000000");
+  study.replace(study.find("absolute_tolerance: 1.0e-7"), 26,
+                "absolute_tolerance: 1.0e-7, maximum_steps: 100000000");
   const Problem problem = load_problem(usual.urdf(), {}, {"pendulum.yaml", study});
   TemporaryDirectory directory;
   std::atomic<bool> cancel{true};
-  const OptimizeResult result = run_optimization(problem, "", {}, {directory.path().string(), 1.0}, {}, cancel).result;
+  const OptimizeResult result =
+      run_optimization(problem, "", {}, {directory.path().string(), 1.0}, {}, cancel).result;
   EXPECT_EQ(result.code, "cancelled");
   EXPECT_TRUE(std::filesystem::exists(result.bag));
-  EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(), [](const auto& one) { return one.code == "run_ends_early"; }), 2);
+  EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(),
+                          [](const auto& one) { return one.code == "run_ends_early"; }),
+            2);
 }
 
 TEST(JobOfAnEnsemble, TheWorstRunsDescriptionHasTheFrictionLawOfItsSample) {
   ros::Time::init();
   TemporaryDirectory directory;
   const std::atomic<bool> cancel{false};
-  const Problem problem = block("uncertain: {friction_law: {choice: [lugre, gonthier]}}\nrobust: {measure: worst, samples: 4}\n");
-  const OptimizeResult result = run_optimization(problem, "", {}, {directory.path().string(), 20.0}, {}, cancel).result;
+  const Problem problem = block(
+      "uncertain: {friction_law: {choice: [lugre, gonthier]}}\nrobust: {measure: worst, samples: "
+      "4}\n");
+  const OptimizeResult result =
+      run_optimization(problem, "", {}, {directory.path().string(), 20.0}, {}, cancel).result;
   ASSERT_TRUE(result.success) << result.message;
   const std::string law = result.scenarios.at(result.worst - 1).friction_law;
   ASSERT_NE(law, "");
   rosbag::Bag bag(result.bag);
   const auto law_in = [&bag](const std::string& place) {
     rosbag::View view(bag, rosbag::TopicQuery(place + "robot_description"));
-    const RobotDescription robot = read_urdf({place, view.begin()->instantiate<std_msgs::String>()->data});
+    const RobotDescription robot =
+        read_urdf({place, view.begin()->instantiate<std_msgs::String>()->data});
     return std::string(robot.joints.at(0).friction->model->name);
   };
   EXPECT_EQ(law_in("worst/tuned/"), law);
@@ -231,8 +247,11 @@ TEST(JobWithBounds, ReportsTheSignals) {
   ros::Time::init();
   TemporaryDirectory directory;
   const std::atomic<bool> cancel{false};
-  const Problem problem = block("path: [{signal: slide/velocity, at_most: 1.5}]\nfinal: [{signal: slide/position, between: [0.4, 0.6]}]\n");
-  const OptimizeResult result = run_optimization(problem, "", {}, {directory.path().string(), 20.0}, {}, cancel).result;
+  const Problem problem = block(
+      "path: [{signal: slide/velocity, at_most: 1.5}]\nfinal: [{signal: slide/position, between: "
+      "[0.4, 0.6]}]\n");
+  const OptimizeResult result =
+      run_optimization(problem, "", {}, {directory.path().string(), 20.0}, {}, cancel).result;
   ASSERT_EQ(result.signals.size(), 2U) << result.message;
   EXPECT_EQ(result.signals[0].element, "path[0]");
   EXPECT_EQ(result.signals[0].upper, 1.5);

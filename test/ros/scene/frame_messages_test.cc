@@ -17,8 +17,8 @@ TEST(FrameMessages, EveryTopicOnceAndAllOfOneInstant) {
   const FrameMessages messages(sample_names(), sample_frame(2.0), context, MarkerStyle());
   std::vector<std::string> topics;
   messages.visit([&topics](const std::string& topic, const auto&) { topics.push_back(topic); });
-  EXPECT_EQ(topics, (std::vector<std::string>{"joint_states", "joint_friction", "controller_states", "loop_errors", "signals",
-                                              "friction_markers"}));
+  EXPECT_EQ(topics, (std::vector<std::string>{"joint_states", "joint_friction", "controller_states",
+                                              "loop_errors", "signals", "friction_markers"}));
   EXPECT_EQ(messages.joint_states.header.stamp, context.stamp);
   EXPECT_EQ(messages.joint_friction.header.stamp, context.stamp);
   EXPECT_EQ(messages.controller_states.header.stamp, context.stamp);
@@ -76,8 +76,8 @@ TEST(Conversions, Signals) {
   EXPECT_EQ(message.value, (Numbers{1.0, 20.0}));
 }
 
-void expect_transform(const geometry_msgs::TransformStamped& transform, const std::string& parent, const std::string& child,
-                      const Eigen::Vector3d& position, double yaw) {
+void expect_transform(const geometry_msgs::TransformStamped& transform, const std::string& parent,
+                      const std::string& child, const Eigen::Vector3d& position, double yaw) {
   EXPECT_EQ(transform.header.frame_id, parent);
   EXPECT_EQ(transform.child_frame_id, child);
   EXPECT_NEAR(transform.transform.translation.x, position.x(), 1e-15);
@@ -95,7 +95,8 @@ TEST(Conversions, AFreeLinkIsPlacedRelativeToItsParent) {
 }
 
 TEST(Conversions, InTheBagOfAJobTheRootOfTheTreeHangsOnTheFrameOfItsSide) {
-  const auto message = placed_link_transforms(sample_names(), sample_parents(), sample_frame(0.0), kContext.stamp, "tuned/");
+  const auto message = placed_link_transforms(sample_names(), sample_parents(), sample_frame(0.0),
+                                              kContext.stamp, "tuned/");
   ASSERT_EQ(message.transforms.size(), 3U);
   expect_transform(message.transforms[0], "tuned", "tuned/ground", {0.0, 0.0, 0.0}, 0.0);
   expect_transform(message.transforms[1], "tuned/ground", "tuned/cart", {1.0, 0.0, 0.0}, kPi / 2);
@@ -103,7 +104,8 @@ TEST(Conversions, InTheBagOfAJobTheRootOfTheTreeHangsOnTheFrameOfItsSide) {
 }
 
 TEST(Conversions, WithAPrefixLinksHangOnTheirParents) {
-  const auto message = link_transforms(sample_names(), {0, 0, 1}, sample_frame(0.0), kContext.stamp, "left/");
+  const auto message =
+      link_transforms(sample_names(), {0, 0, 1}, sample_frame(0.0), kContext.stamp, "left/");
   ASSERT_EQ(message.transforms.size(), 2U);
   expect_transform(message.transforms[0], "left/ground", "left/cart", {1.0, 0.0, 0.0}, kPi / 2);
   expect_transform(message.transforms[1], "left/cart", "left/plate", {2.0, 0.0, 0.0}, kPi / 2);

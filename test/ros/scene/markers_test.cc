@@ -14,7 +14,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-/// The sample's hinge, as if it stood at the cart, which is at x = 1, turned by 90 degrees about z. Its effort is 8.
+/// The sample's hinge, as if it stood at the cart, which is at x = 1, turned by 90 degrees about z.
+/// Its effort is 8.
 ComparedMotion sample_motion() {
   ComparedMotion motion;
   motion.names = sample_names();
@@ -27,10 +28,12 @@ ComparedMotion sample_motion() {
 TEST(EffortMarkers, BothEffortsAlongTheJointsAxis) {
   const ComparedMotion motion = sample_motion();
   const MarkerStyle style = effort_style(motion, 3.0);
-  EXPECT_DOUBLE_EQ(style.metres_per_newton_metre, 0.15) << "the largest effort is half as long as the mechanism";
+  EXPECT_DOUBLE_EQ(style.metres_per_newton_metre, 0.15)
+      << "the largest effort is half as long as the mechanism";
   const ComparedRecording& recording = motion.recordings[0];
-  const auto markers =
-      effort_markers(motion, recording.measured[0], recording.model[0], {ros::Time(2.0), "identified/ground"}, style).markers;
+  const auto markers = effort_markers(motion, recording.measured[0], recording.model[0],
+                                      {ros::Time(2.0), "identified/ground"}, style)
+                           .markers;
   ASSERT_EQ(markers.size(), 2U);
   EXPECT_EQ(markers[0].ns, "hinge/identified");
   EXPECT_EQ(markers[1].ns, "hinge/measured");
@@ -38,8 +41,10 @@ TEST(EffortMarkers, BothEffortsAlongTheJointsAxis) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(markers[k].header.frame_id, "identified/ground");
     ASSERT_EQ(markers[k].points.size(), 2U);
-    EXPECT_NEAR(markers[k].points[1].x, markers[k].points[0].x, 1e-12) << "the cart's x axis is the world's y axis";
-    const Eigen::Vector3d beside(markers[k].points[0].x - 1.0, markers[k].points[0].y, markers[k].points[0].z);
+    EXPECT_NEAR(markers[k].points[1].x, markers[k].points[0].x, 1e-12)
+        << "the cart's x axis is the world's y axis";
+    const Eigen::Vector3d beside(markers[k].points[0].x - 1.0, markers[k].points[0].y,
+                                 markers[k].points[0].z);
     EXPECT_NEAR(beside.norm(), 4.0 * style.shaft_diameter, 1e-12);
     EXPECT_NEAR(beside.y(), 0.0, 1e-12);
     EXPECT_NEAR(markers[k].points[1].y - markers[k].points[0].y, along[k], 1e-12);
@@ -53,7 +58,9 @@ TEST(EffortMarkers, AnEffortThatIsNotKnownHasNoArrow) {
   motion.recordings[0].measured[0].joints[1].effort = std::numeric_limits<double>::quiet_NaN();
   const MarkerStyle style = effort_style(motion, 3.0);
   EXPECT_DOUBLE_EQ(style.metres_per_newton_metre, 1.5 / 8.0);
-  const auto markers = effort_markers(motion, motion.recordings[0].measured[0], motion.recordings[0].model[0], {}, style).markers;
+  const auto markers = effort_markers(motion, motion.recordings[0].measured[0],
+                                      motion.recordings[0].model[0], {}, style)
+                           .markers;
   EXPECT_EQ(markers[0].action, Marker::ADD);
   EXPECT_EQ(markers[1].action, Marker::DELETE);
 }
@@ -68,14 +75,17 @@ TEST(EffortMarkers, BothArrowsStandOutsideOfTheSolidsOnTheViewersSide) {
   const ComparedRecording& recording = motion.recordings[0];
   const auto ends_at = [&](double y) {
     style.towards_viewer = {0.0, y, 0.0};
-    const auto markers = effort_markers(motion, recording.measured[0], recording.model[0], {ros::Time(2.0), "ground"}, style).markers;
+    const auto markers = effort_markers(motion, recording.measured[0], recording.model[0],
+                                        {ros::Time(2.0), "ground"}, style)
+                             .markers;
     EXPECT_EQ(markers[0].points[0], markers[1].points[0]) << "both begin in the same place";
     return std::make_pair(markers[0].points[0].y, markers[0].points[1].y);
   };
   // The effort of 8 along y is 1.2 m long; the solid ends at y = 1 and y = -1.
   EXPECT_NEAR(ends_at(1.0).first, 1.0, 1e-12);
   EXPECT_NEAR(ends_at(1.0).second, 2.2, 1e-12);
-  EXPECT_NEAR(ends_at(-1.0).second, -1.0, 1e-12) << "it points away from the viewer and ends at the solid";
+  EXPECT_NEAR(ends_at(-1.0).second, -1.0, 1e-12)
+      << "it points away from the viewer and ends at the solid";
 }
 
 TEST(EffortLegend, TellsScaleAndColors) {
@@ -115,9 +125,11 @@ TEST(FrictionMarkers, ATorqueIsDrawnAlongItsAxisInAnotherColour) {
 TEST(FrictionMarkers, AnArrowTooShortToSeeIsTakenAway) {
   Frame frame = sample_frame(0.0);
   frame.frictions[0].force = {0.19, 0.0, 0.0};
-  EXPECT_EQ(friction_markers(sample_names(), frame, kMarkerContext, kStyle).markers[0].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(friction_markers(sample_names(), frame, kMarkerContext, kStyle).markers[0].action,
+            visualization_msgs::Marker::DELETE);
   frame.frictions[0].force = {0.21, 0.0, 0.0};
-  EXPECT_EQ(friction_markers(sample_names(), frame, kMarkerContext, kStyle).markers[0].action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(friction_markers(sample_names(), frame, kMarkerContext, kStyle).markers[0].action,
+            visualization_msgs::Marker::ADD);
 }
 
 /// The sample with a cube of 2 m around the cart's origin at x = 1, and frictions in its middle.
@@ -137,13 +149,16 @@ class HiddenArrows : public testing::Test {
 
 TEST_F(HiddenArrows, AForceIsDrawnBesideTheSolidTowardsTheViewer) {
   const ArrowEnds ends = friction_arrow(frame_.frictions[0], false, frame_, style_);
-  // The ray (0, -0.8, 0.6) leaves the cube at y = -1; half of the head, 1.25 shaft diameters, and a little more lie between.
+  // The ray (0, -0.8, 0.6) leaves the cube at y = -1; half of the head, 1.25 shaft diameters, and a
+  // little more lie between.
   EXPECT_NEAR(ends.from.y(), -1.0 - 0.8 * 0.015, 1e-12);
   EXPECT_NEAR(ends.from.z(), 0.75 + 0.6 * 0.015, 1e-12);
   EXPECT_NEAR(ends.from.x(), 1.0, 1e-12) << "it moves at a right angle to itself";
-  EXPECT_TRUE((ends.to - ends.from).isApprox(Eigen::Vector3d(0.2, 0.0, 0.0), 1e-12)) << "as long as before";
+  EXPECT_TRUE((ends.to - ends.from).isApprox(Eigen::Vector3d(0.2, 0.0, 0.0), 1e-12))
+      << "as long as before";
   frame_.frictions[0].force *= -1.0;
-  EXPECT_TRUE(friction_arrow(frame_.frictions[0], false, frame_, style_).from.isApprox(ends.from)) << "the same place for both directions";
+  EXPECT_TRUE(friction_arrow(frame_.frictions[0], false, frame_, style_).from.isApprox(ends.from))
+      << "the same place for both directions";
 }
 
 TEST_F(HiddenArrows, ATorqueIsDrawnAlongItsAxisOnTheViewersSide) {
@@ -158,7 +173,8 @@ TEST_F(HiddenArrows, ATorqueIsDrawnAlongItsAxisOnTheViewersSide) {
   EXPECT_TRUE(away.to.isApprox(towards.from, 1e-12));
 }
 
-// The plate's cube stands before the cart's, with a gap that is wider than the shaft and shorter than the arrow.
+// The plate's cube stands before the cart's, with a gap that is wider than the shaft and shorter
+// than the arrow.
 TEST_F(HiddenArrows, ATorqueDoesNotEndInAGapBetweenSolids) {
   LinkBoxes boxes = *style_.solids;
   boxes[0].push_back({Eigen::Isometry3d(Eigen::Translation3d(1.0, -1.5, 0.0)), {0.3, 0.3, 0.3}});
@@ -166,7 +182,8 @@ TEST_F(HiddenArrows, ATorqueDoesNotEndInAGapBetweenSolids) {
   FrictionSample& sample = frame_.frictions[1];
   sample.torque = {0.0, 2.0, 0.0};
   const ArrowEnds away = friction_arrow(sample, true, frame_, style_);
-  EXPECT_TRUE(away.to.isApprox(Eigen::Vector3d(1.0, -1.8, 0.0), 1e-12)) << "the tip stands before both: " << away.to.transpose();
+  EXPECT_TRUE(away.to.isApprox(Eigen::Vector3d(1.0, -1.8, 0.0), 1e-12))
+      << "the tip stands before both: " << away.to.transpose();
 }
 
 TEST(FrictionMarkers, ALongArrowIsCut) {
@@ -179,14 +196,18 @@ TEST(FrictionMarkers, ALongArrowIsCut) {
 
 TEST_F(HiddenArrows, NothingMovesWhereNothingHides) {
   frame_.frictions[0].position = {5.0, 5.0, 5.0};
-  EXPECT_EQ(friction_arrow(frame_.frictions[0], false, frame_, style_).from, frame_.frictions[0].position);
+  EXPECT_EQ(friction_arrow(frame_.frictions[0], false, frame_, style_).from,
+            frame_.frictions[0].position);
 }
 
-/// A root without solids, and a link at x = 1, turned by 90 degrees about z, with a box of 2 x 4 x 6 m.
+/// A root without solids, and a link at x = 1, turned by 90 degrees about z, with a box of 2 x 4 x
+/// 6 m.
 Frame turned_frame() {
   Frame frame;
   frame.links.resize(2);
-  frame.links[1] = {{1.0, 0.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(1.5707963267948966, Eigen::Vector3d::UnitZ()))};
+  frame.links[1] = {
+      {1.0, 0.0, 0.0},
+      Eigen::Quaterniond(Eigen::AngleAxisd(1.5707963267948966, Eigen::Vector3d::UnitZ()))};
   return frame;
 }
 
@@ -198,23 +219,31 @@ LinkBoxes one_box() {
 
 TEST(WayOut, IsToTheFaceOfTheBoxInTheLinksAxes) {
   const Eigen::Vector3d centre(1.0, 0.0, 0.0);
-  EXPECT_NEAR(way_out(centre, Eigen::Vector3d::UnitX(), turned_frame(), one_box(), 0.1), 2.0, 1e-12);
-  EXPECT_NEAR(way_out(centre, Eigen::Vector3d::UnitY(), turned_frame(), one_box(), 0.1), 1.0, 1e-12);
-  EXPECT_NEAR(way_out(centre, -Eigen::Vector3d::UnitZ(), turned_frame(), one_box(), 0.1), 3.0, 1e-12);
+  EXPECT_NEAR(way_out(centre, Eigen::Vector3d::UnitX(), turned_frame(), one_box(), 0.1), 2.0,
+              1e-12);
+  EXPECT_NEAR(way_out(centre, Eigen::Vector3d::UnitY(), turned_frame(), one_box(), 0.1), 1.0,
+              1e-12);
+  EXPECT_NEAR(way_out(centre, -Eigen::Vector3d::UnitZ(), turned_frame(), one_box(), 0.1), 3.0,
+              1e-12);
 }
 
 TEST(WayOut, OutsideItIsZero) {
-  EXPECT_EQ(way_out({-1.5, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), one_box(), 0.1), 0.0)
+  EXPECT_EQ(way_out({-1.5, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), one_box(), 0.1),
+            0.0)
       << "the box is farther than the clearance";
-  EXPECT_EQ(way_out({1.0, 5.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), one_box(), 0.1), 0.0);
+  EXPECT_EQ(way_out({1.0, 5.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), one_box(), 0.1),
+            0.0);
   EXPECT_EQ(way_out({1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), {}, 0.1), 0.0);
 }
 
 TEST(WayOut, BoxesThatTouchOrNearlySoAreLeftTogether) {
   LinkBoxes boxes = one_box();
   boxes[0].push_back({Eigen::Isometry3d(Eigen::Translation3d(4.05, 0.0, 0.0)), {1.0, 1.0, 1.0}});
-  EXPECT_NEAR(way_out({1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), boxes, 0.1), 4.05, 1e-12);
-  EXPECT_NEAR(way_out({1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), boxes, 0.01), 2.0, 1e-12) << "there is room between them";
+  EXPECT_NEAR(way_out({1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), boxes, 0.1), 4.05,
+              1e-12);
+  EXPECT_NEAR(way_out({1.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), turned_frame(), boxes, 0.01), 2.0,
+              1e-12)
+      << "there is room between them";
 }
 
 }  // namespace

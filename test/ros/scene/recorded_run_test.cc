@@ -51,13 +51,15 @@ TEST(Advance, AsksOnTheWayAndStops) {
   Simulation simulation(problem.system(), problem.parameters());
   ASSERT_TRUE(simulation.start().ok());
   int asked = 0;
-  EXPECT_EQ(advance(&simulation, 0.0, 0.5, [&] { return ++asked == 5; }).code, StatusCode::kCancelled);
+  EXPECT_EQ(advance(&simulation, 0.0, 0.5, [&] { return ++asked == 5; }).code,
+            StatusCode::kCancelled);
   EXPECT_EQ(asked, 5);
 }
 
 TEST(Advance, ChangesNoStepOfTheRun) {
   const Problem problem = pendulum();
-  Simulation sliced(problem.system(), problem.parameters()), whole(problem.system(), problem.parameters());
+  Simulation sliced(problem.system(), problem.parameters()),
+      whole(problem.system(), problem.parameters());
   Frame from_sliced, from_whole;
   ASSERT_TRUE(sliced.start().ok() && whole.start().ok());
   ASSERT_TRUE(advance(&sliced, 0.0, 0.5, [] { return false; }).ok() && whole.advance(0.5).ok());

@@ -17,7 +17,8 @@ std::vector<Frame> sample_run(double force) {
   return run;
 }
 
-SceneLayout lay_out_both(const std::vector<Frame>& first, const std::vector<Frame>& second, const LinkBoxes& boxes = LinkBoxes(3)) {
+SceneLayout lay_out_both(const std::vector<Frame>& first, const std::vector<Frame>& second,
+                         const LinkBoxes& boxes = LinkBoxes(3)) {
   static const FrameNames kNames = sample_names();
   const auto solids = std::make_shared<LinkBoxes>(boxes);
   return lay_out({{kNames, first, solids}, {kNames, second, solids}});
@@ -59,7 +60,8 @@ TEST(LayOut, APeakNeitherHidesTheOtherArrowsNorGetsLongerThanFourTenthsOfTheMech
   EXPECT_DOUBLE_EQ(layout.style.longest, 0.4 * layout.size);
   for (Frame& frame : peaked) frame.frictions[0].force *= 1e-9;
   peaked.front().frictions[0].force = {0.0, 4.0, 0.0};
-  EXPECT_LT(lay_out_both(peaked, peaked).style.metres_per_newton, 0.1) << "what is nearly nothing does not count";
+  EXPECT_LT(lay_out_both(peaked, peaked).style.metres_per_newton, 0.1)
+      << "what is nearly nothing does not count";
 }
 
 TEST(LayOut, ArrowsAreToBeSeen) {
@@ -96,7 +98,8 @@ TEST(LayOut, ThePicturesOfBothMechanismsDoNotOverlap) {
   EXPECT_EQ(layout.apart.z(), 0.0) << "both stand on the ground";
 }
 
-/// Where rviz draws a point, from the middle of the picture to the right and up; 1 is the upper edge.
+/// Where rviz draws a point, from the middle of the picture to the right and up; 1 is the upper
+/// edge.
 Eigen::Vector2d drawn_at(const Eigen::Vector3d& point, const mechanism_codesign::Scene& scene) {
   const SceneView view{scene.yaw, scene.pitch};
   const Eigen::Vector3d focus(scene.focal_point[0], scene.focal_point[1], scene.focal_point[2]);
@@ -108,7 +111,8 @@ Eigen::Vector2d drawn_at(const Eigen::Vector3d& point, const mechanism_codesign:
 TEST(StageOf, MechanismsArrowsAndNamesAreInThePictureBelowTheText) {
   const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(5.0));
   const Eigen::Vector3d half = 0.5 * layout.apart, none = Eigen::Vector3d::Zero();
-  for (const std::vector<Eigen::Vector3d>& places : {std::vector<Eigen::Vector3d>{none}, std::vector<Eigen::Vector3d>{-half, half}}) {
+  for (const std::vector<Eigen::Vector3d>& places :
+       {std::vector<Eigen::Vector3d>{none}, std::vector<Eigen::Vector3d>{-half, half}}) {
     const Stage stage = stage_of(layout, places, 3);
     const double letter = 1.0 / 18.0, text = drawn_at(stage.caption, stage.scene).y();
     EXPECT_LE(text + 0.5 * letter, 0.93);
@@ -135,7 +139,8 @@ TEST(StageOf, LettersOfTextAndNamesLookTheSame) {
   const SceneLayout layout = lay_out_both(sample_run(3.0), sample_run(5.0));
   const Stage stage = stage_of(layout, {Eigen::Vector3d::Zero()}, 3);
   const SceneView view{stage.scene.yaw, stage.scene.pitch};
-  const Eigen::Vector3d focus(stage.scene.focal_point[0], stage.scene.focal_point[1], stage.scene.focal_point[2]);
+  const Eigen::Vector3d focus(stage.scene.focal_point[0], stage.scene.focal_point[1],
+                              stage.scene.focal_point[2]);
   const double away = stage.scene.distance - (stage.caption - focus).dot(view.towards_viewer());
   EXPECT_NEAR(layout.letter / away, stage.letter / stage.scene.distance, 1e-12);
 }
@@ -161,7 +166,8 @@ TEST(ArrowLegend, TellsScaleAndColorOfTheArrowsThatAreDrawn) {
 TEST(Caption, HasItsLinesOneBelowTheOtherInThePicture) {
   SceneLayout layout;
   layout.letter = 0.1;
-  const auto message = caption({plain_line("t = 1 s"), {"red", friction_color(false)}}, layout, {1.0, 2.0, 3.0}, {ros::Time(2.0), "world"});
+  const auto message = caption({plain_line("t = 1 s"), {"red", friction_color(false)}}, layout,
+                               {1.0, 2.0, 3.0}, {ros::Time(2.0), "world"});
   ASSERT_EQ(message.markers.size(), 2U);
   EXPECT_EQ(message.markers[0].text, "t = 1 s");
   EXPECT_EQ(message.markers[0].type, visualization_msgs::Marker::TEXT_VIEW_FACING);
@@ -177,7 +183,8 @@ TEST(Label, StandsAboveItsMechanism) {
   Stage stage;
   stage.label = {0.1, 0.2, 0.7};
   stage.letter = 0.05;
-  const visualization_msgs::Marker marker = label("recording", "world", "identify.data[0]", stage, ros::Time(1.0));
+  const visualization_msgs::Marker marker =
+      label("recording", "world", "identify.data[0]", stage, ros::Time(1.0));
   EXPECT_EQ(marker.header.frame_id, "world");
   EXPECT_EQ(marker.text, "identify.data[0]");
   EXPECT_EQ(marker.pose.position.z, 0.7);

@@ -8,11 +8,15 @@
 namespace codesign {
 namespace {
 
-/// Where rviz's camera draws a point: 1 at the right and at the upper edge of a picture kAspect times as wide as high.
-Eigen::Vector2d in_picture(const Eigen::Vector3d& point, const CameraPlace& camera, const SceneView& view) {
+/// Where rviz's camera draws a point: 1 at the right and at the upper edge of a picture kAspect
+/// times as wide as high.
+Eigen::Vector2d in_picture(const Eigen::Vector3d& point, const CameraPlace& camera,
+                           const SceneView& view) {
   const Eigen::Vector3d eye = camera.focus + camera.distance * view.towards_viewer();
-  const double depth = (eye - point).dot(view.towards_viewer()), half = std::tan(22.5 * 3.14159265358979323846 / 180.0);
-  return {(point - eye).dot(view.right()) / (depth * half * kAspect), (point - eye).dot(view.up()) / (depth * half)};
+  const double depth = (eye - point).dot(view.towards_viewer()),
+               half = std::tan(22.5 * 3.14159265358979323846 / 180.0);
+  return {(point - eye).dot(view.right()) / (depth * half * kAspect),
+          (point - eye).dot(view.up()) / (depth * half)};
 }
 
 TEST(SceneView, TheAxesOfThePictureAreARightHandedFrame) {
@@ -31,8 +35,9 @@ TEST(ViewOf, LooksAtTheBroadSide) {
 }
 
 TEST(PlaceCamera, AllPointsAreInThePictureAndFillIt) {
-  for (const Eigen::Vector3d& sizes : {Eigen::Vector3d(1.0, 1.0, 1.0), Eigen::Vector3d(20.0, 1.0, 3.0), Eigen::Vector3d(1e-3, 1e-3, 4e-3),
-                                       Eigen::Vector3d(4.0, 9.0, 0.1)}) {
+  for (const Eigen::Vector3d& sizes :
+       {Eigen::Vector3d(1.0, 1.0, 1.0), Eigen::Vector3d(20.0, 1.0, 3.0),
+        Eigen::Vector3d(1e-3, 1e-3, 4e-3), Eigen::Vector3d(4.0, 9.0, 0.1)}) {
     const SceneView view = view_of(sizes);
     const Eigen::Vector3d low(3.0, -5.0, 0.5);
     const std::vector<Eigen::Vector3d> points = corners({low, low + sizes});
@@ -49,7 +54,9 @@ TEST(PlaceCamera, AllPointsAreInThePictureAndFillIt) {
   }
 }
 
-TEST(PlaceCamera, OfOnePointIsFinite) { EXPECT_GT(place_camera({{1.0, 2.0, 3.0}}, {}).distance, 0.0); }
+TEST(PlaceCamera, OfOnePointIsFinite) {
+  EXPECT_GT(place_camera({{1.0, 2.0, 3.0}}, {}).distance, 0.0);
+}
 
 TEST(Corners, EightOfABoxNoneOfAnEmptyOne) {
   EXPECT_EQ(corners({Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}).size(), 8U);

@@ -26,17 +26,20 @@ std::string refusal_of(const Action& action) {
 }
 
 void expect_refused(const std::string& said, std::initializer_list<const char*> parts) {
-  for (const char* const part : parts) EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+  for (const char* const part : parts)
+    EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
-sensor_msgs::JointState efforts(const std::vector<std::string>& names, const std::vector<double>& values) {
+sensor_msgs::JointState efforts(const std::vector<std::string>& names,
+                                const std::vector<double>& values) {
   sensor_msgs::JointState message;
   message.name = names;
   message.effort = values;
   return message;
 }
 
-trajectory_msgs::JointTrajectory trajectory(const std::vector<std::string>& joints, const std::vector<double>& times) {
+trajectory_msgs::JointTrajectory trajectory(const std::vector<std::string>& joints,
+                                            const std::vector<double>& times) {
   trajectory_msgs::JointTrajectory message;
   message.joint_names = joints;
   for (double time : times) {
@@ -61,7 +64,8 @@ TEST(CommandReading, EffortsInOrderNameAllJoints) {
   ASSERT_EQ(command.efforts.size(), 2U);
   EXPECT_EQ(command.efforts[1].second, 2.0);
   message.data = {1.0};
-  expect_refused(refusal_of([&] { read_efforts(arm_inputs(), "efforts", message); }), {"efforts", "wrong number", "1", "shoulder, elbow"});
+  expect_refused(refusal_of([&] { read_efforts(arm_inputs(), "efforts", message); }),
+                 {"efforts", "wrong number", "1", "shoulder, elbow"});
 }
 
 TEST(CommandReading, ARefusedEffortNamesTopicJointAndValue) {
@@ -69,7 +73,8 @@ TEST(CommandReading, ARefusedEffortNamesTopicJointAndValue) {
   const auto read = [](const sensor_msgs::JointState& message) {
     return refusal_of([&] { read_efforts(arm_inputs(), "/s/effort", message); });
   };
-  expect_refused(read(efforts({"elbo"}, {1.0})), {"/s/effort", "unknown joint", "did you mean \"elbow\""});
+  expect_refused(read(efforts({"elbo"}, {1.0})),
+                 {"/s/effort", "unknown joint", "did you mean \"elbow\""});
   expect_refused(read(efforts({"elbow"}, {nan})), {"/s/effort", "elbow", "finite", "nan"});
   expect_refused(read(efforts({"elbow", "shoulder"}, {1.0})), {"wrong number of values", "2"});
   expect_refused(read(efforts({"elbow", "elbow"}, {1.0, 1.0})), {"named twice"});
@@ -81,7 +86,8 @@ TEST(CommandReading, ASetPointIsAFiniteNumber) {
   message.data = 0.7;
   EXPECT_EQ(read_setpoint(arm_inputs(), "hold/command", 0, message).value, 0.7);
   message.data = std::numeric_limits<double>::infinity();
-  expect_refused(refusal_of([&] { read_setpoint(arm_inputs(), "/hold/command", 0, message); }), {"/hold/command", "hold", "inf"});
+  expect_refused(refusal_of([&] { read_setpoint(arm_inputs(), "/hold/command", 0, message); }),
+                 {"/hold/command", "hold", "inf"});
 }
 
 TEST(CommandReading, ATrajectoryHasACourseForEachJoint) {
@@ -113,7 +119,8 @@ TEST(CommandReading, ARefusedTrajectoryNamesPointAndFault) {
   expect_refused(read(trajectory({"wrist"}, {0.5})), {"/t", "wrist", "no controller"});
   expect_refused(read(trajectory({"elbow", "elbow"}, {0.5})), {"twice"});
   expect_refused(read(trajectory({}, {0.5})), {"no joint is named"});
-  expect_refused(read(trajectory({"elbow"}, {0.5, 0.5})), {"points[1].time_from_start", "ascend", "0.5"});
+  expect_refused(read(trajectory({"elbow"}, {0.5, 0.5})),
+                 {"points[1].time_from_start", "ascend", "0.5"});
   expect_refused(read(trajectory({"elbow"}, {-0.5})), {"points[0].time_from_start", "-0.5"});
   trajectory_msgs::JointTrajectory message = trajectory({"elbow"}, {0.5});
   message.points[0].velocities = {1.0, 2.0};
@@ -138,8 +145,8 @@ class CommandedArm : public testing::Test {
     now_ = time;
     return outcome.changed;
   }
-  static TrajectoryCommand course(const std::string& joint, TrajectoryFollower follower, std::vector<CoursePoint> points,
-                                  double begin = 0.0) {
+  static TrajectoryCommand course(const std::string& joint, TrajectoryFollower follower,
+                                  std::vector<CoursePoint> points, double begin = 0.0) {
     return {ros::Time(begin), {{joint, follower, std::move(points)}}};
   }
 
@@ -195,7 +202,9 @@ TEST_F(CommandedArm, AStampSaysWhenATrajectoryBegins) {
 }
 
 TEST_F(CommandedArm, AnEmptyTrajectoryHoldsTheJointWhereItIs) {
-  go({course("shoulder", {0, false}, {{0.2, 2.0, {}, {}}}), course("elbow", {1, true}, {{0.2, 2.0, {}, {}}})}, 0.1);
+  go({course("shoulder", {0, false}, {{0.2, 2.0, {}, {}}}),
+      course("elbow", {1, true}, {{0.2, 2.0, {}, {}}})},
+     0.1);
   const double position = frame_.joints[0].position;
   go({course("shoulder", {0, false}, {}), course("elbow", {1, true}, {})}, 0.4);
   EXPECT_EQ(frame_.controllers[0].setpoint, position);
@@ -203,7 +212,9 @@ TEST_F(CommandedArm, AnEmptyTrajectoryHoldsTheJointWhereItIs) {
 }
 
 TEST_F(CommandedArm, OfSeveralCommandsTheLastOneCounts) {
-  go({SetpointCommand{0, 0.3}, SetpointCommand{0, 0.5}, EffortCommand{{{0, 1.0}}}, EffortCommand{{{0, 2.0}}}}, 0.02);
+  go({SetpointCommand{0, 0.3}, SetpointCommand{0, 0.5}, EffortCommand{{{0, 1.0}}},
+      EffortCommand{{{0, 2.0}}}},
+     0.02);
   EXPECT_EQ(frame_.controllers[0].setpoint, 0.5);
   EXPECT_EQ(run_.effort(0), 2.0);
   commanded_.clear();

@@ -44,7 +44,9 @@ TEST(LiveParameters, AreDescribedAsNumbersInOneGroupWithBounds) {
 }
 
 TEST(LiveParameters, ARequestChangesWhatItNamesWithinItsBounds) {
-  const auto wanted = [](const dynamic_reconfigure::Config& request) { return wanted_parameters(two_parameters(), {0.5, 2.0}, request); };
+  const auto wanted = [](const dynamic_reconfigure::Config& request) {
+    return wanted_parameters(two_parameters(), {0.5, 2.0}, request);
+  };
   EXPECT_EQ(wanted(asking("Kp", -7.0)).values, (std::vector<double>{0.5, -7.0}));
   EXPECT_TRUE(wanted(asking("Kp", -7.0)).warnings.empty());
   const WantedParameters bounded = wanted(asking("length", 3.0));
@@ -59,7 +61,8 @@ TEST(LiveParameters, ARequestChangesWhatItNamesWithinItsBounds) {
 }
 
 TEST(LiveParameters, UnknownNamesAndNumbersThatAreNotFiniteAreLeftOut) {
-  for (const auto& request : {asking("lenght", 0.4), asking("length", std::numeric_limits<double>::quiet_NaN())}) {
+  for (const auto& request :
+       {asking("lenght", 0.4), asking("length", std::numeric_limits<double>::quiet_NaN())}) {
     const WantedParameters wanted = wanted_parameters(two_parameters(), {0.5, 2.0}, request);
     EXPECT_EQ(wanted.values, (std::vector<double>{0.5, 2.0}));
     ASSERT_EQ(wanted.warnings.size(), 1U);

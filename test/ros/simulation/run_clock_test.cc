@@ -50,7 +50,8 @@ TEST(RunClock, TheTimeOfAStampIsItsInverse) {
     RunClock clock(scale);
     clock.start_run(0.0);
     EXPECT_NEAR(clock.time_of(clock.stamp(1.25)), 1.25, 1e-8);
-    EXPECT_NEAR(clock.time_of(clock.stamp(0.0) - ros::Duration(0.5)), scale > 0.0 ? -1.5 : -0.5, 1e-8);
+    EXPECT_NEAR(clock.time_of(clock.stamp(0.0) - ros::Duration(0.5)), scale > 0.0 ? -1.5 : -0.5,
+                1e-8);
   }
 }
 

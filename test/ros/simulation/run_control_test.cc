@@ -12,7 +12,8 @@ TEST(RunControl, WithoutARunRequestsAreRefusedWithTheReason) {
   Bell bell;
   RunControl control(&bell);
   control.end_run("bad input: no model");
-  for (const std_srvs::TriggerResponse& response : {control.pause(), control.resume(), control.step(), control.restart()}) {
+  for (const std_srvs::TriggerResponse& response :
+       {control.pause(), control.resume(), control.step(), control.restart()}) {
     EXPECT_FALSE(response.success);
     EXPECT_NE(response.message.find("no model"), std::string::npos);
   }

@@ -24,9 +24,11 @@ TEST(FloatTopics, EachNumberHasALegalNameOfItsOwn) {
   names.signals = {"c/output", "a-1/velocity - loop/reaction"};
   const FrameNumbers numbers(names);
   EXPECT_EQ(numbers.topics,
-            (std::vector<std::string>{"a_1/position", "a_1/velocity", "a_1/effort", "a_1/position_2", "a_1/velocity_2", "a_1/effort_2",
-                                      "loop/friction", "loop/normal_force", "loop/sliding_velocity", "c/setpoint", "c/input", "c/error",
-                                      "c/integral", "c/output", "a_1/velocity___loop/reaction"}));
+            (std::vector<std::string>{"a_1/position", "a_1/velocity", "a_1/effort",
+                                      "a_1/position_2", "a_1/velocity_2", "a_1/effort_2",
+                                      "loop/friction", "loop/normal_force", "loop/sliding_velocity",
+                                      "c/setpoint", "c/input", "c/error", "c/integral", "c/output",
+                                      "a_1/velocity___loop/reaction"}));
 }
 
 TEST(FloatTopics, TheNumbersAreThoseOfTheFrame) {
@@ -45,7 +47,8 @@ TEST(FloatTopics, TheNumbersAreThoseOfTheFrame) {
   };
   EXPECT_EQ(value("elbow/velocity"), frame.joints[1].velocity);
   EXPECT_EQ(value("hold/error"), frame.controllers[0].error);
-  EXPECT_EQ(value("elbow/velocity___shoulder/velocity"), frame.joints[1].velocity - frame.joints[0].velocity);
+  EXPECT_EQ(value("elbow/velocity___shoulder/velocity"),
+            frame.joints[1].velocity - frame.joints[0].velocity);
 }
 
 const std::function<bool()> kNever = [] { return false; };
@@ -89,7 +92,8 @@ TEST(SimulationScene, TheTextTellsTimeAndObjective) {
   Frame frame;
   frame.time = 0.25;
   frame.objective = 3.0;
-  EXPECT_EQ(scene.text(frame, {ros::Time(1.25), "ground"}).markers.at(0).text, "t = 0.25 s, objective so far 3");
+  EXPECT_EQ(scene.text(frame, {ros::Time(1.25), "ground"}).markers.at(0).text,
+            "t = 0.25 s, objective so far 3");
 }
 
 }  // namespace
