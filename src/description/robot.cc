@@ -28,4 +28,10 @@ RobotDescription& RobotDescription::operator=(const RobotDescription&) = default
 RobotDescription& RobotDescription::operator=(RobotDescription&&) noexcept = default;
 RobotDescription::~RobotDescription() = default;
 
+int joint_named(const RobotDescription& robot, const std::string& name) {
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (robot.joints[k].name == name) return static_cast<int>(k);
+  return -1;
+}
+
 }  // namespace codesign

@@ -209,4 +209,7 @@ struct RobotDescription {
   Warnings warnings;            ///< from reading the files, in the order of the files
 };
 
+/// The index of a joint or loop in RobotDescription::joints; -1 if none has this name.
+int joint_named(const RobotDescription& robot, const std::string& name);
+
 }  // namespace codesign

@@ -138,6 +138,21 @@ Warnings unmet_constraints(const Study& study, const std::vector<double>& parame
   return warnings;
 }
 
+/// Adds the warnings of a finished fit, and the status of one that explains nothing or does not
+/// determine its numbers.
+void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
+                const std::atomic<bool>* cancel, IdentificationResult* result) {
+  Status unexplained;
+  Warnings found = told_of_unexplained(problem, data, *result, cancel, &unexplained);
+  append(warnings_of(*problem.study().identification, *result), &found);
+  append(unmet_constraints(problem.study(), result->parameters), &found);
+  append(result->warnings, &found);
+  result->warnings = std::move(found);
+  if (result->status.ok()) result->status = unexplained;
+  if (result->status.ok() && !result->undetermined.empty())
+    result->status = not_identifiable(result->undetermined);
+}
+
 }  // namespace
 
 void require_identification(const Problem& problem) {
@@ -205,15 +220,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
     const Status status = judge_holdout(variables, fit, options.loss, holdout.get(), &result);
     if (result.status.ok()) result.status = status;
   }
-  Status unexplained;
-  Warnings found = told_of_unexplained(problem, recordings.data, result, cancel, &unexplained);
-  append(warnings_of(options, result), &found);
-  append(unmet_constraints(problem.study(), result.parameters), &found);
-  append(result.warnings, &found);
-  result.warnings = std::move(found);
-  if (result.status.ok()) result.status = unexplained;
-  if (result.status.ok() && !result.undetermined.empty())
-    result.status = not_identifiable(result.undetermined);
+  add_doubts(problem, recordings.data, cancel, &result);
   result.cpu_seconds = timer.seconds();
   return result;
 }

@@ -26,12 +26,6 @@ CouplingTerm term_of(const RobotDescription& robot, const Topology& topology, in
   return term;
 }
 
-int joint_named(const RobotDescription& robot, const std::string& name) {
-  const auto found = std::find_if(robot.joints.begin(), robot.joints.end(),
-                                  [&name](const JointDescription& j) { return j.name == name; });
-  return static_cast<int>(found - robot.joints.begin());
-}
-
 Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology, int follower) {
   const JointDescription& joint = robot.joints[to_index(follower)];
   Coupling coupling;

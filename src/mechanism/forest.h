@@ -30,4 +30,8 @@ int forest_coordinates(const Pair& pair);
 /// although it could give coordinates
 Forest tree_forest(const Topology& topology, const std::vector<bool>& cut);
 
+/// Cuts chains of many coordinates so that no body has more than ten between it and a free body or
+/// the ground, decision 82; leaves mechanisms whose mass matrix is small.
+void cut_long_chains(const Topology& topology, std::vector<bool>* cut);
+
 }  // namespace codesign

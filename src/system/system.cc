@@ -14,52 +14,10 @@
 namespace codesign {
 namespace {
 
-/// Above this number of pairs of coordinates that move the same body (a chain of 24 hinges) chains
-/// are cut, so that matrices stay sparse, and the number of coordinates between two cuts;
-/// decision 82.
-constexpr int kMostCoupled = 300, kLongestChain = 10;
-
 /// Whether a signal needs the wrenches that joints transmit.
 bool depends_on_reactions(const SignalTerm& term) {
   return is_reaction(term) || term.quantity == "normal_force" ||
          term.quantity.find("friction") != std::string::npos;
-}
-
-/// The index of a joint; -1 if no joint has this name.
-int joint_named(const RobotDescription& robot, const std::string& name) {
-  for (std::size_t k = 0; k < robot.joints.size(); ++k)
-    if (robot.joints[k].name == name) return static_cast<int>(k);
-  return -1;
-}
-
-/// The number of pairs of coordinates that move the same body: the nonzeros of half the mass matrix
-/// in joint coordinates.
-int coupled_coordinates(const Topology& topology, const Forest& forest) {
-  std::vector<int> above(topology.bodies.size(), 0);  // coordinates on the way to each body
-  int sum = 0;
-  for (int body : forest.order) {
-    const Pair& pair = topology.pairs[to_index(forest.pair_above[to_index(body)])];
-    const int own = forest_coordinates(pair),
-              carried = pair.body_i < 0 ? 0 : above[to_index(pair.body_i)];
-    above[to_index(body)] = carried + own;
-    sum += own * above[to_index(body)];
-  }
-  return sum;
-}
-
-/// Cuts chains so that no body has more than kLongestChain coordinates between it and a free body
-/// or the ground.
-void cut_long_chains(const Topology& topology, std::vector<bool>* cut) {
-  const Forest forest = tree_forest(topology, *cut);
-  std::vector<int> above(topology.bodies.size(), 0);
-  for (int body : forest.order) {
-    const int pair = forest.pair_above[to_index(body)],
-              parent = topology.pairs[to_index(pair)].body_i;
-    const int sum = forest_coordinates(topology.pairs[to_index(pair)]) +
-                    (parent < 0 ? 0 : above[to_index(parent)]);
-    (*cut)[to_index(pair)] = sum > kLongestChain;
-    above[to_index(body)] = sum > kLongestChain ? 0 : sum;
-  }
 }
 
 }  // namespace
@@ -142,8 +100,7 @@ std::vector<bool> System::cut_pairs() const {
         if (const int pair = topology_.joint_pair[to_index(joint_named(robot_, term.object))];
             pair >= 0)
           cut[to_index(pair)] = true;
-  if (coupled_coordinates(topology_, tree_forest(topology_, cut)) > kMostCoupled)
-    cut_long_chains(topology_, &cut);
+  cut_long_chains(topology_, &cut);
   return cut;
 }
 

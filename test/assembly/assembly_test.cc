@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "description/study.h"
 #include "equations/compiled.h"
 
 namespace codesign {

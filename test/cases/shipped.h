@@ -11,6 +11,7 @@
 
 #include "assembly/count_equations.h"
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"

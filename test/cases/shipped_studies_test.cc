@@ -5,6 +5,7 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
+#include "description/study.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"

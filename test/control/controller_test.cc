@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "control/controller.h"
+#include "description/study.h"
 #include "equations/compiled.h"
 #include "reading/study/study_fixture.h"
 
@@ -170,9 +171,9 @@ TEST(Controller, FeedbackReadsEarlierControllersOnly) {
   EXPECT_THROW(Resolved("  a: {type: state_feedback, output: elbow, feedback: [{signal: "
                         "elbow/effort, gain: 1.0}]}\n"),
                InputError);
-  EXPECT_NO_THROW(
-      Resolved(std::string(kInner) + "  a: {type: state_feedback, output: elbow, feedback: "
-                                     "[{signal: inner/output, gain: 1.0}]}\n"));
+  EXPECT_NO_THROW(Resolved(std::string(kInner) +
+                           "  a: {type: state_feedback, output: elbow, feedback: "
+                           "[{signal: inner/output, gain: 1.0}]}\n"));
 }
 
 // A controller cannot read a reaction or a power that contains its own output.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 
 namespace codesign {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/driven_system.h"
 
+#include "description/study.h"
 #include "equations/compiled.h"
 #include "identification/recorded_motion.h"
 
@@ -33,7 +34,7 @@ TEST(DrivenSystem, EveryMeasuredJointOfATreeIsDriven) {
   EXPECT_EQ(driven.system->drive_row(0), driven.system->layout().coupling_row(0));
   EXPECT_EQ(driven.system->layout().n, 2);
   EXPECT_EQ(driven.system->layout().m, 2) << "the drives";
-  Study study = system->study();
+  Study study = system->whole_study();
   study.solver.coordinates = CoordinatesKind::kAbsolute;
   const CompiledSystem absolute(system->robot(), study);
   const Layout& layout =

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/shipped.h"
+#include "description/study.h"
 #include "equations/compiled.h"
 #include "identification/complex_efforts.h"
 #include "identification/recorded_motion.h"

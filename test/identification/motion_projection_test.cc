@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/shipped.h"
+#include "description/study.h"
 #include "equations/compiled.h"
 #include "equations/formulas.h"
 #include "identification/motion_projection.h"

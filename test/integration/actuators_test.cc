@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "equations/formulas.h"
 #include "integration/energy_balance.h"
 #include "mechanism/constants.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "equations/formulas.h"
 #include "integration/mechanisms.h"
 #include "integration/rosenbrock_integrator.h"

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "integration/mechanisms.h"
 #include "mechanism_codesign/simulation.h"
 

@@ -17,6 +17,7 @@
 #include <random>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "mechanism/topology.h"
 #include "mechanism_codesign/simulation.h"

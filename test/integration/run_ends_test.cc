@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "integration/command_inputs.h"
 #include "integration/integrator.h"
@@ -81,7 +82,7 @@ Status check_commanded(const LiveFunction& setpoint, const LiveFunction& effort,
   const char* const spindle =
       "{motor: {type: pid, input: hinge/velocity, setpoint: 5, output: hinge, gains: {p: 1}}}";
   const Watched planned("{}", spindle);
-  Study study = planned.system->study();
+  Study study = planned.system->whole_study();
   *make_live(&study.controllers[0].setpoint) = setpoint;
   *make_live(&study.controllers[0].feedforward) = effort;
   const CompiledSystem system(planned.system->robot(), study);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "integration/mechanisms.h"
 #include "mechanism_codesign/simulation.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "description/study.h"
 #include "integration/integrator.h"
 #include "integration/servo.h"
 #include "integration/step_control.h"

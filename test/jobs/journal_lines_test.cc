@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "jobs/edited_line.h"
 #include "jobs/journal_lines.h"

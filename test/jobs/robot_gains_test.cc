@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 #include <algorithm>
 
+#include "description/study.h"
 #include "jobs/robot_gains.h"
 #include "jobs/tuned_pendulum.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/lagrangian.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"

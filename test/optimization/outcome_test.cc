@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_results.h"
 #include "paths.h"

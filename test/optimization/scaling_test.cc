@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "optimization/scaling.h"
+#include "description/study.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ Study study() {
 }
 
 TEST(Scaling, BoundsBecomeZeroAndOne) {
-  const Study s = study();
+  const Study s = whole_study();
   const Scaling scaling(s);
   EXPECT_EQ(scaling.lower()[1], 0.0);
   EXPECT_EQ(scaling.upper()[1], 1.0);
@@ -32,7 +33,7 @@ TEST(Scaling, BoundsBecomeZeroAndOne) {
 }
 
 TEST(Scaling, WithoutBothBoundsTheStartIsTheMeasure) {
-  const Study s = study();
+  const Study s = whole_study();
   const Scaling scaling(s);
   EXPECT_EQ(scaling.range(0), 500.0);
   EXPECT_EQ(scaling.to_scaled(scaling.start())[0], -1.0);
@@ -42,7 +43,7 @@ TEST(Scaling, WithoutBothBoundsTheStartIsTheMeasure) {
 }
 
 TEST(Scaling, BackIsTheInverseAndNeverLeavesTheBounds) {
-  const Study s = study();
+  const Study s = whole_study();
   const Scaling scaling(s);
   const Eigen::Vector3d rho(123.0, 0.0734, -4.0);
   EXPECT_LT((scaling.from_scaled(scaling.to_scaled(rho)) - rho).norm(), 1e-13);
@@ -50,7 +51,7 @@ TEST(Scaling, BackIsTheInverseAndNeverLeavesTheBounds) {
 }
 
 TEST(Scaling, GradientFollowsTheChainRule) {
-  const Study s = study();
+  const Study s = whole_study();
   const Scaling scaling(s);
   // psi = 2 gain + 3 length - offset, linear: its change along a scaled step is the scaled
   // gradient's.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "problem/load_problem.h"
 #include "problem/problem_warnings.h"

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "equations/compiled_system.h"
 

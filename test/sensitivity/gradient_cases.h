@@ -9,6 +9,7 @@
 #include "benchmark/mechanisms.h"
 #include "cases/shipped.h"
 #include "description/solver_names.h"
+#include "description/study.h"
 #include "integration/servo.h"
 #include "sensitivity/gradient_engine.h"
 

@@ -3,6 +3,7 @@
 
 #include "assembly/make_system.h"
 #include "description/solver_names.h"
+#include "description/study.h"
 #include "mechanism_codesign/gradient.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"

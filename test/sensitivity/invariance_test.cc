@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "assembly/make_system.h"
+#include "description/study.h"
 #include "mechanism_codesign/gradient.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"

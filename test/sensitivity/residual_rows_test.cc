@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/residual_rows.h"
 
+#include "description/study.h"
 #include "elements/state_view.h"
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/gradient_cases.h"

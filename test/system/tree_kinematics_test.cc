@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "description/study.h"
 #include "equations/compiled.h"
 #include "math/differences.h"
 #include "mechanism/constants.h"

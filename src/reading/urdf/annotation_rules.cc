@@ -54,6 +54,20 @@ void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRu
       {path + "/codesign:actuator", true, {}, {"gear_ratio", "rotor_inertia"}, {}, {}});
 }
 
+void add_link_rules(std::vector<ElementRule>* rules) {
+  rules->push_back({"robot/link/inertial", false, {}, {}, {"density", "from", "inertia"}, {}});
+  rules->push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
+  rules->push_back({"robot/link/inertial/mass", false, {}, {"value"}, {}, {}});
+  rules->push_back({"robot/link/inertial/inertia",
+                    false,
+                    {},
+                    {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"},
+                    {},
+                    {}});
+  add_shapes("robot/link/visual", rules);
+  add_shapes("robot/link/collision", rules);
+}
+
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
   rules.push_back({"robot",
@@ -73,17 +87,7 @@ std::vector<ElementRule> make_rules() {
                    {"predecessor", "successor"}});
   add_ends("robot/codesign:spring_damper", &rules);
 
-  rules.push_back({"robot/link/inertial", false, {}, {}, {"density", "from", "inertia"}, {}});
-  rules.push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
-  rules.push_back({"robot/link/inertial/mass", false, {}, {"value"}, {}, {}});
-  rules.push_back({"robot/link/inertial/inertia",
-                   false,
-                   {},
-                   {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"},
-                   {},
-                   {}});
-  add_shapes("robot/link/visual", &rules);
-  add_shapes("robot/link/collision", &rules);
+  add_link_rules(&rules);
 
   rules.push_back({"robot/joint",
                    false,

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "description/study.h"
 #include "reading/study/study_reader.h"
 
 namespace codesign {

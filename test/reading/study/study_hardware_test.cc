@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_blocks.h"
 
+#include "description/study.h"
 #include "reading/page_rows.h"
 #include "reading/study/study_fixture.h"
 

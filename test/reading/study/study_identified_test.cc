@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "description/study.h"
 #include "reading/study/study_fixture.h"
 
 namespace codesign {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
+#include "description/study.h"
 #include "reading/study/study_fixture.h"
 
 namespace codesign {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/simulation.h"
@@ -13,7 +14,7 @@ namespace {
 
 TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
   const auto fault_of = [](double duration, double rate) -> std::string {
-    Study study = pendulum().study();
+    Study study = pendulum().whole_study();
     study.duration = duration;
     const Problem problem = with_study(pendulum(), study);
     try {
