@@ -25,7 +25,7 @@ TEST(CompiledSystem, HasOneCodeForAllThreads) {
 
 TEST(CompiledSystem, IsTheSystemWithItsPatterns) {
   const auto system = servo("{}");
-  const System copy(system->robot(), system->study(), system->sharing());
+  const System copy(system->robot(), system->whole_study(), system->sharing());
   EXPECT_EQ(copy.layout().columns(), system->layout().columns());
   EXPECT_EQ(copy.layout().initial_turns, system->layout().initial_turns);
   EXPECT_GT(system->patterns().rate.nonzeros(), system->layout().columns());

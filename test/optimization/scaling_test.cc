@@ -25,7 +25,7 @@ Study study() {
 }
 
 TEST(Scaling, BoundsBecomeZeroAndOne) {
-  const Study s = whole_study();
+  const Study s = study();
   const Scaling scaling(s);
   EXPECT_EQ(scaling.lower()[1], 0.0);
   EXPECT_EQ(scaling.upper()[1], 1.0);
@@ -33,7 +33,7 @@ TEST(Scaling, BoundsBecomeZeroAndOne) {
 }
 
 TEST(Scaling, WithoutBothBoundsTheStartIsTheMeasure) {
-  const Study s = whole_study();
+  const Study s = study();
   const Scaling scaling(s);
   EXPECT_EQ(scaling.range(0), 500.0);
   EXPECT_EQ(scaling.to_scaled(scaling.start())[0], -1.0);
@@ -43,7 +43,7 @@ TEST(Scaling, WithoutBothBoundsTheStartIsTheMeasure) {
 }
 
 TEST(Scaling, BackIsTheInverseAndNeverLeavesTheBounds) {
-  const Study s = whole_study();
+  const Study s = study();
   const Scaling scaling(s);
   const Eigen::Vector3d rho(123.0, 0.0734, -4.0);
   EXPECT_LT((scaling.from_scaled(scaling.to_scaled(rho)) - rho).norm(), 1e-13);
@@ -51,7 +51,7 @@ TEST(Scaling, BackIsTheInverseAndNeverLeavesTheBounds) {
 }
 
 TEST(Scaling, GradientFollowsTheChainRule) {
-  const Study s = whole_study();
+  const Study s = study();
   const Scaling scaling(s);
   // psi = 2 gain + 3 length - offset, linear: its change along a scaled step is the scaled
   // gradient's.

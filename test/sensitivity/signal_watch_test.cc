@@ -48,7 +48,7 @@ class SignalWatchTest : public ::testing::TestWithParam<std::size_t> {
   const GradientCase test_ = with_watched(gradient_cases().at(GetParam()));
 };
 
-std::vector<SignalDescription> watched_signals(const Study& study) {
+std::vector<SignalDescription> watched_signals(const MotionStudy& study) {
   std::vector<SignalDescription> signals;
   for (const WatchedSignal& watched : study.watched) signals.push_back(watched.signal);
   return signals;

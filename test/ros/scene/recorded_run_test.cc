@@ -14,7 +14,7 @@ namespace {
 
 TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
   const auto fault_of = [](double duration, double rate) -> std::string {
-    Study study = pendulum().whole_study();
+    Study study = pendulum().study();
     study.duration = duration;
     const Problem problem = with_study(pendulum(), study);
     try {
