@@ -13,8 +13,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kStep =
-    1e-3;  // [s]; held by the study, so that every size does the same work per step
+// [s]; held by the study, so that every size does the same work per step.
+constexpr double kStep = 1e-3;
 
 /// A simulation that takes one step per call.
 class Stepper {

@@ -19,8 +19,8 @@ namespace {
 // angles and lengths or from an almost singular position and are ignored; if the loops do not close
 // without them, kSingularRank is tried.
 constexpr double kRank = 1e-3, kSingularRank = 1e-9;
-constexpr double kSamePlace =
-    0.05;  // [rad or m] two positions that differ by less are taken as the same
+// [rad or m] two positions that differ by less are taken as the same.
+constexpr double kSamePlace = 0.05;
 constexpr int kNewtonIterations = 200;
 constexpr double kLargestTurn = 0.5;  // [rad or m] limit of one Newton step per coordinate, so that
                                       // the solution stays on the start's branch
@@ -366,66 +366,6 @@ Status Assembly::solve(const std::vector<double>& parameters, Equations<double>*
   if (system_.begins_controllers()) equations->begin_controllers(state);
   if (Status status = solve_rates(equations, state); !status.ok()) return status;
   return check_rest(*state);
-}
-
-Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
-  const char* const place = state->t > 0.0 ? "" : " at the start";
-  double g = 0.0, previous = std::numeric_limits<double>::infinity();
-  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are
-  // not unique.
-  const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
-  factor_ = nullptr;
-  if (system_.begins_explicitly() && equations->mass_factor()) {
-    residual_ = state->z;
-    if (equations->accelerations(state, &g, &factor_values_) && std::isfinite(state->z.sum())) {
-      factor_ = equations->mass_factor();
-      return {};
-    }
-    state->z = residual_;
-  }
-  const bool apart = system_.has_rates_apart();
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
-    apart ? equations->rates(*state, &residual_, &g, &derivatives_)
-          : equations->residual(*state, &residual_, &g);
-    const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!std::isfinite(error))
-      return {StatusCode::kNonFinite, state->t,
-              std::string("the equations of motion are not finite") + place};
-    if (!apart) equations->linearize(*state, &derivatives_);
-    if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
-      return {StatusCode::kSingularMatrix, state->t,
-              "the augmented matrix of the equations of motion is singular"};
-    matrix_.lu().solve(residual_);
-    const double size = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
-                        (1.0 + state->z.cwiseAbs().maxCoeff());
-    state->z -= residual_;
-    if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
-    previous = size;
-  }
-  return {
-      StatusCode::kInitialReactionsFailed, state->t,
-      std::string("no accelerations and reactions satisfy the equations of motion with friction") +
-          place};
-}
-
-void Assembly::solve_at_rates(Out<double> x) const {
-  if (factor_)
-    factor_->solve<1>(factor_values_, x);
-  else
-    matrix_.lu().solve(x);
-}
-
-void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations,
-                                   State<double>* rates) {
-  VectorX<double> change;
-  // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are
-  // there already in the other case.
-  if (system_.has_rates_apart()) equations->linearize(at, &derivatives_);
-  rates->z.setZero(system_.layout().columns());
-  directional_derivative(system_, derivatives_, *rates, &change);
-  rates->z = -(change + derivatives_.time).head(rates->z.size());
-  solve_at_rates(rates->z);
 }
 
 }  // namespace codesign

@@ -145,10 +145,10 @@ class Assembly {
   const LoopJacobian& loops() const { return loops_; }
 
  private:
-  static constexpr double kClosed =
-      1e-12;  // a loop error below this times the mechanism's size counts as closed
-  static constexpr double kAtRest =
-      1e-13;  // a Newton step [rad or m] below this times the mechanism's size counts as zero
+  // A loop error below this times the mechanism's size counts as closed.
+  static constexpr double kClosed = 1e-12;
+  // A Newton step [rad or m] below this times the mechanism's size counts as zero.
+  static constexpr double kAtRest = 1e-13;
 
   struct ScaledLoops {
     SparseMatrix matrix,
@@ -274,8 +274,8 @@ class Assembly {
   Linearization<double> derivatives_;
   IterationMatrix
       matrix_;  ///< factored at the last solution of solve_rates() unless that has mass factors
-  const MassFactor* factor_ =
-      nullptr;  ///< of that solution, if an expression gave it, with these values
+  /// Of that solution, if an expression gave it, with these values.
+  const MassFactor* factor_ = nullptr;
   std::vector<double> factor_values_;
   VectorX<double> residual_;  ///< workspace of solve_rates()
   LoopMiss worst_miss_;

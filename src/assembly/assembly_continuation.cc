@@ -14,10 +14,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kSameBranch =
-    1e-6;  // relative; tree coordinates that differ by less belong to one branch
-constexpr double kFirstTurn =
-    0.5;  // [rad or m] limit of the first Newton step per coordinate on the way between two designs
+// Relative; tree coordinates that differ by less belong to one branch.
+constexpr double kSameBranch = 1e-6;
+// [rad or m] limit of the first Newton step per coordinate on the way between two designs.
+constexpr double kFirstTurn = 0.5;
 constexpr double kContraction = 0.25;  // of Newton steps; with less, the solution nearest to the
                                        // start of the iteration is found
 constexpr int kMostCorrections = 12;

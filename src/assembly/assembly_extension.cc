@@ -1,11 +1,79 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The part of Assembly that carries derivatives through a solution, doc/theory.md (20).
+// The parts of Assembly that solve for rates, and that carry derivatives through a solution,
+// doc/theory.md (19), (20).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "assembly/assembly.h"
 #include "assembly/tree_coordinates.h"
+#include "equations/compiled_system.h"
+#include "equations/iteration_matrix.h"
+#include "equations/mass_solution.h"
 #include "math/arrays.h"
 #include "math/scalar.h"
 
 namespace codesign {
+
+Status Assembly::solve_rates(Equations<double>* equations, State<double>* state) {
+  const char* const place = state->t > 0.0 ? "" : " at the start";
+  double g = 0.0, previous = std::numeric_limits<double>::infinity();
+  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are
+  // not unique.
+  const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
+  factor_ = nullptr;
+  if (system_.begins_explicitly() && equations->mass_factor()) {
+    residual_ = state->z;
+    if (equations->accelerations(state, &g, &factor_values_) && std::isfinite(state->z.sum())) {
+      factor_ = equations->mass_factor();
+      return {};
+    }
+    state->z = residual_;
+  }
+  const bool apart = system_.has_rates_apart();
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
+    apart ? equations->rates(*state, &residual_, &g, &derivatives_)
+          : equations->residual(*state, &residual_, &g);
+    const double error = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (!std::isfinite(error))
+      return {StatusCode::kNonFinite, state->t,
+              std::string("the equations of motion are not finite") + place};
+    if (!apart) equations->linearize(*state, &derivatives_);
+    if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0))
+      return {StatusCode::kSingularMatrix, state->t,
+              "the augmented matrix of the equations of motion is singular"};
+    matrix_.lu().solve(residual_);
+    const double size = residual_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+                        (1.0 + state->z.cwiseAbs().maxCoeff());
+    state->z -= residual_;
+    if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
+    previous = size;
+  }
+  return {
+      StatusCode::kInitialReactionsFailed, state->t,
+      std::string("no accelerations and reactions satisfy the equations of motion with friction") +
+          place};
+}
+
+void Assembly::solve_at_rates(Out<double> x) const {
+  if (factor_)
+    factor_->solve<1>(factor_values_, x);
+  else
+    matrix_.lu().solve(x);
+}
+
+void Assembly::differentiate_rates(const State<double>& at, Equations<double>* equations,
+                                   State<double>* rates) {
+  VectorX<double> change;
+  // G_q, G_v and G_s at the last iterate but one, which the solution differs from by rounding, are
+  // there already in the other case.
+  if (system_.has_rates_apart()) equations->linearize(at, &derivatives_);
+  rates->z.setZero(system_.layout().columns());
+  directional_derivative(system_, derivatives_, *rates, &change);
+  rates->z = -(change + derivatives_.time).head(rates->z.size());
+  solve_at_rates(rates->z);
+}
 
 template <class T>
 void Assembly::correct(const Dependents& dependents, const VectorX<T>& rows,

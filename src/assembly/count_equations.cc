@@ -13,10 +13,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfLoops =
-    1e-9;  // smaller singular values, relative to the largest, count as zero
-constexpr double kNothing =
-    1e-7;  // forms below this times the largest count as zero: the error of the differences
+// Smaller singular values, relative to the largest, count as zero.
+constexpr double kRankOfLoops = 1e-9;
+// Forms below this times the largest count as zero: the error of the differences.
+constexpr double kNothing = 1e-7;
 constexpr double kStep = 1e-4;  // of central differences [rad or m]
 constexpr int kStarts = 16;     // random starts of the search for branches; fewer within a branch
 

@@ -17,8 +17,8 @@ namespace codesign {
 namespace {
 
 constexpr double kRankOfMotions = 1e-9;
-constexpr double kSingular =
-    1e-12;  // smaller eigenvalues of M, relative to the largest, count as zero
+// Smaller eigenvalues of M, relative to the largest, count as zero.
+constexpr double kSingular = 1e-12;
 constexpr double kSmallestGyration = 1e-14;  // square of a radius of gyration [m^2]; smaller ones
                                              // are rounding of the tool that wrote the file
 

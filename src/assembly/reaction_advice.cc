@@ -207,8 +207,8 @@ double effect_of_sharing(const CompiledSystem& system, const Redundancy& redunda
   for (const BodyConstants<double>& body : equations->constants().bodies) mass += body.mass;
   const double load = lambda.cwiseAbs().maxCoeff(),
                largest = *std::max_element(usual.begin(), usual.end());
-  constexpr double kNoLoad =
-      1e-9;  // [m/s^2] times the mass: at rest without gravity reactions are rounding
+  // [m/s^2] times the mass: at rest without gravity reactions are rounding.
+  constexpr double kNoLoad = 1e-9;
   if (!(load > kNoLoad * mass && largest > kNoLoad * load)) return -1.0;
   std::mt19937 generator(1);
   double change = 0.0;

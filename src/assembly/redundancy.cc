@@ -24,8 +24,8 @@ constexpr double kTestMotion = 0.2;  // [rad], or this fraction of a loop's long
 // start only misses ten times as much.
 constexpr double kTestMiss = 2e-3;
 constexpr int kTrials = 3;  // number of test motions, and of random self-stresses
-constexpr Eigen::Index kLargestBasis =
-    30;  // redundant rows up to which a basis of the self-stresses is kept
+// Redundant rows up to which a basis of the self-stresses is kept.
+constexpr Eigen::Index kLargestBasis = 30;
 
 std::string vector_name(const PairVector<double>& x) {
   if (x.terms == 2) return "d";

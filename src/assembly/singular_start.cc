@@ -16,11 +16,11 @@ namespace {
 constexpr double kRankAtStart = 1e-4;  // a position that is solved for can be off the singular one
                                        // by the square root of its tolerance
 constexpr double kIsMotion = 1e-3;  // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
-constexpr double kDifference =
-    1e-3;  // step [rad or m] of the fourth-order differences, whose error is about 1e-12
+// Step [rad or m] of the fourth-order differences, whose error is about 1e-12.
+constexpr double kDifference = 1e-3;
 constexpr int kIterations = 50;
-constexpr Eigen::Index kLargest =
-    250000;  // entries of J; a larger J is not analysed, since its QR factorization is dense
+// Entries of J; a larger J is not analysed, since its QR factorization is dense.
+constexpr Eigen::Index kLargest = 250000;
 
 }  // namespace
 

@@ -90,8 +90,8 @@ int optimize(const Arguments& arguments, const Console& console) {
   ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
   TrialLines lines(problem.study());
   const auto observer = [&](const Trial& trial) {
-    const Progress now =
-        meter.now();  // before the lock: the meter calls `progress`, which takes it
+    // Before the lock: the meter calls `progress`, which takes it.
+    const Progress now = meter.now();
     const std::lock_guard<std::mutex> lock(printing);
     const std::string line = lines.line(trial, now);
     if (trials.admits_now()) shown << line << std::endl;

@@ -16,8 +16,8 @@ namespace codesign {
 #ifdef CODESIGN_MACHINE_CODE
 namespace {
 
-constexpr std::size_t kMostBytes =
-    16 * 1024 * 1024;  // limit of the estimate, which is about four times the actual size
+// Limit of the estimate, which is about four times the actual size.
+constexpr std::size_t kMostBytes = 16 * 1024 * 1024;
 constexpr std::size_t kBytesPerInstruction = 64;  // with loads, spills and stores
 constexpr std::size_t kBytesPerCall = 256;
 constexpr int kRegisters = 16;

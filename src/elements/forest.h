@@ -49,8 +49,8 @@ Wrench<T> own_wrench(const StateView<T>& view, const Workspace<T>& workspace, in
   const BodyConstants<T>& c = view.design.constants.bodies[b];
   const AxesMotion<T>& m = view.motion.bodies[b];
   const BodyLoad<T>& load = workspace.loads[b];
-  const Matrix3<T> U =
-      m.A.transpose() * load.W;  // its axial vector is the sum of the s x A^T b of (7)
+  // Its axial vector is the sum of the s x A^T b of (7).
+  const Matrix3<T> U = m.A.transpose() * load.W;
   const Wrench<T> inertia = inertia_wrench(c.mass, c.J, m);
   Wrench<T> wrench = workspace.own[b];
   wrench.force += inertia.force + m.A.transpose() * load.force;

@@ -152,8 +152,8 @@ struct StateView {
   const Layout& layout;
   Design<T> design;
   std::vector<std::array<int, kLocalSize>> columns;  ///< per pair, see column()
-  const State<T>* state =
-      nullptr;  ///< set by load(); time, extra states, multipliers and turns are read from it
+  /// Set by load(); time, extra states, multipliers and turns are read from it.
+  const State<T>* state = nullptr;
   std::vector<BodyKinematics<T>> kinematics;  ///< one per body, the ground last
   ForestMotion<T> motion;                     ///< of the bodies of a forest and of their parents
   mutable std::vector<InverseDynamics<T>> inverse_dynamics;  ///< per controller, theory (C4)

@@ -10,8 +10,8 @@
 namespace codesign {
 namespace {
 
-constexpr std::size_t kMostAtOnce =
-    256;  // largest number of messages to receive before messages are sent
+// Largest number of messages to receive before messages are sent.
+constexpr std::size_t kMostAtOnce = 256;
 
 std::string in_seconds(RankTimes::Duration duration) {
   return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(duration).count()) + " s";

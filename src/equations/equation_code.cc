@@ -121,7 +121,7 @@ void EquationCode::record_motion(EquationPart part, RecordedEquations* equations
   for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates,
                                     EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
-  if (rates_only && system_.layout().m == 0 && is_affine(d.rate, equations->g))
+  if (rates_only && system_.layout().m == 0 && is_affine(values_.recording, at(EquationFunction::kRates).guards, d.rate, equations->g))
     record_accelerations(d.rate, equations);
 }
 
@@ -142,27 +142,6 @@ void EquationCode::record_accelerations(const std::vector<Traced>& G_z,
   take_outputs(EquationFunction::kAccelerations,
                {solution.x, VectorX<Traced>::Constant(1, equations->g), vector(solution.values)});
   mass_factor_ = std::move(solution.factor);
-}
-
-bool EquationCode::is_affine(const std::vector<Traced>& G_z, const Traced& g) const {
-  const Recording& recording = values_.recording;
-  std::vector<bool> depends(to_index(recording.size()));
-  for (int n = 0; n < recording.size(); ++n) {
-    const Recording::Node& node = recording.node(n);
-    if (node.operation == Operation::kLeaf)
-      depends[to_index(n)] = node.a == Arrays::kZ;
-    else if (node.operation != Operation::kLiteral)
-      depends[to_index(n)] =
-          depends[to_index(node.a)] || (node.b >= 0 && depends[to_index(node.b)]);
-  }
-  const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
-  const std::vector<Recording::Guard>& guards = at(EquationFunction::kRates).guards;
-  return is_free(g.node()) &&
-         std::all_of(G_z.begin(), G_z.end(),
-                     [&](const Traced& entry) { return is_free(entry.node()); }) &&
-         std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) {
-           return is_free(guard.a) && is_free(guard.b);
-         });
 }
 
 void EquationCode::record_signals(RecordedEquations* equations) {

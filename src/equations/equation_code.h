@@ -29,8 +29,8 @@ class TransposedCode;
 struct EquationArrays {
   static constexpr int kQ = 0, kV = 1, kS = 2, kZ = 3, kNumbers = 4, kResults = 5, kSlots = 9,
                        kRows = 10;
-  static constexpr int kAdjoints =
-      kRows;  ///< results of TransposedCode, whose results take the place of weights
+  /// Results of TransposedCode, whose results take the place of weights.
+  static constexpr int kAdjoints = kRows;
 };
 
 /// One function for one scalar: code for the values and, for Lanes, code for the derivatives, which
@@ -136,9 +136,6 @@ class EquationCode {
   /// Gives the decisions that were made from index `first` of Recording::decisions() on to a
   /// function if they vary with the state, else to design_guards_.
   void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
-  /// Whether G is affine in z and g does not depend on it: neither G_z, g nor a decision of kRates
-  /// does.
-  bool is_affine(const std::vector<Traced>& G_z, const Traced& g) const;
   void record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.

@@ -6,6 +6,7 @@
 
 #include "codegen/interpreter.h"
 #include "description/expression.h"
+#include "equations/equation_code.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 
@@ -111,5 +112,25 @@ void MassFactor::solve(In<double> values, Out<double> x) const {
 template void MassFactor::solve<1>(In<double>, Out<double>) const;
 template void MassFactor::solve<4>(In<double>, Out<double>) const;
 template void MassFactor::solve<8>(In<double>, Out<double>) const;
+
+bool is_affine(const Recording& recording, const std::vector<Recording::Guard>& guards,
+               const std::vector<Traced>& G_z, const Traced& g) {
+  std::vector<bool> depends(to_index(recording.size()));
+  for (int n = 0; n < recording.size(); ++n) {
+    const Recording::Node& node = recording.node(n);
+    if (node.operation == Operation::kLeaf)
+      depends[to_index(n)] = node.a == EquationArrays::kZ;
+    else if (node.operation != Operation::kLiteral)
+      depends[to_index(n)] =
+          depends[to_index(node.a)] || (node.b >= 0 && depends[to_index(node.b)]);
+  }
+  const auto is_free = [&](int n) { return n < 0 || !depends[to_index(n)]; };
+  return is_free(g.node()) &&
+         std::all_of(G_z.begin(), G_z.end(),
+                     [&](const Traced& entry) { return is_free(entry.node()); }) &&
+         std::all_of(guards.begin(), guards.end(), [&](const Recording::Guard& guard) {
+           return is_free(guard.a) && is_free(guard.b);
+         });
+}
 
 }  // namespace codesign

@@ -42,4 +42,9 @@ struct MassSolution {
 MassSolution record_mass_solution(const Sparsity& pattern, const std::vector<Traced>& entries,
                                   const VectorX<Traced>& b);
 
+/// Whether a recorded residual G is affine in z and the integrand g free of it: neither G_z, g nor
+/// a decision depends on z.
+bool is_affine(const Recording& recording, const std::vector<Recording::Guard>& guards,
+               const std::vector<Traced>& G_z, const Traced& g);
+
 }  // namespace codesign

@@ -21,10 +21,10 @@ namespace codesign {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kTold =
-    8;  // number of mixed trajectories that decide which numbers trajectories determine
-constexpr int kDrawsPerStart =
-    4;  // number of mixed trajectories drawn for each start, since some may not be followed
+// Number of mixed trajectories that decide which numbers trajectories determine.
+constexpr int kTold = 8;
+// Number of mixed trajectories drawn for each start, since some may not be followed.
+constexpr int kDrawsPerStart = 4;
 constexpr double kInsideLimits = 0.99;  // a search begins within this share of the limits
 
 /// Positions of the excited joints at the study's start.

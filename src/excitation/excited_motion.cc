@@ -17,10 +17,10 @@
 namespace codesign {
 namespace {
 
-constexpr Eigen::Index kSamplesInARow =
-    8;  // fixed, so that results do not depend on the number of threads
-constexpr double kDifference =
-    1e-5;  // relative step of central differences; their error is about its square
+// Fixed, so that results do not depend on the number of threads.
+constexpr Eigen::Index kSamplesInARow = 8;
+// Relative step of central differences; their error is about its square.
+constexpr double kDifference = 1e-5;
 
 Status at_time_sample(Eigen::Index sample, Status status) {
   status.cause = "sample " + std::to_string(sample) + " of the trajectory: " + status.cause;

@@ -17,10 +17,10 @@ constexpr int kRounds = 14;  // each round halves the intervals beside a peak, a
 constexpr double kMissed = 1e-11;    // peaks between the times that rise less do not count
 constexpr double kFarOutside = 1e6;  // beyond it a peak's exact height does not matter, and
                                      // differences of heights may be no numbers
-constexpr double kKept =
-    1.0 - 1e-8;  // target of fit(): the errors of peaks are smaller than the remainder
-constexpr double kLeastFactor =
-    1e-6;  // smallest factor of fit(): smaller motions determine nothing
+// Target of fit(): the errors of peaks are smaller than the remainder.
+constexpr double kKept = 1.0 - 1e-8;
+// Smallest factor of fit(): smaller motions determine nothing.
+constexpr double kLeastFactor = 1e-6;
 constexpr int kMostFits = 100;
 constexpr double kBesideTurn[] = {1e-4, 1e-3, 1e-2, 3e-2,
                                   0.1,  0.3};  // fractions of a step around a change of direction

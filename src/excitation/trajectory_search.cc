@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kSharpness[] = {60.0,
                                  600.0};  // of the envelopes in the first and the second search
-constexpr double kTolerance =
-    1e-5;  // of the criterion, which is a logarithm: this change is 5 millionths of the volume
+// Of the criterion, which is a logarithm: this change is 5 millionths of the volume.
+constexpr double kTolerance = 1e-5;
 constexpr double kRowTolerance = 1e-7;
 constexpr double kInside = 0.999, kFarBeyond = 3.0;  // of the limits
 constexpr int kMostShrinks = 3;

@@ -12,10 +12,10 @@ namespace {
 
 using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kFinePerWave = 64;
-constexpr double kLargest =
-    10.0;  // limit of a coefficient: shapes that cancel each other may be larger than a single one
-constexpr double kHalfTurn =
-    3.14;  // a joint without limits rests within this distance from its start [rad or m]
+// Limit of a coefficient: shapes that cancel each other may be larger than a single one.
+constexpr double kLargest = 10.0;
+// A joint without limits rests within this distance from its start [rad or m].
+constexpr double kHalfTurn = 3.14;
 constexpr double kInnerRest = 0.8;  // mixed trajectories rest within this share of the range
 constexpr double kRoom = 1.0 - 1e-9;
 

@@ -45,8 +45,8 @@ template <class T>
 Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state,
                     const FrictionConstants<T>& c) {
   using std::exp;
-  constexpr double kDirectionVelocity =
-      0.1;  // v_e / v_s; below it the sliding share 1 - s, and so the direction, is less than 1 %
+  // V_e / v_s; below it the sliding share 1 - s, and so the direction, is less than 1 %.
+  constexpr double kDirectionVelocity = 0.1;
   const T square = dot(u, u), v2 = T(1.0) / (c.transition_velocity * c.transition_velocity);
   const T s = exp(-square * v2), left = T(1.0) - s,
           bristle_rate = c.bristle_stiffness / c.bristle_damping;

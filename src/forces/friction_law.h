@@ -77,8 +77,8 @@ T per_speed(const FrictionLaw& law, const T& square, const FrictionNumbers<T>& c
   using std::sqrt;
   if (law.per_speed)
     return law.per_speed.of<T>(square, c.mu_static, c.mu_dynamic, c.transition_velocity);
-  constexpr double kRest =
-      1e-6;  // speed over v_t that counts as rest, where the quotient has a limit but no value
+  // Speed over v_t that counts as rest, where the quotient has a limit but no value.
+  constexpr double kRest = 1e-6;
   const T rest = kRest * c.transition_velocity, speed = sqrt(square + rest * rest);
   return law.curve.of<T>(speed, c.mu_static, c.mu_dynamic, c.transition_velocity) / speed;
 }

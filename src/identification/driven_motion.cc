@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kMostIterations = 40;
 constexpr double kRounding = 4e-15;  // a relative step below this is rounding
-constexpr double kConverged =
-    1e-11;  // a relative step below this that no longer shrinks is rounding, too
+// A relative step below this that no longer shrinks is rounding, too.
+constexpr double kConverged = 1e-11;
 constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose
                                           // rounding is divided by a compliance of 1e-9
 constexpr double kSlow = 0.05;  // if a step is larger than this fraction of the previous one, the

@@ -11,8 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfMotion =
-    1e-3;  // as in Assembly; a redundant row with rounded angles and lengths leaves less than this
+// As in Assembly; a redundant row with rounded angles and lengths leaves less than this.
+constexpr double kRankOfMotion = 1e-3;
 
 std::string list_of(const std::vector<MeasuredJoint>& measured) {
   std::string names;

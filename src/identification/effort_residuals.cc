@@ -234,8 +234,8 @@ Status EffortResiduals::begin(const Eigen::VectorXd& x) {
 }
 
 Status EffortResiduals::place(const Eigen::VectorXd& x) {
-  constexpr double kNear =
-      0.1;  // [rad or m]: within this distance the samples still find their solutions
+  // [rad or m]: within this distance the samples still find their solutions.
+  constexpr double kNear = 0.1;
   const Eigen::MatrixXd here = shifts(x);
   if (here.size() == 0) return {};
   model_->shift(here);
@@ -248,8 +248,8 @@ Status EffortResiduals::place(const Eigen::VectorXd& x) {
 }
 
 void EffortResiduals::clear_starts_without_effect(Eigen::MatrixXd* jacobian) const {
-  constexpr double kLeastEffect =
-      1e-10;  // relative to the recorded efforts, for a change of the start by 1 rad or 1 m
+  // Relative to the recorded efforts, for a change of the start by 1 rad or 1 m.
+  constexpr double kLeastEffect = 1e-10;
   for (const std::vector<int>& recording : start_columns_)
     for (int column : recording)
       if (column >= 0 && jacobian->col(column).norm() <= kLeastEffect * recorded_.norm())

@@ -19,8 +19,8 @@ constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a 
                                         // bound than this is on the bound
 constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout with
                                         // larger residuals is not explained
-constexpr double kSlopeSignal =
-    0.8;  // share of signal in the slope of a recorded effort below which a warning is given
+// Share of signal in the slope of a recorded effort below which a warning is given.
+constexpr double kSlopeSignal = 0.8;
 constexpr double kExplainsNothing = 0.1;  // share of an output below which a fit has failed
 constexpr double kWhiteBelow = 0.01;      // probability below which residuals do not count as white
 

@@ -13,8 +13,8 @@ namespace codesign {
 namespace {
 
 constexpr int kMostSteps = 50;
-constexpr double kSmallStep =
-    1e-13;  // [rad or m] last step of the Gauss-Newton iteration, which converges linearly
+// [rad or m] last step of the Gauss-Newton iteration, which converges linearly.
+constexpr double kSmallStep = 1e-13;
 
 DriveMotion motion_of(const Eigen::VectorXd (&drives)[3]) {
   return {drives[0], drives[1], drives[2]};

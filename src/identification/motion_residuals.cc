@@ -18,10 +18,10 @@ namespace {
 constexpr double kSlowStart = 0.1;  // of the segment's previous promise, and of the sum of all: a
                                     // start with a larger promise is slow
 constexpr std::size_t kFew = 4;  // slow starts are helped if at most one segment in so many has one
-constexpr double kWorthHelp =
-    1e-6;  // of the value: a smaller sum of promises does not hinder a fit
-constexpr double kSettledShare =
-    1e-8;  // of the value of a segment: a start with a smaller promise counts as the best one
+// Of the value: a smaller sum of promises does not hinder a fit.
+constexpr double kWorthHelp = 1e-6;
+// Of the value of a segment: a start with a smaller promise counts as the best one.
+constexpr double kSettledShare = 1e-8;
 
 /// Recorded positions at a few instants, joints x instants.
 Eigen::MatrixXd positions_of_some(const JointRecording& recording,

@@ -20,15 +20,15 @@ namespace codesign {
 namespace {
 
 constexpr int kMostPasses = 10;
-constexpr double kLeastWorth =
-    0.1;  // of one residual: the least gain of a step of a fit with a prior,
+// Of one residual: the least gain of a step of a fit with a prior,.
+constexpr double kLeastWorth = 0.1;
 constexpr double kWorthPerNumber = 0.01;  // or this for each number that it finds
-constexpr double kSpreadTolerance =
-    1e-3;  // relative change of all spreads at which they count as settled,
-constexpr double kSpreadShare =
-    0.1;  // or this share of the standard deviation of a spread, in a fit with a prior
-constexpr double kLeastSpread =
-    1e-9;  // of the root mean square at the start: the lower limit of a spread, for exact data
+// Relative change of all spreads at which they count as settled,.
+constexpr double kSpreadTolerance = 1e-3;
+// Or this share of the standard deviation of a spread, in a fit with a prior.
+constexpr double kSpreadShare = 0.1;
+// Of the root mean square at the start: the lower limit of a spread, for exact data.
+constexpr double kLeastSpread = 1e-9;
 
 Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
   return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows()))
@@ -256,8 +256,8 @@ StartResult describe(const ScreenedPoint& point, const ResidualFit& fit, const L
 }  // namespace
 
 Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
-  constexpr double kNormalMedian =
-      1.4826;  // standard deviation over median magnitude of a normal variable
+  // Standard deviation over median magnitude of a normal variable.
+  constexpr double kNormalMedian = 1.4826;
   if (loss.kind == LossKind::kNone) return rms_of(residuals);
   Eigen::VectorXd spreads(residuals.cols());
   for (Eigen::Index k = 0; k < spreads.size(); ++k)

@@ -22,8 +22,8 @@ constexpr int kMostRuns = 8, kFewRuns = 3;
 constexpr double kSettled = 1e-8;   // of the value: a start with a smaller promise is the best one
 constexpr double kPatience = 10.0;  // factor of kSettled with each run: the noise of step sizes
                                     // makes promises that are not kept
-constexpr double kResolved =
-    1e-14;  // of the sum of squares of the recorded values: a simulation does not resolve less
+// Of the sum of squares of the recorded values: a simulation does not resolve less.
+constexpr double kResolved = 1e-14;
 
 /// Columns scaled to length one, so that the rank does not depend on units.
 class StartColumns {

@@ -5,11 +5,48 @@
 #include <vector>
 
 #include "equations/equations.h"
-#include "integration/idas_integrator.h"
 #include "integration/idas_newton.h"
+#include "integration/integrator.h"
 #include "integration/run_watch.h"
 
 namespace codesign {
+
+/// The derivatives that IdasIntegrator needs to integrate sensitivities, doc/theory.md (27).
+/// Implemented by IdasTangent in src/sensitivity, so that integration does not depend on
+/// derivatives by parameters.
+class IdasSensitivities {
+ public:
+  virtual ~IdasSensitivities() = default;
+
+  /// Number of tuned parameters p.
+  virtual int count() const = 0;
+  /// Begins the integration of a design. @param initial its assembled start.
+  /// @param sensitivities receives the initial sensitivities (q, v, s, z)_rho, one per parameter;
+  /// sized by the caller.
+  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its
+  /// sensitivities is the absolute tolerance of the state divided by this size.
+  virtual void start(const std::vector<double>& parameters, const State<double>& initial,
+                     Integrator* integrator, std::vector<State<double>>* sensitivities,
+                     std::vector<double>* scales) = 0;
+  /// Computes the derivatives at a state for the calls of derivative() that follow. @param kappa
+  /// rate of stabilization [1/s], (25).
+  /// @returns the derivatives of (G, g) by the state, without stabilization; valid until the next
+  /// call.
+  virtual const Linearization<double>& linearize(const State<double>& state, double kappa,
+                                                 Equations<double>* equations) = 0;
+  /// The derivative of (G, g) by rho_k along a direction (q, v, s, z)_rho at the last linearize(),
+  /// with stabilized constraint rows: Layout::columns() + 1 entries.
+  virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;
+  /// Carries directions over the events of sampled controllers, theory (51), and solves for their
+  /// z. @param behind the state after the events. False if the augmented matrix is singular.
+  virtual bool jump(const std::vector<ControlEvent>& events, const State<double>& before,
+                    const State<double>& behind, Equations<double>* equations,
+                    std::vector<State<double>>* directions) = 0;
+  /// Projects directions (q, v)_rho onto the tangent of the constraints at a state and solves for
+  /// their z; one direction per parameter. False if the augmented matrix is singular.
+  virtual bool project(const State<double>& state, Equations<double>* equations,
+                       std::vector<State<double>>* directions) = 0;
+};
 
 /// The equations of motion in the form of IDAS: y = (q, v, s, lambda), F(t, y, y') = (q' - v, G(q,
 /// v, s; v', lambda, s')) = 0; doc/theory.md (25).

@@ -5,17 +5,7 @@
 #include <cmath>
 
 #include "assembly/assembly.h"
-#include "control/control_clock.h"
-#include "integration/continuation.h"
-#include "integration/idas_equations.h"
-#include "integration/idas_handles.h"
 #include "integration/idas_setup.h"
-#include "integration/integrator.h"
-#include "integration/run_ends.h"
-#include "integration/run_watch.h"
-#include "integration/singularity_watch.h"
-#include "integration/stage_matrix.h"
-#include "integration/step_control.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -32,120 +22,49 @@ constexpr double kDefaultDelta = -1.0;  // IDAS takes a negative value for its d
 
 }  // namespace
 
-class IdasIntegrator::Implementation {
- public:
-  Implementation(const CompiledSystem& system, Integrator* owner)
-      : system_(system),
-        options_(system.study().solver),
-        restart_drift_(restart_drift(options_.relative_tolerance)),
-        breaks_(system.study()),
-        clock_(system.study()),
-        owner_(owner),
-        assembly_(system),
-        watch_(system),
-        run_watch_(system),
-        singularity_(system),
-        context_(make_context()),
-        newton_(system, context_.get()),
-        equations_(system, &newton_),
-        projection_(system),
-        continuation_(system),
-        y_(make_vector(equations_.size(), context_.get())),
-        y_dot_(make_vector(equations_.size(), context_.get())),
-        dense_(make_vector(equations_.size(), context_.get())),
-        dense_dot_(make_vector(equations_.size(), context_.get())),
-        psi_(make_vector(2, context_.get())),
-        ida_(IDACreate(context_.get())) {
-    if (!ida_) throw std::bad_alloc();
-    state_.resize(system.layout());
-    equations_.set_motion(&run_watch_.motion());
-    set_up_idas({ida_.get(), context_.get(), &message_}, system, &equations_, &newton_,
-                {y_.get(), y_dot_.get(), psi_.get()});
-  }
+IdasIntegrator::IdasIntegrator(const CompiledSystem& system)
+    : system_(system),
+      options_(system.study().solver),
+      restart_drift_(restart_drift(options_.relative_tolerance)),
+      breaks_(system.study()),
+      clock_(system.study()),
+      assembly_(system),
+      watch_(system),
+      run_watch_(system),
+      singularity_(system),
+      context_(make_context()),
+      newton_(system, context_.get()),
+      equations_(system, &newton_),
+      projection_(system),
+      continuation_(system),
+      y_(make_vector(equations_.size(), context_.get())),
+      y_dot_(make_vector(equations_.size(), context_.get())),
+      dense_(make_vector(equations_.size(), context_.get())),
+      dense_dot_(make_vector(equations_.size(), context_.get())),
+      psi_(make_vector(2, context_.get())),
+      ida_(IDACreate(context_.get())) {
+  if (!ida_) throw std::bad_alloc();
+  state_.resize(system.layout());
+  equations_.set_motion(&run_watch_.motion());
+  set_up_idas({ida_.get(), context_.get(), &message_}, system, &equations_, &newton_,
+              {y_.get(), y_dot_.get(), psi_.get()});
+}
 
-  void carry(IdasSensitivities* sensitivities) {
-    carried_ = sensitivities;
-    equations_.set_sensitivities(sensitivities);
-  }
+Warnings IdasIntegrator::warnings() const {
+  Warnings all = assembly_.warnings();
+  append(run_watch_.warnings(statistics_), &all);
+  append(singularity_.warnings(), &all);
+  append(restart_warnings_, &all);
+  return all;
+}
 
-  Status start(const std::vector<double>& parameters);
-  Status advance(double limit);
-  Status take_step(double limit);
-  Status go_on(double time, const std::vector<double>& parameters);
-  void interpolate(double time, State<double>* state, double* psi);
-  void interpolate_rates(double time, State<double>* rates);
-  void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
-  void sensitivity(int k, State<double>* direction) const {
-    equations_.unpack(state_.t, y_rho_->span(k), y_dot_rho_->span(k), direction);
-  }
-
-  const State<double>& state() const { return state_; }
-  double psi() const { return span_of(psi_.get())[0]; }
-  double psi_sensitivity(int k) const { return psi_rho_->span(k)[0]; }
-  double largest_drift() const { return largest_drift_; }
-  Equations<double>& equations() { return equations_.equations(); }
-  Assembly& assembly() { return assembly_; }
-  void watch_singularities(bool watch) { watch_singularities_ = watch; }
-  const Statistics& statistics() const { return statistics_; }
-  Warnings warnings() const {
-    Warnings all = assembly_.warnings();
-    append(run_watch_.warnings(statistics_), &all);
-    append(singularity_.warnings(), &all);
-    append(restart_warnings_, &all);
-    return all;
-  }
-
- private:
-  Status assemble(const std::vector<double>& parameters);
-  void start_sensitivities(const std::vector<double>& parameters);
-  void restart_solver();
-  Status project();
-  Status jump();
-  template <class Change>
-  Status begin_anew(const Change& change);
-  void warn_of_restart();
-  bool with_sensitivities() const { return carried_ && carried_->count() > 0; }
-  void take_over(double time);
-  Status check_run();
-  void count_steps();
-
-  const CompiledSystem& system_;
-  const SolverOptions& options_;
-  const double restart_drift_;
-  const BreakTimes breaks_;
-  ControlClock clock_;
-  Integrator* owner_;
-  Assembly assembly_;
-  MotionWatch watch_;
-  RunWatch run_watch_;
-  SingularityWatch singularity_;
-  ContextHandle context_;
-  IdasNewton newton_;
-  IdasEquations equations_;
-  Projection projection_;
-  Continuation continuation_;
-  VectorHandle y_, y_dot_, dense_, dense_dot_, psi_;
-  std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_, dense_rho_;
-  IdaHandle ida_;
-  IdasSensitivities* carried_ = nullptr;
-  State<double> initial_, state_, before_jump_;
-  std::vector<State<double>> directions_;
-  std::vector<double> scales_;
-  VectorX<double> drift_, drift_rate_, position_correction_, velocity_correction_;
-  double work_ = 0.0;  ///< work of all forces but gravity so far [J]
-  double largest_drift_ = 0.0, drift_size_ = 0.0;
-  Statistics before_restart_;
-  bool watch_singularities_ = false;
-  bool has_stepped_ = false;  ///< since the last start() or go_on()
-  RestartPace pace_;
-  SettledStart settled_start_;
-  Warnings restart_warnings_;
-  std::string message_;
-  Statistics statistics_;
-};
+void IdasIntegrator::carry(IdasSensitivities* sensitivities) {
+  carried_ = sensitivities;
+  equations_.set_sensitivities(sensitivities);
+}
 
 // Newton's matrix has the pattern of the matrix that the assembly factors.
-Status IdasIntegrator::Implementation::assemble(const std::vector<double>& parameters) {
+Status IdasIntegrator::assemble(const std::vector<double>& parameters) {
   return settled_start_.start(
       system_, parameters,
       [this](const std::vector<double>& design) {
@@ -157,7 +76,8 @@ Status IdasIntegrator::Implementation::assemble(const std::vector<double>& param
       });
 }
 
-Status IdasIntegrator::Implementation::start(const std::vector<double>& parameters) {
+Status IdasIntegrator::start(const std::vector<double>& parameters) {
+  begin_methods("idas");
   statistics_ = before_restart_ = {};
   has_stepped_ = false;
   clock_.start();
@@ -180,7 +100,7 @@ Status IdasIntegrator::Implementation::start(const std::vector<double>& paramete
   return {};
 }
 
-void IdasIntegrator::Implementation::start_sensitivities(const std::vector<double>& parameters) {
+void IdasIntegrator::start_sensitivities(const std::vector<double>& parameters) {
   if (!with_sensitivities()) {
     if (y_rho_) require(IDASensToggleOff(ida_.get()), "IDASensToggleOff");
     if (y_rho_) require(IDASetDeltaCjLSetup(ida_.get(), kDefaultDelta), "IDASetDeltaCjLSetup");
@@ -195,7 +115,7 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
     directions_.resize(to_index(count), initial_);
     scales_.resize(to_index(count));
   }
-  carried_->start(parameters, initial_, owner_, &directions_, &scales_);
+  carried_->start(parameters, initial_, this, &directions_, &scales_);
   for (int k = 0; k < count; ++k) {
     equations_.pack(directions_[to_index(k)], y_rho_->span(k), y_dot_rho_->span(k));
     psi_rho_->span(k)[0] = 0.0;
@@ -212,7 +132,7 @@ void IdasIntegrator::Implementation::start_sensitivities(const std::vector<doubl
 }
 
 /// Restarts IDAS at state_ and its sensitivities, at order one.
-void IdasIntegrator::Implementation::restart_solver() {
+void IdasIntegrator::restart_solver() {
   void* ida = ida_.get();
   require(IDAReInit(ida, state_.t, y_.get(), y_dot_.get()), "IDAReInit");
   require(IDAQuadReInit(ida, psi_.get()), "IDAQuadReInit");
@@ -229,7 +149,7 @@ void IdasIntegrator::Implementation::restart_solver() {
 /// Restarts at state_, which has changed. @param change () -> changes directions_ alike; false if a
 /// matrix is singular.
 template <class Change>
-Status IdasIntegrator::Implementation::begin_anew(const Change& change) {
+Status IdasIntegrator::begin_anew(const Change& change) {
   equations_.pack(state_, span_of(y_.get()), span_of(y_dot_.get()));
   if (with_sensitivities()) {
     for (int k = 0; k < carried_->count(); ++k) sensitivity(k, &directions_[to_index(k)]);
@@ -246,7 +166,7 @@ Status IdasIntegrator::Implementation::begin_anew(const Change& change) {
 
 // A multistep method interpolates the points before, so that it has to begin anew where the efforts
 // jump.
-Status IdasIntegrator::Implementation::jump() {
+Status IdasIntegrator::jump() {
   const std::vector<ControlEvent>& events = clock_.due(state_.t);
   if (events.empty()) return {};
   before_jump_ = state_;
@@ -256,7 +176,7 @@ Status IdasIntegrator::Implementation::jump() {
       [&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
 }
 
-Status IdasIntegrator::Implementation::go_on(double time, const std::vector<double>& parameters) {
+Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) {
   const bool between = time < state_.t;
   State<double> behind;
   double reached = 0.0;
@@ -278,7 +198,7 @@ Status IdasIntegrator::Implementation::go_on(double time, const std::vector<doub
 // Projects state and sensitivities and restarts, since a multistep method interpolates the points
 // before. Near a singular position this keeps the mechanism on its branch: the smaller the smallest
 // singular value of Phi_q, the farther a given drift displaces the mechanism.
-Status IdasIntegrator::Implementation::project() {
+Status IdasIntegrator::project() {
   if (!projection_.apply(&equations(), &state_))
     return {StatusCode::kSingularMatrix, state_.t,
             "the augmented matrix of the equations of motion is singular"};
@@ -293,19 +213,20 @@ Status IdasIntegrator::Implementation::project() {
 
 /// A projection corrects the state, but the sensitivities keep the error of the steps that had
 /// drifted off the constraints.
-void IdasIntegrator::Implementation::warn_of_restart() {
+void IdasIntegrator::warn_of_restart() {
   if (restart_warnings_.empty())
     restart_warnings_.push_back(sensitivities_restarted(state_.t, drift_size_));
 }
 
-Status IdasIntegrator::Implementation::advance(double limit) {
+Status IdasIntegrator::advance(double limit) {
+  if (cancelled()) return {StatusCode::kCancelled, state_.t, "cancelled"};
   const double before = state_.t;
   const Status status = take_step(limit);
   return judge_standstill(status, system_, initial_, state_, state_.t - before, statistics_,
                           &equations());
 }
 
-Status IdasIntegrator::Implementation::take_step(double limit) {
+Status IdasIntegrator::take_step(double limit) {
   if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
     return {
         StatusCode::kTooManySteps, state_.t,
@@ -330,7 +251,7 @@ Status IdasIntegrator::Implementation::take_step(double limit) {
   return watch_.check(state_, statistics_.steps + statistics_.rejected_steps);
 }
 
-void IdasIntegrator::Implementation::take_over(double time) {
+void IdasIntegrator::take_over(double time) {
   equations_.unpack(time, span_of(y_.get()), span_of(y_dot_.get()), &state_);
   has_stepped_ = true;
   double reached = time;
@@ -348,7 +269,7 @@ void IdasIntegrator::Implementation::take_over(double time) {
 
 // The corrections use the last Newton matrix, which differs from G_z of the projection (17) by
 // terms of the order of the step.
-Status IdasIntegrator::Implementation::check_run() {
+Status IdasIntegrator::check_run() {
   const double before = work_;
   work_ = span_of(psi_.get())[1];
   newton_.correct(drift_, &position_correction_);
@@ -358,19 +279,19 @@ Status IdasIntegrator::Implementation::check_run() {
   return run_watch_.check(state_, drift_size_, work_ - before, &statistics_);
 }
 
-void IdasIntegrator::Implementation::count_steps() {
+void IdasIntegrator::count_steps() {
   const IdasCounts counts = count_idas(ida_.get(), with_sensitivities());
   statistics_.steps = before_restart_.steps + counts.steps;
   statistics_.rejected_steps = before_restart_.rejected_steps + counts.rejected;
 }
 
-void IdasIntegrator::Implementation::interpolate_rates(double time, State<double>* rates) {
+void IdasIntegrator::interpolate_rates(double time, State<double>* rates) {
   require(IDAGetDky(ida_.get(), time, 1, dense_dot_.get()), "IDAGetDky");
   equations_.unpack(time, span_of(dense_dot_.get()), span_of(dense_dot_.get()), rates);
 }
 
-void IdasIntegrator::Implementation::interpolate_sensitivities(
-    double time, std::vector<State<double>>* directions) {
+void IdasIntegrator::interpolate_sensitivities(double time,
+                                               std::vector<State<double>>* directions) {
   const int count = carried_->count();
   directions->resize(to_index(count), state_);
   const bool has_stepped = statistics_.steps > 0;
@@ -382,7 +303,7 @@ void IdasIntegrator::Implementation::interpolate_sensitivities(
   }
 }
 
-void IdasIntegrator::Implementation::interpolate(double time, State<double>* state, double* psi) {
+void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) {
   *psi = this->psi();
   *state = state_;
   if (!has_stepped_) return;
@@ -397,48 +318,5 @@ void IdasIntegrator::Implementation::interpolate(double time, State<double>* sta
   integrals[0] = at_end;
   integrals[1] = work_;
 }
-
-IdasIntegrator::IdasIntegrator(const CompiledSystem& system)
-    : implementation_(std::make_unique<Implementation>(system, this)) {}
-IdasIntegrator::~IdasIntegrator() = default;
-
-void IdasIntegrator::carry(IdasSensitivities* sensitivities) {
-  implementation_->carry(sensitivities);
-}
-Status IdasIntegrator::start(const std::vector<double>& parameters) {
-  begin_methods("idas");
-  return implementation_->start(parameters);
-}
-Status IdasIntegrator::advance(double limit) {
-  if (cancelled()) return {StatusCode::kCancelled, state().t, "cancelled"};
-  return implementation_->advance(limit);
-}
-Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) {
-  return implementation_->go_on(time, parameters);
-}
-const State<double>& IdasIntegrator::state() const { return implementation_->state(); }
-double IdasIntegrator::psi() const { return implementation_->psi(); }
-void IdasIntegrator::interpolate(double time, State<double>* state, double* psi) {
-  implementation_->interpolate(time, state, psi);
-}
-void IdasIntegrator::interpolate_rates(double time, State<double>* rates) {
-  implementation_->interpolate_rates(time, rates);
-}
-Equations<double>& IdasIntegrator::equations() { return implementation_->equations(); }
-Assembly& IdasIntegrator::assembly() { return implementation_->assembly(); }
-void IdasIntegrator::watch_singularities(bool watch) {
-  implementation_->watch_singularities(watch);
-}
-const Statistics& IdasIntegrator::statistics() const { return implementation_->statistics(); }
-Warnings IdasIntegrator::warnings() const { return implementation_->warnings(); }
-void IdasIntegrator::sensitivity(int k, State<double>* direction) const {
-  implementation_->sensitivity(k, direction);
-}
-void IdasIntegrator::interpolate_sensitivities(double time,
-                                               std::vector<State<double>>* directions) {
-  implementation_->interpolate_sensitivities(time, directions);
-}
-double IdasIntegrator::psi_sensitivity(int k) const { return implementation_->psi_sensitivity(k); }
-double IdasIntegrator::largest_drift() const { return implementation_->largest_drift(); }
 
 }  // namespace codesign

@@ -5,46 +5,18 @@
 #include <vector>
 
 #include "assembly/assembly.h"
+#include "control/control_clock.h"
+#include "integration/continuation.h"
+#include "integration/idas_equations.h"
+#include "integration/idas_handles.h"
 #include "integration/integrator.h"
+#include "integration/run_ends.h"
+#include "integration/run_watch.h"
+#include "integration/singularity_watch.h"
+#include "integration/stage_matrix.h"
+#include "integration/step_control.h"
 
 namespace codesign {
-
-/// The derivatives that IdasIntegrator needs to integrate sensitivities, doc/theory.md (27).
-/// Implemented by IdasTangent in src/sensitivity, so that integration does not depend on
-/// derivatives by parameters.
-class IdasSensitivities {
- public:
-  virtual ~IdasSensitivities() = default;
-
-  /// Number of tuned parameters p.
-  virtual int count() const = 0;
-  /// Begins the integration of a design. @param initial its assembled start.
-  /// @param sensitivities receives the initial sensitivities (q, v, s, z)_rho, one per parameter;
-  /// sized by the caller.
-  /// @param scales receives the size of each parameter, never zero: the absolute tolerance of its
-  /// sensitivities is the absolute tolerance of the state divided by this size.
-  virtual void start(const std::vector<double>& parameters, const State<double>& initial,
-                     Integrator* integrator, std::vector<State<double>>* sensitivities,
-                     std::vector<double>* scales) = 0;
-  /// Computes the derivatives at a state for the calls of derivative() that follow. @param kappa
-  /// rate of stabilization [1/s], (25).
-  /// @returns the derivatives of (G, g) by the state, without stabilization; valid until the next
-  /// call.
-  virtual const Linearization<double>& linearize(const State<double>& state, double kappa,
-                                                 Equations<double>* equations) = 0;
-  /// The derivative of (G, g) by rho_k along a direction (q, v, s, z)_rho at the last linearize(),
-  /// with stabilized constraint rows: Layout::columns() + 1 entries.
-  virtual void derivative(int k, const State<double>& direction, VectorX<double>* result) = 0;
-  /// Carries directions over the events of sampled controllers, theory (51), and solves for their
-  /// z. @param behind the state after the events. False if the augmented matrix is singular.
-  virtual bool jump(const std::vector<ControlEvent>& events, const State<double>& before,
-                    const State<double>& behind, Equations<double>* equations,
-                    std::vector<State<double>>* directions) = 0;
-  /// Projects directions (q, v)_rho onto the tangent of the constraints at a state and solves for
-  /// their z; one direction per parameter. False if the augmented matrix is singular.
-  virtual bool project(const State<double>& state, Equations<double>* equations,
-                       std::vector<State<double>>* directions) = 0;
-};
 
 /// Variable-order BDF by SUNDIALS IDAS on q' = v, 0 = G(q, v, s; v', lambda, s'), psi' = g;
 /// doc/theory.md (25)-(27).
@@ -58,7 +30,6 @@ class IdasSensitivities {
 class IdasIntegrator final : public Integrator {
  public:
   explicit IdasIntegrator(const CompiledSystem& system);
-  ~IdasIntegrator() override;
 
   /// Sets the sensitivities to integrate from the next start() on, by the staggered corrector and
   /// with error test; nullptr for none. `sensitivities` must outlive the integration.
@@ -67,29 +38,75 @@ class IdasIntegrator final : public Integrator {
   Status start(const std::vector<double>& parameters) override;
   Status advance(double limit) override;
   Status go_on(double time, const std::vector<double>& parameters) override;
-  const State<double>& state() const override;
-  double psi() const override;
+  const State<double>& state() const override { return state_; }
+  double psi() const override { return span_of(psi_.get())[0]; }
   void interpolate(double time, State<double>* state, double* psi) override;
   void interpolate_rates(double time, State<double>* rates) override;
-  Equations<double>& equations() override;
-  Assembly& assembly() override;
-  void watch_singularities(bool watch) override;
-  const Statistics& statistics() const override;
+  Equations<double>& equations() override { return equations_.equations(); }
+  Assembly& assembly() override { return assembly_; }
+  void watch_singularities(bool watch) override { watch_singularities_ = watch; }
+  const Statistics& statistics() const override { return statistics_; }
   Warnings warnings() const override;
 
   /// (q, v, s, z)_rho of tuned parameter k at the end of the last step.
-  void sensitivity(int k, State<double>* direction) const;
+  void sensitivity(int k, State<double>* direction) const {
+    equations_.unpack(state_.t, y_rho_->span(k), y_dot_rho_->span(k), direction);
+  }
   /// (q, v, s)_rho of all tuned parameters at `time` [s] within the last step, by the dense output;
   /// z is meaningless.
   void interpolate_sensitivities(double time, std::vector<State<double>>* directions);
   /// Derivative of psi() by tuned parameter k.
-  double psi_sensitivity(int k) const;
+  double psi_sensitivity(int k) const { return psi_rho_->span(k)[0]; }
   /// Largest entry of |Phi(q)| at the end of a step since start().
-  double largest_drift() const;
+  double largest_drift() const { return largest_drift_; }
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  Status take_step(double limit);
+  Status assemble(const std::vector<double>& parameters);
+  void start_sensitivities(const std::vector<double>& parameters);
+  void restart_solver();
+  Status project();
+  Status jump();
+  template <class Change>
+  Status begin_anew(const Change& change);
+  void warn_of_restart();
+  bool with_sensitivities() const { return carried_ && carried_->count() > 0; }
+  void take_over(double time);
+  Status check_run();
+  void count_steps();
+
+  const CompiledSystem& system_;
+  const SolverOptions& options_;
+  const double restart_drift_;
+  const BreakTimes breaks_;
+  ControlClock clock_;
+  Assembly assembly_;
+  MotionWatch watch_;
+  RunWatch run_watch_;
+  SingularityWatch singularity_;
+  ContextHandle context_;
+  IdasNewton newton_;
+  IdasEquations equations_;
+  Projection projection_;
+  Continuation continuation_;
+  VectorHandle y_, y_dot_, dense_, dense_dot_, psi_;
+  std::unique_ptr<VectorArray> y_rho_, y_dot_rho_, psi_rho_, dense_rho_;
+  IdaHandle ida_;
+  IdasSensitivities* carried_ = nullptr;
+  State<double> initial_, state_, before_jump_;
+  std::vector<State<double>> directions_;
+  std::vector<double> scales_;
+  VectorX<double> drift_, drift_rate_, position_correction_, velocity_correction_;
+  double work_ = 0.0;  ///< work of all forces but gravity so far [J]
+  double largest_drift_ = 0.0, drift_size_ = 0.0;
+  Statistics before_restart_;
+  bool watch_singularities_ = false;
+  bool has_stepped_ = false;  ///< since the last start() or go_on()
+  RestartPace pace_;
+  SettledStart settled_start_;
+  Warnings restart_warnings_;
+  std::string message_;
+  Statistics statistics_;
 };
 
 }  // namespace codesign

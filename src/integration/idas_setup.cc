@@ -11,8 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kAnyMultiplier =
-    1e10;  // absolute tolerance that excludes multipliers from convergence tests
+// Absolute tolerance that excludes multipliers from convergence tests.
+constexpr double kAnyMultiplier = 1e10;
 
 /// The part of the multipliers, the last in y.
 Span<double> multipliers_of(const CompiledSystem& system, const VectorHandle& y) {

@@ -28,6 +28,7 @@ class MethodChoice {
   int stiff_ = 0, others_ = 0;  ///< explicit steps at the limit of stability; others in a row
   int waits_ = 0;               ///< implicit steps before the next look
   int pause_ = 0;               ///< implicit steps before the first look after a change
+  const int states_;            ///< entries of an increment before z
   VectorX<double> direction_;   ///< of RosenbrockStep::spectral_radius()
 };
 

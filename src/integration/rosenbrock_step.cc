@@ -127,8 +127,7 @@ void RosenbrockStep<T>::stage_start(std::size_t i) {
   u.segment(at_.s(), at_.states) *= hg;
 }
 
-// Solves (16) for u_z of stage i, then adds h gamma u_a to w_v and the corresponding terms to w_q
-// and w_s.
+// Solves (16) for u_z of stage i, then adds h gamma u_a to w_v, and its like to w_q and w_s.
 template <class T>
 bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   VectorX<T>& u = increments_[i];
@@ -204,22 +203,6 @@ void RosenbrockStep<T>::take_rates(std::size_t i, const T& g) {
   u[at_.psi()] = h * g;
 }
 
-template <class T>
-double RosenbrockStep<T>::stiffness() const {
-  const VectorX<T>&last = increments_[count() - 1], &before = increments_[count() - 2];
-  const State<T>&at = stages_[count() - 1], &from = stages_[count() - 2];
-  const int states = at_.z();
-  double rates = 0.0;
-  for (int k = 0; k < states; ++k) rates += std::norm(last[k] - before[k]);
-  const auto distance = [](const VectorX<T>& x, const VectorX<T>& y) {
-    double sum = 0.0;
-    for (Eigen::Index k = 0; k < x.size(); ++k) sum += std::norm(x[k] - y[k]);
-    return sum;
-  };
-  const double change = distance(at.q, from.q) + distance(at.v, from.v) + distance(at.s, from.s);
-  return change > 0.0 ? std::sqrt(rates / change) : 0.0;
-}
-
 // One product with f_y: q' = v, (v', s') = the parts (a, sigma) of -G_z^-1 (G_q q + G_v v + G_s s).
 template <>
 double RosenbrockStep<double>::spectral_radius(VectorX<double>* direction) {
@@ -241,8 +224,7 @@ double RosenbrockStep<double>::spectral_radius(VectorX<double>* direction) {
   return std::sqrt(growth);
 }
 
-// The last stage is at the end of the step, and without constraints the first stage of the next
-// one.
+// The last stage is at the end of the step; without constraints it is the next step's first one.
 template <class T>
 bool RosenbrockStep<T>::attempt_explicitly() {
   if (!has_first_) first_ = state_;

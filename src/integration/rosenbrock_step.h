@@ -80,10 +80,6 @@ class RosenbrockStep {
   /// oscillations need. @param direction begins with any vector but zero, in the order of
   /// IncrementLayout; holds the eigenvector's estimate. 0 if the matrix is singular.
   double spectral_radius(VectorX<double>* direction);
-  /// Of an explicit pair: h times an estimate of the largest |eigenvalue| of the equations from the
-  /// last two stages, which both are at the end of the last attempt (Hairer and Wanner, Solving ODE
-  /// II, IV.2). The pair is stable up to 3.3.
-  double stiffness() const;
 
   /// G_z of an explicit stage as the program that solved it has factored it.
   struct StageFactor {

@@ -18,11 +18,11 @@
 namespace codesign {
 namespace {
 
-constexpr double kBeyondReason =
-    10.0;  // speeds beyond this multiple of the typical one are suspicious
+// Speeds beyond this multiple of the typical one are suspicious.
+constexpr double kBeyondReason = 10.0;
 constexpr std::int64_t kWindow = 500;  // steps over which the pace is measured
-constexpr double kPatience =
-    0.1;  // expected steps, relative to maximum_steps, from which a suspicious run ends
+// Expected steps, relative to maximum_steps, from which a suspicious run ends.
+constexpr double kPatience = 0.1;
 constexpr double kLeastPatience = 5000.0;  // [steps] lower limit of the same
 
 constexpr int kInstants = 64;  // instants at which setpoints and references are sampled
@@ -68,10 +68,10 @@ constexpr double kNever = 20000.0;         // remaining steps from which a run c
 // singular: kStalled for a stalled run, where reactions are then fifty times as large as at the
 // start; kNearby for a failed one, since friction can lock a mechanism before the position.
 constexpr double kStalled = 0.02, kNearby = 0.1;
-constexpr double kTakesPart =
-    0.1;  // a pair is named if its load in the self-stress exceeds this fraction of the largest
-constexpr int kLargestAnalysed =
-    400;  // larger numbers of coordinates are not analysed, since the decomposition is dense
+// A pair is named if its load in the self-stress exceeds this fraction of the largest.
+constexpr double kTakesPart = 0.1;
+// Larger numbers of coordinates are not analysed, since the decomposition is dense.
+constexpr int kLargestAnalysed = 400;
 
 bool may_be_singular(StatusCode code) {
   return code == StatusCode::kStepSizeTooSmall || code == StatusCode::kSingularMatrix ||

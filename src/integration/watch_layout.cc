@@ -8,10 +8,10 @@
 namespace codesign {
 namespace {
 
-constexpr int kWindows =
-    16;  // equal windows of an interval, so that two extrema seldom compete within one
-constexpr std::size_t kMost =
-    200;  // break times that are instants: each adds rows to the optimizer's problem
+// Equal windows of an interval, so that two extrema seldom compete within one.
+constexpr int kWindows = 16;
+// Break times that are instants: each adds rows to the optimizer's problem.
+constexpr std::size_t kMost = 200;
 
 std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<double>& breaks) {
   if (!(watched.after < watched.before)) return {watched.before};

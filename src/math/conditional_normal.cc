@@ -7,8 +7,8 @@ namespace codesign {
 namespace {
 
 constexpr double kZeroPivot = 1e-12;  // of the variance
-constexpr double kZeroColumn =
-    1e-6;  // of the product of deviations: largest remainder below a pivot of zero
+// Of the product of deviations: largest remainder below a pivot of zero.
+constexpr double kZeroColumn = 1e-6;
 constexpr double kNegativePivot = -1e-9;  // of the variance: a pivot below this is not rounding
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace {
 
 using Vector = Vector3<double>;
 constexpr double kParallel = 1e-9;  // tolerance for unit axes to be parallel
-constexpr double kConcurrent =
-    1e-9;  // tolerance for axes to meet: absolute [m], and relative to the chain's size
+// Tolerance for axes to meet: absolute [m], and relative to the chain's size.
+constexpr double kConcurrent = 1e-9;
 
 struct Axes {
   std::vector<Vector> turn, turn_point, slide;

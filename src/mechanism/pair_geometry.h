@@ -18,9 +18,9 @@ struct Pair;
 /// of body i.
 template <class T>
 struct ChainGeometry {
-  static constexpr std::size_t kFew =
-      6;         // elements of the longest chain that turns and slides in all directions
-  Pose<T> X_ij;  ///< pose of the base link of body j
+  // Elements of the longest chain that turns and slides in all directions.
+  static constexpr std::size_t kFew = 6;
+  Pose<T> X_ij;                       ///< pose of the base link of body j
   ShortVector<Pose<T>, kFew> frames;  ///< per element: its joint frame
   ShortVector<Vector3<T>, kFew>
       axes;  ///< per element: its unit axis, with URDF's sign also for reversed elements

@@ -38,8 +38,8 @@ struct Pair {
 /// on the design.
 struct Topology {
   static constexpr int kGround = -1;  ///< body index of links that are fixed to the root
-  static constexpr int kMassless =
-      -2;  ///< body index of links without mass inside a folded chain or at its end
+  /// Body index of links without mass inside a folded chain or at its end.
+  static constexpr int kMassless = -2;
 
   std::vector<Body> bodies;
   std::vector<Pair> pairs;

@@ -40,8 +40,8 @@ class Observer {
     int mimicked =
         -1;  ///< for a joint without a pair: index in joints_ of the joint that it mimics, or -1
   };
-  static constexpr int kContact =
-      -2;  ///< element of a FrictionSource: isotropic friction of the whole pair
+  /// Element of a FrictionSource: isotropic friction of the whole pair.
+  static constexpr int kContact = -2;
   struct FrictionSource {
     int pair = -1, element = -1;
   };

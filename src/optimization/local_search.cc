@@ -17,16 +17,16 @@
 namespace codesign {
 namespace {
 
-constexpr double kRowTolerance =
-    1e-9;  // violation of a constraint row that NLopt accepts, in the unit of the row
+// Violation of a constraint row that NLopt accepts, in the unit of the row.
+constexpr double kRowTolerance = 1e-9;
 constexpr int kMostRestarts = 8;
 constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
 constexpr int kMostAttempts = 12;
-constexpr double kLeastTolerance = 1e-15,
-                 kTighten = 1e-3;    // the tolerance of a restart over that of the attempt before
-constexpr double kSlopeLeft = 1e-2;  // a failed line search has converged if the scaled gradient
-                                     // fell below this fraction of the first one
+constexpr double kLeastTolerance = 1e-15;
+constexpr double kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
+// A failed line search has converged if the scaled gradient fell below this fraction of the first.
+constexpr double kSlopeLeft = 1e-2;
 
 /// One attempt of a search by an algorithm of NLopt: the state that its callbacks share.
 class Minimization {
@@ -158,8 +158,7 @@ class Minimization {
       result_.termination = "roundoff_limited";
   }
 
-  /// Whether a failed line search ended at an optimum: its points are equal within the relative
-  /// tolerance, and the slope is small.
+  /// Whether a failed line search ended at an optimum: its points hardly differ, nor do they slope.
   bool has_converged() {
     const double difference = std::abs(last_.total.objective - result_.objective);
     if (!last_.total.status.ok() ||
@@ -181,18 +180,13 @@ class Minimization {
     Eigen::VectorXd by_rho;
     const double margin = owner.trials_.parameter_rows().margin(
         constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
-    if (!std::isfinite(margin)) return owner.step_back_from_constraint(x, &gradient);
+    // A constraint that is not finite counts as violated, the more the farther from the best point.
+    if (!std::isfinite(margin))
+      return 1.0 + owner.scaling_.square_distance(owner.result_.rho, x, 1.0, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
     for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
       gradient[k] = -by_rho[to_signed(k)] * owner.scaling_.range(k);
     return -margin;
-  }
-
-  // A constraint that is not finite counts as violated, with a value that grows with the distance
-  // from the best point.
-  double step_back_from_constraint(const std::vector<double>& x,
-                                   std::vector<double>* gradient) const {
-    return 1.0 + distance_from_best(x, 1.0, gradient);
   }
 
   static void inequality_callback(unsigned count, double* values, unsigned size, const double* x,
@@ -260,8 +254,7 @@ class Minimization {
     // Some line searches of NLopt continue to call after a forced stop.
     if (trials_.interrupted()) throw nlopt::forced_stop();
     const Eigen::VectorXd rho = design(x);
-    // An algorithm at its bounds may ask for the same point again, and constraints are asked for
-    // after the objective.
+    // Algorithms ask for the same point again: at their bounds, and for constraints.
     if (rho.size() != trials_.last_rho().size() || rho != trials_.last_rho()) evaluate(rho);
   }
 
@@ -285,21 +278,9 @@ class Minimization {
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
     if (!trials_.have_best()) throw std::runtime_error("the start could not be evaluated");
     const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
-    return (worst_ + weight * (1.0 + distance_from_best(x, weight / unit_, gradient))) / unit_;
-  }
-
-  /// Squared distance from the best point in scaled variables. @param gradient if not empty, set to
-  /// `weight` times its derivative.
-  double distance_from_best(const std::vector<double>& x, double weight,
-                            std::vector<double>* gradient) const {
-    const std::vector<double> best = scaling_.to_scaled(result_.rho);
-    double distance = 0.0;
-    for (std::size_t k = 0; k < best.size(); ++k) {
-      const double d = x[k] - best[k];
-      distance += d * d;
-      if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d;
-    }
-    return distance;
+    return (worst_ +
+            weight * (1.0 + scaling_.square_distance(result_.rho, x, weight / unit_, gradient))) /
+           unit_;
   }
 
   const Study& study_;
@@ -355,8 +336,7 @@ class Search {
           had_best &&
           (before - result_.objective > options_.relative_tolerance * std::abs(result_.objective) ||
            trials_.best_violation() < 0.9 * outside);
-      // Least squares do not know the constraints: begun again at the best point, they would leave
-      // them again.
+      // Least squares do not know the constraints, and would leave them again.
       const bool leaves_constraints = is_least_squares(last_) && !study_.constraints.empty();
       const bool begins_anew = trials_.have_best() && !leaves_constraints && (k == 0 || has_gained);
       if (!begins_anew && ++algorithm == algorithms_.size()) break;

@@ -22,10 +22,10 @@
 namespace codesign {
 namespace {
 
-constexpr std::uint32_t kRounds =
-    10;  // of screening, after which unusable points are no longer replaced
-constexpr int kPart =
-    1024;  // points that are in memory at the same time while screening, and at least 16 per worker
+// Of screening, after which unusable points are no longer replaced.
+constexpr std::uint32_t kRounds = 10;
+// Points that are in memory at the same time while screening, and at least 16 per worker.
+constexpr int kPart = 1024;
 
 /// A point that may become the start of a search.
 struct Candidate {

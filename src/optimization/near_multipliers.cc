@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "math/arrays.h"
 #include "math/dense.h"
@@ -14,13 +13,12 @@ namespace codesign {
 namespace {
 
 using Eigen::Index;
-
 constexpr double kNear = 1e-6;     // of the length of a direction
 constexpr Index kMostNear = 10;    // near inequalities per variable; more count as kNear away
 constexpr int kMostRounds = 100;   // of Newton's method, which takes about ten
 constexpr int kMostHalvings = 30;  // of its steps
-constexpr int kRefinements = 2;  // of the multipliers of far rows: each reduces their error by the
-                                 // rounding of r over kNear squared
+// Of the multipliers of far rows: each reduces their error by the rounding of r over kNear squared.
+constexpr int kRefinements = 2;
 constexpr double kLeastShare = 1e-4;        // of the slope that a step must gain
 constexpr double kRoundingOfValue = 1e-24;  // of |g|^2
 
@@ -180,9 +178,8 @@ class NewtonSearch {
 };
 
 using Eigen::Index;
-
-constexpr double kNoGain =
-    1e-12;  // a multiplier that would reduce the residual by less is left out
+// A multiplier that would reduce the residual by less is left out.
+constexpr double kNoGain = 1e-12;
 
 }  // namespace
 
@@ -192,7 +189,6 @@ Multipliers least_multipliers(const Eigen::VectorXd& gradient, const std::vector
 }
 
 using Eigen::Index;
-
 FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vector<std::size_t> far,
                  Eigen::VectorXd distances)
     : variables_(variables),

@@ -61,4 +61,16 @@ double Scaling::free_gradient_norm(const Eigen::VectorXd& rho,
   return gradient_norm(free);
 }
 
+double Scaling::square_distance(const Eigen::VectorXd& rho, const std::vector<double>& x,
+                                double weight, std::vector<double>* gradient) const {
+  const std::vector<double> from = to_scaled(rho);
+  double distance = 0.0;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const double d = x[k] - from[k];
+    distance += d * d;
+    if (!gradient->empty()) (*gradient)[k] = 2.0 * weight * d;
+  }
+  return distance;
+}
+
 }  // namespace codesign

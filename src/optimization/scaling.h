@@ -35,6 +35,10 @@ class Scaling {
   double gradient_norm(const Eigen::VectorXd& gradient) const;
   /// The same without components of parameters at a bound beyond which the objective falls.
   double free_gradient_norm(const Eigen::VectorXd& rho, const Eigen::VectorXd& gradient) const;
+  /// Squared distance of x from the scaled rho, over the parameters alone. @param gradient if not
+  /// empty, set to `weight` times its derivative by x.
+  double square_distance(const Eigen::VectorXd& rho, const std::vector<double>& x, double weight,
+                         std::vector<double>* gradient) const;
 
  private:
   const Study& study_;

@@ -13,8 +13,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kEqual =
-    1e-6;  // relative to the value, or to its standard deviation if that is larger
+// Relative to the value, or to its standard deviation if that is larger.
+constexpr double kEqual = 1e-6;
 
 /// Whether a number of the model, the study or the changes of a run depends on a parameter.
 bool is_used(const Study& study, int index) {
@@ -26,8 +26,8 @@ bool is_used(const Study& study, int index) {
 }
 
 constexpr double kTolerated = 0.1;  // of the range of the way-points
-constexpr int kSamplesPerInterval =
-    64;  // an extremum is found to about 1e-3 of its distance from the way-points
+// An extremum is found to about 1e-3 of its distance from the way-points.
+constexpr int kSamplesPerInterval = 64;
 
 /// A number with the time at which a function has it.
 struct Extremum {

@@ -140,4 +140,12 @@ void load_lanes(const IncrementLayout& at, const State<double>& values,
   load(values.z, at.z(), &state->z);
 }
 
+/// Sum of squares of `size` components from `first` on, for each direction.
+template <int N>
+Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int size) {
+  Eigen::Array<double, N, 1> sum = Eigen::Array<double, N, 1>::Zero();
+  for (int k = first; k < first + size; ++k) sum += x.col(k).array().square();
+  return sum;
+}
+
 }  // namespace codesign

@@ -11,18 +11,6 @@
 #include "sparse/sparsity.h"
 
 namespace codesign {
-namespace {
-
-/// Sum of squares of `size` components from `first` on, for each direction.
-template <int N>
-Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int size) {
-  Eigen::Array<double, N, 1> sum = Eigen::Array<double, N, 1>::Zero();
-  for (int k = first; k < first + size; ++k) sum += x.col(k).array().square();
-  return sum;
-}
-
-}  // namespace
-
 template <int N>
 TangentEquations<N>::TangentEquations(const CompiledSystem& system)
     : layout_(system.layout()), at_(layout_), equations_(system) {

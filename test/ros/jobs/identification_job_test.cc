@@ -102,8 +102,8 @@ TEST_F(IdentificationJobTest, TheBagHoldsWhatWasMeasuredBesideWhatTheModelSays) 
   ASSERT_EQ(sides[1].size(), 100U);
   const SwingingRig rig;
   for (std::size_t k = 2; k < 99; ++k) {
-    const double t =
-        0.02 + 0.05 * static_cast<double>(k);  // four samples at the ends are not fitted
+    // Four samples at the ends are not fitted.
+    const double t = 0.02 + 0.05 * static_cast<double>(k);
     EXPECT_NEAR(sides[0][k]->effort.at(0), rig.torque(t), 1e-5);
     EXPECT_NEAR(sides[1][k]->effort.at(0), rig.torque(t), 1e-2);
     EXPECT_NEAR(sides[1][k]->position.at(0), rig.position(t), 1e-5);

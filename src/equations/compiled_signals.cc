@@ -1,0 +1,95 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// What CompiledEquations evaluates beside the motion: signals, residuals of the objective, starts
+// and controllers.
+#include <complex>
+
+#include "codegen/number_types.h"
+#include "equations/code_inputs.h"
+#include "equations/compiled_equations.h"
+#include "math/arrays.h"
+
+namespace codesign {
+
+template <class T>
+T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state) {
+  T value(0.0);
+  run(function, state, {{&value, 1}, {}, {}, {}});
+  return value;
+}
+
+template <class T>
+void CompiledEquations<T>::residuals(EquationFunction function, const State<T>& state,
+                                     std::size_t size, VectorX<T>* residuals) {
+  residuals->resize(to_signed(size));
+  run(function, state, {*residuals, {}, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::place(const VectorX<T>& theta, const VectorX<T>& theta_rate,
+                                 State<T>* state) {
+  run(EquationFunction::kPlacement, 0.0, state->turns, {theta, theta_rate, {}, {}},
+      {state->q, state->v, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::track_turns(State<T>* state) {
+  entries_.resize(to_index(system_.layout().drop_slot));
+  run(EquationFunction::kTurns, *state, {entries_, {}, {}, {}});
+  for (std::size_t k = 0; k < entries_.size(); ++k) state->turns[k] = value_of(entries_[k]);
+}
+
+template <class T>
+T CompiledEquations<T>::controller_error(int controller, const State<T>& state) {
+  return signal(controller_function(controller, ControllerFunction::kError), state);
+}
+
+template <class T>
+T CompiledEquations<T>::sample(int controller, bool is_first, State<T>* state) {
+  T output(0.0);
+  s_.resize(state->s.size());
+  run(controller_function(
+          controller, is_first ? ControllerFunction::kFirstSample : ControllerFunction::kSample),
+      *state, {{&output, 1}, s_, {}, {}});
+  state->s = s_;
+  return output;
+}
+
+template <class T>
+T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
+                               SparseGradient<T>* gradient) {
+  const Layout& layout = system_.layout();
+  const int velocity = layout.positions(), rate = velocity + layout.n,
+            time = rate + layout.columns();
+  entries_.resize(to_index(time) + 1);
+  T value(0.0);
+  run(with_gradient(function), state, {{&value, 1}, entries_, {}, {}});
+  gradient->clear();
+  const std::vector<int>& columns =
+      variants_[current_].code().gradient_columns(with_gradient(function));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const int c = columns[k];
+    if (c < velocity)
+      gradient->position.push_back({c, entries_[k]});
+    else if (c < rate)
+      gradient->velocity.push_back({c - velocity, entries_[k]});
+    else if (c < time)
+      gradient->rate.push_back({c - rate, entries_[k]});
+    else
+      gradient->time = entries_[k];
+  }
+  return value;
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                                   \
+  template T CompiledEquations<T>::signal(EquationFunction, const State<T>&);                     \
+  template T CompiledEquations<T>::signal(EquationFunction, const State<T>&, SparseGradient<T>*); \
+  template void CompiledEquations<T>::residuals(EquationFunction, const State<T>&, std::size_t,   \
+                                                VectorX<T>*);                                     \
+  template void CompiledEquations<T>::place(const VectorX<T>&, const VectorX<T>&, State<T>*);     \
+  template void CompiledEquations<T>::track_turns(State<T>*);                                     \
+  template T CompiledEquations<T>::controller_error(int, const State<T>&);                        \
+  template T CompiledEquations<T>::sample(int, bool, State<T>*);
+CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign
