@@ -75,7 +75,8 @@ double quantile(const Distribution& distribution, double u) {
       break;
   }
   const std::size_t size = distribution.choices.size();
-  return distribution.choices[std::min(static_cast<std::size_t>(u * static_cast<double>(size)), size - 1)];
+  return distribution
+      .choices[std::min(static_cast<std::size_t>(u * static_cast<double>(size)), size - 1)];
 }
 
 }  // namespace codesign
