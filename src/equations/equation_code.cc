@@ -121,7 +121,8 @@ void EquationCode::record_motion(EquationPart part, RecordedEquations* equations
   for (EquationFunction function : {EquationFunction::kLinearization, EquationFunction::kRates,
                                     EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
-  if (rates_only && system_.layout().m == 0 && is_affine(values_.recording, at(EquationFunction::kRates).guards, d.rate, equations->g))
+  if (rates_only && system_.layout().m == 0 &&
+      is_affine(values_.recording, at(EquationFunction::kRates).guards, d.rate, equations->g))
     record_accelerations(d.rate, equations);
 }
 

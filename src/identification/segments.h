@@ -53,7 +53,7 @@ struct SegmentSolution {
   // Only for kElimination.
   Eigen::MatrixXd jacobian;  ///< derivatives of these residuals by x, the start following x: (times
                              ///< outputs) x variables, output 0 first
-  Eigen::MatrixXd slope;  ///< derivative of minus the best start by x
+  Eigen::MatrixXd slope;     ///< derivative of minus the best start by x
   int runs = 0,
       whole_runs = 0;  ///< number of simulations, and of these the number with all derivatives
 };

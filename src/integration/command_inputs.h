@@ -18,7 +18,7 @@ struct CommandOptions {
       joints;                             ///< joints that take efforts; nullopt: drivable_joints()
   std::vector<std::string> disconnected;  ///< controllers whose output is not applied; inverse
                                           ///< dynamics then give only the feedback part
-  std::optional<double> duration;  ///< duration of the run [s] in place of the study's
+  std::optional<double> duration;         ///< duration of the run [s] in place of the study's
   double rate =
       0.0;  ///< instants at which commands may take effect, per second: each one ends a step
 };

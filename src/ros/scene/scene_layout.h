@@ -53,7 +53,7 @@ struct Stage {
       Eigen::Vector3d::Zero();  ///< middle of the text's first line, at the top of the picture [m]
   Eigen::Vector3d label = Eigen::Vector3d::Zero();  ///< place of a mechanism's name, above it in
                                                     ///< the picture, relative to its root link [m]
-  double letter = 0.0;  ///< height of the letters of names [m]
+  double letter = 0.0;                              ///< height of the letters of names [m]
 };
 
 /// @param places of the root links. @param lines number of lines of the text; 0: none.
