@@ -146,7 +146,8 @@ bool Excitation::move_within(Eigen::VectorXd* x) {
 Status Excitation::find_told() {
   const double rate = description_.sample_rate;
   const std::vector<double> times = times_in_period(
-      description_.period, std::min<Eigen::Index>(400, to_signed(description_.period * rate)));
+      description_.period,
+      std::min<Eigen::Index>(400, static_cast<Eigen::Index>(description_.period * rate)));
   const SampledShapes shapes(space_.basis(), times);
   Eigen::MatrixXd stacked(0, variables_.size());
   for (int k = -1; k < kTold; ++k) {

@@ -70,13 +70,9 @@ void add_signals(const JointDescription& joint, const Ranges& ranges, bool is_fo
   }
 }
 
-const JointDescription& joint_named(const RobotDescription& robot, const std::string& name) {
-  return *std::find_if(robot.joints.begin(), robot.joints.end(),
-                       [&](const JointDescription& joint) { return joint.name == name; });
-}
-
 void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimits* limits) {
-  const JointDescription& joint = joint_named(problem.robot(), excited.limits.joint);
+  const RobotDescription& robot = problem.robot();
+  const JointDescription& joint = robot.joints[to_index(joint_named(robot, excited.limits.joint))];
   const Ranges ranges = ranges_of(joint, problem.parameters(), &excited.limits);
   require_room(joint, ranges, excited.limits.where, excited.limits.element);
   if (!std::isfinite(ranges.upper[to_index(Kind::kVelocity)]))

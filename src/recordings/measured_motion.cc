@@ -144,7 +144,7 @@ UniformTimes uniform_times(const std::vector<double>& times) {
   UniformTimes uniform;
   uniform.start = times.front();
   uniform.step = (times.back() - times.front()) / periods;
-  uniform.count = to_signed(periods) + 1;
+  uniform.count = static_cast<std::ptrdiff_t>(periods) + 1;
   double off = 0.0;
   for (std::size_t k = 0; k < times.size(); ++k)
     off = std::max(off, std::abs(times[k] - uniform.at(to_signed(k))));

@@ -148,7 +148,7 @@ Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths
 double empirical_quantile(Eigen::VectorXd values, double fraction) {
   std::sort(values.begin(), values.end());
   const double place = fraction * static_cast<double>(values.size() - 1);
-  const auto below = to_signed(place);
+  const auto below = static_cast<std::ptrdiff_t>(place);
   const Eigen::Index above = std::min(below + 1, values.size() - 1);
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
