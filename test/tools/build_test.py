@@ -104,7 +104,7 @@ class SanitizeTest(unittest.TestCase):
 
     def test_every_test_of_threads_exists(self):
         names = words_of(r"set\(thread_tests ([^)]*)\)", "cmake", "Tests.cmake")
-        self.assertIn("ros/worker", names)
+        self.assertIn("ros/common/worker", names)
         self.assertEqual([name for name in names if not os.path.isfile(os.path.join(ROOT, "test", name + "_test.cc"))], [])
 
 
