@@ -11,11 +11,10 @@ constexpr const char* kRankProgram = "--rank-program";
 
 /// What such a program measures, printed by rank 0 as numbers in one line:
 /// - "gradient", over 32 samples: wall time, processor time of rank 0, and of the evaluations of
-/// all ranks [s];
+///   all ranks [s];
 /// - "messages": of a task that costs nothing: processor time of the dispatcher and of the caller
-/// [s], and the time until it is answered
-///   if it is the only one [s]; then the sizes of the messages with a task, a result and a problem
-///   [bytes].
+///   [s], and the time until it is answered if it is the only one [s]; then the sizes of the
+///   messages with a task, a result and a problem [bytes].
 /// @returns the exit code.
 int run_rank_program(const std::string& what);
 

@@ -28,9 +28,9 @@ add_library(codesign_test_settings INTERFACE)
 target_include_directories(codesign_test_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/test)
 target_link_libraries(codesign_test_settings INTERFACE codesign_core GTest::gtest SUNDIALS::idas NLopt::nlopt codesign_klu tinyxml2::tinyxml2
   console_bridge::console_bridge yaml-cpp nlohmann_json::nlohmann_json)
-# A quarter less time to compile; the code under test is optimized all the same.
+# The least time to compile; the code under test is optimized all the same.
 if(CMAKE_BUILD_TYPE STREQUAL Release OR CODESIGN_SANITIZE)
-  target_compile_options(codesign_test_settings INTERFACE -O1)
+  target_compile_options(codesign_test_settings INTERFACE -O0)
 endif()
 # Fixtures that several rooms' tests share.
 add_library(codesign_test_fixtures STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/test/equations/equations_fixture.cc ${PROJECT_SOURCE_DIR}/benchmark/mechanisms.cc)

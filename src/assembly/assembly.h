@@ -17,8 +17,6 @@
 
 namespace codesign {
 
-class CompiledSystem;
-
 template <class T>
 class Equations;
 
@@ -272,9 +270,9 @@ class Assembly {
   Origin origin_;
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
-  IterationMatrix
-      matrix_;  ///< factored at the last solution of solve_rates() unless that has mass factors
-  /// Of that solution, if an expression gave it, with these values.
+  /// Factored at the last solution of solve_rates(), unless that has mass factors.
+  IterationMatrix matrix_;
+  /// The factors of that solution if an expression gave it, and their values.
   const MassFactor* factor_ = nullptr;
   std::vector<double> factor_values_;
   VectorX<double> residual_;  ///< workspace of solve_rates()

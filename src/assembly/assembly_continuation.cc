@@ -274,8 +274,6 @@ void Assembly::warn_of_branch(const char* code, const std::string& message,
                   design_text(system_.study(), parameters), ""}));
 }
 
-// The checks of Assembly on the velocities, and from rest the accelerations, of the start.
-
 // The message names the joints with a given velocity that appear in a violated row.
 Status Assembly::contradiction() {
   const VectorX<double>& left = work_.left;

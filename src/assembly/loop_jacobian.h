@@ -12,7 +12,6 @@
 namespace codesign {
 
 class CompiledSystem;
-
 template <class T>
 class Equations;
 

@@ -19,7 +19,7 @@ constexpr double kIsMotion = 1e-3;  // allowed norm of L^T (J x)_theta x, relati
 // Step [rad or m] of the fourth-order differences, whose error is about 1e-12.
 constexpr double kDifference = 1e-3;
 constexpr int kIterations = 50;
-// Entries of J; a larger J is not analysed, since its QR factorization is dense.
+// Number of entries of J; a larger J is not analysed, since its QR factorization is dense.
 constexpr Eigen::Index kLargest = 250000;
 
 }  // namespace

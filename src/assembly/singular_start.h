@@ -10,7 +10,6 @@
 namespace codesign {
 
 class CompiledSystem;
-
 template <class T>
 class Equations;
 

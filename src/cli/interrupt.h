@@ -12,8 +12,8 @@ void watch_interrupts();
 /// From now on the first SIGINT or SIGTERM sets interrupted(), and a second one ends the program.
 /// Called when there are results to keep.
 void keep_results();
-/// Whether the program was interrupted after keep_results().
 
+/// Whether the program was interrupted after keep_results().
 const std::atomic<bool>& interrupted();
 
 }  // namespace codesign::cli

@@ -15,9 +15,8 @@ namespace codesign {
 class Traced {
  public:
   Traced() = default;
-  Traced(double literal)
-      : value_(literal) {
-  }  // NOLINT(google-explicit-constructor): numbers mix with traces in every formula
+  // NOLINTNEXTLINE(google-explicit-constructor): numbers mix with traces in every formula.
+  Traced(double literal) : value_(literal) {}
   /// @param value of a node that does not vary: its value for the design for which the recording is
   /// made.
   Traced(Recording* recording, int node, double value = 0.0)
@@ -65,7 +64,7 @@ Traced atan2(const Traced& y, const Traced& x);
 Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
 inline Traced nearest_integer(const Traced& x) { return round(x); }
-/// As nearest_turns() in math/elementary.h, also for a reference that varies.
+/// As nearest_turns() in math/scalar.h, also for a reference that varies.
 inline Traced nearest_turns(const Traced& reference, const Traced& angle) {
   return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI));
 }

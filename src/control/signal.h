@@ -8,11 +8,8 @@
 namespace codesign {
 
 struct ControllerDescription;
-struct SignalDescription;
-struct MotionStudy;
-
 struct RobotDescription;
-
+struct SignalDescription;
 struct Topology;
 
 /// The quantity that one term of a signal reads; doc/study.md describes them.

@@ -79,8 +79,9 @@ constexpr std::array<const char*, 4> kRobustMeasureNames{"mean", "worst", "cvar"
 /// The treatment of a sample that cannot be integrated.
 enum class FailedSamples {
   kRefuse,  ///< the trial point is refused
-  kTail  ///< the sample counts as the worst of the others, with its weight; at most the fraction 1
-         ///< - level may fail
+  /// The sample counts as the worst of the others, with its weight; at most the fraction
+  /// (1 - level) may fail.
+  kTail
 };
 constexpr std::array<const char*, 2> kFailedSamplesNames{"refuse", "tail"};
 

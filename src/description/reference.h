@@ -92,9 +92,8 @@ struct LiveDescription {
 struct ReferenceDescription {
   enum class Kind { kConstant, kSine, kWaypoints, kSampled, kLive };
 
-  ReferenceDescription(Quantity value = 0.0)
-      : constant(std::move(value)) {
-  }  // NOLINT(google-explicit-constructor): a number is a constant reference
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is a constant reference.
+  ReferenceDescription(Quantity value = 0.0) : constant(std::move(value)) {}
   ReferenceDescription(double value) : constant(value) {}  // NOLINT(google-explicit-constructor)
 
   Kind kind = Kind::kConstant;

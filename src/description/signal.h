@@ -33,8 +33,7 @@ SignalDescription parse_signal(const std::string& text, const SourceLocation& wh
                                const std::string& element);
 
 /// A signal whose extreme values within an interval of time count: in a constraint (`path:`,
-/// `final:`) or in the objective
-/// (`objective.peak`); theory (21a).
+/// `final:`) or in the objective (`objective.peak`); theory (21a).
 struct WatchedSignal {
   enum class Role {
     kPath,   ///< lower <= signal - reference <= upper at all times from `after` to `before`

@@ -135,8 +135,7 @@ void bristle_residual(const StateView<T>& view, const BristleContact& contact, V
 }
 
 // Isotropic friction of tables, planar and spherical joints, theory (13a). The loads L_k oppose the
-// slip rates, so the rows of motion get
-// + sum of J_k^T L_k over the slip coordinates k.
+// slip rates, so the sum of J_k^T L_k over the slip coordinates k is added to the rows of motion.
 
 /// Slip, normal force and loads of a pair among System::contacts() at the loaded state: L = arm
 /// sigma N u plus the viscous part, with sigma = S(|u|)/|u|, or L = arm mu N for a law with states,

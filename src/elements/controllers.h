@@ -6,9 +6,8 @@
 #include "forces/control_law.h"
 #include "math/arrays.h"
 
-namespace codesign {
-
 // The control laws, theory (C1)-(C8) and (50).
+namespace codesign {
 
 // Defined in elements/signals.h. Declared here because controllers read signals and signals read
 // controllers.

@@ -51,9 +51,8 @@ T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& ra
 }
 
 // Loads along joint coordinates [N or N m], theory (13). A load L is positive against the
-// coordinate, so that the rows of motion get
-// + J^T L; an effort (of a controller, or a constant one) is positive along the coordinate and
-// counts as -L.
+// coordinate, so that J^T L is added to the rows of motion; an effort (of a controller, or a
+// constant one) is positive along the coordinate and counts as -L.
 
 /// The sum of the study's constant efforts on a coordinate, theory (13g).
 template <class T>

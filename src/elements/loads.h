@@ -65,8 +65,8 @@ void add_slip_load(const StateView<T>& view, Workspace<T>* workspace, int pair,
   for (std::size_t k = 0; k < constants.steps.size(); ++k) (*G)[c + static_cast<int>(k)] += rows[k];
 }
 
-// Spring-dampers between two points, theory (13b). The force F, which acts with + on body i and -
-// on body j, enters the equations as the load of a multiplier does, theory (7).
+// Spring-dampers between two points, theory (13b). F acts on body i and -F on body j; it enters the
+// equations as the load of a multiplier does, theory (7).
 
 /// The force of the k-th spring-damper of the model at the loaded state.
 template <class T>

@@ -4,9 +4,8 @@
 #include "elements/state_view.h"
 #include "math/arrays.h"
 
-namespace codesign {
-
 // The normal force N in the bearing of a joint, computed from its reaction; theory (11), (12).
+namespace codesign {
 
 // Defined in elements/forest.h. Declared here because loads on bodies, of which it consists, may
 // read normal forces of cut pairs.

@@ -15,9 +15,7 @@
 namespace codesign {
 
 class CompiledSystem;
-
 class CompressedJacobian;
-class EquationCode;
 template <class T>
 class CodeInputs;
 struct MassFactor;

@@ -11,7 +11,6 @@
 namespace codesign {
 
 class CompiledSystem;
-
 template <class T>
 class Formulas;
 template <class T>

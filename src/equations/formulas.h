@@ -14,10 +14,10 @@ namespace codesign {
 
 /// The equations of motion G(q, v, s, t; z) = 0 of one mechanism and study, evaluated element by
 /// element; doc/theory.md (14):
-///   rows 0 to n-1:      M a + Phi_q^T lambda - Q - Q_Af    [N on r, N m on p]
-///   rows n to n+m-1:    Phi_q a + (Phi_q v)_q v            with redundant constraints the rows of
-///   theory (23), then those of (23b) rows n+m to end:    sigma - s' integrals of controllers, then
-///   states of friction laws
+///   rows 0 to n-1:    M a + Phi_q^T lambda - Q - Q_Af  [N on r, N m on p]
+///   rows n to n+m-1:  Phi_q a + (Phi_q v)_q v; with redundant constraints the rows of theory (23),
+///                     then those of (23b)
+///   rows n+m to end:  sigma - s': integrals of controllers, then states of friction laws
 /// Layout gives the place of each row and of each unknown of z = (a, lambda, sigma).
 ///
 /// T is the scalar: Traced to record the operations, from which everything that integrators and

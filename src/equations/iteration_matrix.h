@@ -12,7 +12,6 @@
 namespace codesign {
 
 class CompiledSystem;
-
 class LazyStraightLine;
 
 /// The square matrix of every implicit solve for z = (a, lambda, sigma), with its LU factorization:

@@ -71,7 +71,7 @@ Eigen::MatrixXd ExcitationProgram::by_motion(const LimitedSignal& signal,
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3 * n, by_z.size());
   const Eigen::VectorXd by_value = by_z / signal.half();
   if (!is_response(signal)) {
-    by.row(static_cast<Eigen::Index>(signal.kind) * n + signal.joint) = by_value;
+    by.row(to_signed(signal.kind) * n + signal.joint) = by_value;
     return by;
   }
   const Eigen::MatrixXd& slopes = !signal.is_follower              ? slopes_.effort

@@ -11,9 +11,9 @@
 
 namespace codesign {
 
-/// A smooth bound above the largest |z_i| - 1: m + log(sum exp(s(z_i - m)) + exp(s(-z_i - m))) / s
-/// - 1 with m the largest |z_i|; it exceeds that maximum by at most log(2 N) / s. doc/theory.md
-/// (47).
+/// A smooth bound above the largest |z_i| - 1, doc/theory.md (47):
+///   m + log(sum exp(s(z_i - m)) + exp(s(-z_i - m))) / s - 1
+/// with m the largest |z_i|; it exceeds that maximum by at most log(2 N) / s.
 /// @param by_z may be null; else receives the derivatives.
 double limit_envelope(const Eigen::VectorXd& z, double sharpness, Eigen::VectorXd* by_z);
 

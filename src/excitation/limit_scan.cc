@@ -14,9 +14,9 @@ using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kScanPerWave = 64;
 constexpr int kRounds = 14;  // each round halves the intervals beside a peak, and reduces the error
                              // of the peak to a quarter
-constexpr double kMissed = 1e-11;    // peaks between the times that rise less do not count
-constexpr double kFarOutside = 1e6;  // beyond it a peak's exact height does not matter, and
-                                     // differences of heights may be no numbers
+constexpr double kMissed = 1e-11;  // peaks between the times that rise less do not count
+// Beyond it a peak's exact height does not matter, and differences of heights may be no numbers.
+constexpr double kFarOutside = 1e6;
 // Target of fit(): the errors of peaks are smaller than the remainder.
 constexpr double kKept = 1.0 - 1e-8;
 // Smallest factor of fit(): smaller motions determine nothing.

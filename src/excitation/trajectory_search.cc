@@ -14,9 +14,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kSharpness[] = {60.0,
-                                 600.0};  // of the envelopes in the first and the second search
-// Of the criterion, which is a logarithm: this change is 5 millionths of the volume.
+// Sharpness of the envelopes in the first and the second search.
+constexpr double kSharpness[] = {60.0, 600.0};
+// Tolerance of the criterion, which is a logarithm: this change is 5 millionths of the volume.
 constexpr double kTolerance = 1e-5;
 constexpr double kRowTolerance = 1e-7;
 constexpr double kInside = 0.999, kFarBeyond = 3.0;  // of the limits

@@ -10,8 +10,6 @@
 
 namespace codesign {
 
-class ExcitedMotion;
-
 /// All shapes at given times, times x shapes.
 struct SampledShapes {
   SampledShapes(const TrajectoryBasis& basis, const std::vector<double>& times);

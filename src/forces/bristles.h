@@ -36,8 +36,9 @@ Vector3<T> cut_off(const Vector3<T>& x, const T& limit) {
 /// (13e). A share s = exp(-u.u/v_s^2) of the contact rests and is a spring and a damper (sigma_0,
 /// sigma_1); the rest slides. The largest friction grows with the dwell state s_dw from mu_d to
 /// mu_s. With zeta = sigma_0 z, c = mu_d dir(u) and f = s (zeta + sigma_1 u) + (1 - s) c:
-///   mu = f cut off at mu_d + (mu_s - mu_d) s_dw,   zeta' = sigma_0 s u + (1 - s) sigma_0/sigma_1
-///   (c - zeta), s_dw' = (s - s_dw)/tau with tau = tau_dw if s >= s_dw, else sigma_1/sigma_0.
+///   mu = f cut off at mu_d + (mu_s - mu_d) s_dw,
+///   zeta' = sigma_0 s u + (1 - s) sigma_0/sigma_1 (c - zeta),
+///   s_dw' = (s - s_dw)/tau with tau = tau_dw if s >= s_dw, else sigma_1/sigma_0.
 /// mu and the rates are continuous; their derivatives jump where the cut begins and where tau
 /// changes.
 /// @param u slip velocity [m/s]; with one slip direction only u[0] is used, the others are zero.
@@ -64,8 +65,8 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state,
 
 /// LuGre friction of Canudas de Wit, Olsson, Astrom and Lischinsky (1995) per unit of normal force,
 /// equal in all directions; doc/theory.md (13f):
-///   zeta' = sigma_0 (u - |u|/g zeta),   g = mu_d + (mu_s - mu_d) exp(-u.u/v_s^2),   mu = zeta +
-///   sigma_1/sigma_0 zeta',
+///   zeta' = sigma_0 (u - |u|/g zeta),   g = mu_d + (mu_s - mu_d) exp(-u.u/v_s^2),
+///   mu = zeta + sigma_1/sigma_0 zeta',
 /// with zeta = sigma_0 z. In steady sliding |mu| = g. At rest, where |u| has no derivative, its
 /// derivative is set to zero. g must not vanish.
 /// @param u slip velocity [m/s]; with one slip direction only u[0] is used, the others are zero.

@@ -30,9 +30,9 @@ T translational_normal_force(const Vector3<T>& F, const Vector3<T>& torque,
   return n1x + n1y + n2x + n2y + 2.0 * n3x + c.preload;
 }
 
-/// Pin of a cylindrical joint, theory (12): N = (pi^3/24) (sqrt(f1x^2 + f1y^2 + eps^2) + sqrt(f2x^2
-/// + f2y^2 + eps^2)) + preload, from Haug's parabolic distribution of pressure. It does not depend
-/// on the choice of x''.
+/// Pin of a cylindrical joint, theory (12):
+///   N = (pi^3/24) (sqrt(f1x^2 + f1y^2 + eps^2) + sqrt(f2x^2 + f2y^2 + eps^2)) + preload,
+/// from Haug's parabolic distribution of pressure. It does not depend on the choice of x''.
 template <class T>
 T pin_normal_force(const Vector3<T>& F, const Vector3<T>& torque, const FrictionConstants<T>& c) {
   using std::sqrt;

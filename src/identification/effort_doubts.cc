@@ -19,7 +19,7 @@ constexpr int kSamples = 400;     // per recording
 constexpr double kClearly = 0.2;  // by which a mended mistake must explain more
 // A model as it stands may be wrong by this factor without a doubt about units.
 constexpr double kUsualScale = 4.0;
-// Of the root mean square: variation below this counts as this much.
+// Variation below this share of the root mean square counts as this much.
 constexpr double kSmallestMean = 0.1;
 
 /// Efforts of all joints as recorded and as the model as it stands needs them, with the motion;

@@ -15,10 +15,10 @@
 namespace codesign {
 namespace {
 
-constexpr double kNearBound = 1e-9;     // of the range, or of the magnitude: a number nearer to its
-                                        // bound than this is on the bound
-constexpr double kHoldoutFactor = 1.5;  // times the residuals of the fitted data: a holdout with
-                                        // larger residuals is not explained
+constexpr double kNearBound = 1e-9;  // of the range, or of the magnitude: a number nearer to its
+                                     // bound than this is on the bound
+// A holdout is not explained if its residuals are larger than those of the fitted data times this.
+constexpr double kHoldoutFactor = 1.5;
 // Share of signal in the slope of a recorded effort below which a warning is given.
 constexpr double kSlopeSignal = 0.8;
 constexpr double kExplainsNothing = 0.1;  // share of an output below which a fit has failed

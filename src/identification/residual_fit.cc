@@ -20,12 +20,13 @@ namespace codesign {
 namespace {
 
 constexpr int kMostPasses = 10;
-// Of one residual: the least gain of a step of a fit with a prior,.
+// The least gain of a step of a fit with a prior, of one residual, or for each number that it
+// finds.
 constexpr double kLeastWorth = 0.1;
-constexpr double kWorthPerNumber = 0.01;  // or this for each number that it finds
-// Relative change of all spreads at which they count as settled,.
+constexpr double kWorthPerNumber = 0.01;
+// With a prior, spreads count as found at this relative change of all of them, or at this share of
+// the standard deviation of a spread.
 constexpr double kSpreadTolerance = 1e-3;
-// Or this share of the standard deviation of a spread, in a fit with a prior.
 constexpr double kSpreadShare = 0.1;
 // Of the root mean square at the start: the lower limit of a spread, for exact data.
 constexpr double kLeastSpread = 1e-9;

@@ -19,10 +19,10 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
-constexpr double kSettled = 1e-8;   // of the value: a start with a smaller promise is the best one
-constexpr double kPatience = 10.0;  // factor of kSettled with each run: the noise of step sizes
-                                    // makes promises that are not kept
-// Of the sum of squares of the recorded values: a simulation does not resolve less.
+constexpr double kSettled = 1e-8;  // of the value: a start with a smaller promise is the best one
+// Factor of kSettled with each run, since predictions of less are noise of step sizes.
+constexpr double kPatience = 10.0;
+// Share of the sum of squares of the recorded values that a simulation does not resolve.
 constexpr double kResolved = 1e-14;
 
 /// Columns scaled to length one, so that the rank does not depend on units.

@@ -20,8 +20,8 @@
 
 namespace codesign {
 
-/// The differences between SUNDIALS 6 and 7. All other names that are used here exist in both
-/// (sunrealtype, not realtype).
+// The differences between SUNDIALS 6 and 7. All other names that are used here exist in both
+// (sunrealtype, not realtype).
 
 /// Return value of a matrix or linear solver operation without error: SUNMAT_SUCCESS and
 /// SUNLS_SUCCESS in 6, SUN_SUCCESS in 7.

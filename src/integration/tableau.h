@@ -9,8 +9,8 @@ namespace codesign {
 
 /// Coefficients of a stiffly accurate Rosenbrock-Wanner method in Hairer's transformed variables;
 /// doc/theory.md (15):
-///   (M/(h gamma) - f_y) u_i = f(t + alpha_i h, y + sum_j a_ij u_j) + M sum_j (c_ij/h) u_j +
-///   gamma_i h f_t,
+///   (M/(h gamma) - f_y) u_i = f(t + alpha_i h, y + sum_j a_ij u_j)
+///                             + M sum_j (c_ij/h) u_j + gamma_i h f_t,
 /// with y_1 = y + sum_j m_j u_j (`weights`). The methods are stiffly accurate: the last rows of `a`
 /// and `weights` differ only by the last increment, which therefore is the error estimate.
 ///

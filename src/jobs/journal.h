@@ -16,9 +16,8 @@ namespace codesign {
 
 /// The file with all evaluations of a job, doc/study.md. Searches are deterministic given their
 /// evaluations, so that the same job with this memory continues where a killed job ended. Line 1
-/// identifies the job (journal_header.h), every further line is one evaluation
-/// (evaluation_record.h), written by one call as soon as it is finished. Lines stay in the file;
-/// the memory holds only their places.
+/// identifies the job, every further line is one evaluation (journal_lines.h), written by one call
+/// as soon as it is finished. Lines stay in the file; the memory holds only their places.
 ///
 /// A damaged line is not used, so that its evaluation is computed again and appended: a line whose
 /// checksum is wrong, whose numbers are not as many as this job has, or that contradicts another

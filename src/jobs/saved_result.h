@@ -55,11 +55,10 @@ std::string folder_of_job(const std::string& path);
 /// Opens the folder of a finished optimization and proves that its design was simulated:
 /// - result.json has no error, and the folder is complete;
 /// - the design is a trial point of convergence.csv, its other parameters have the values of
-/// initial.json, and tuned.urdf has the same
-///   values, each
-///   to the last bit; gains.yaml, if there is one, has the gains of this design;
+///   initial.json, and tuned.urdf has the same values, each to the last bit; gains.yaml, if there
+///   is one, has the gains of this design;
 /// - the objective, computed once more, equals the objective in result.json, within 1e-6 of itself
-/// plus 1e-9 of the initial objective.
+///   plus 1e-9 of the initial objective.
 /// @param path of the folder or of the bag beside it. @param loader as in load_problem(). @param
 /// cancel ends the simulation early.
 /// @throws InputError for files that are missing or cannot be read, and for parameters outside

@@ -21,7 +21,7 @@ constexpr std::size_t to_index(Integer k) {
 /// have them.
 template <class Integer>
 constexpr std::ptrdiff_t to_signed(Integer k) {
-  static_assert(std::is_integral_v<Integer>);
+  static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);
   return static_cast<std::ptrdiff_t>(k);
 }
 
@@ -109,8 +109,8 @@ struct LineAllocator {
 
   LineAllocator() = default;
   template <class U>
-  LineAllocator(const LineAllocator<U>&) {
-  }  // NOLINT(google-explicit-constructor): as containers convert allocators
+  // NOLINTNEXTLINE(google-explicit-constructor): as containers convert allocators.
+  LineAllocator(const LineAllocator<U>&) {}
 
   T* allocate(std::size_t count) {
     return static_cast<T*>(::operator new(count * sizeof(T), kLine));

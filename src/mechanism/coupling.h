@@ -10,7 +10,6 @@
 namespace codesign {
 
 struct RobotDescription;
-
 struct Topology;
 
 /// One joint coordinate in a coupling, with the coefficient sign * factor.
@@ -54,8 +53,6 @@ std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topo
 /// @param joint index of a revolute, continuous or prismatic joint.
 /// @throws InputError if the joint moves only a link without `<inertial>`.
 Coupling drive_of(const RobotDescription& robot, const Topology& topology, int joint);
-
-struct Topology;
 
 /// The bodies that enter the inverse dynamics of a driven joint, theory (C4): the bodies that it
 /// moves and the bodies that carry it.

@@ -22,7 +22,7 @@
 namespace codesign {
 namespace {
 
-// Of screening, after which unusable points are no longer replaced.
+// Rounds of screening, after which unusable points are no longer replaced.
 constexpr std::uint32_t kRounds = 10;
 // Points that are in memory at the same time while screening, and at least 16 per worker.
 constexpr int kPart = 1024;

@@ -17,7 +17,8 @@ constexpr double kNear = 1e-6;     // of the length of a direction
 constexpr Index kMostNear = 10;    // near inequalities per variable; more count as kNear away
 constexpr int kMostRounds = 100;   // of Newton's method, which takes about ten
 constexpr int kMostHalvings = 30;  // of its steps
-// Of the multipliers of far rows: each reduces their error by the rounding of r over kNear squared.
+// Refinements of the multipliers of far rows, which each reduce their error by the rounding of r
+// over kNear squared.
 constexpr int kRefinements = 2;
 constexpr double kLeastShare = 1e-4;        // of the slope that a step must gain
 constexpr double kRoundingOfValue = 1e-24;  // of |g|^2

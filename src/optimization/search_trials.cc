@@ -16,11 +16,12 @@
 namespace codesign {
 namespace {
 
-// Computed for flat directions alone, where gradients go backward.
+// Most columns of the root, which is computed for flat directions alone where gradients go
+// backward.
 constexpr Eigen::Index kMostRootColumns = 40;
 constexpr double kStartCounts = 1e-3;  // the share of the slope at the start in the scale of (24j)
 constexpr double kMostSlope = 1e-3;    // beyond which a loose tolerance does not let a search end
-// Of that scale, so that to widen a bound by 1 % is worth a millionth.
+// Least multiplier that counts, in that scale: to widen a bound by 1 % is then worth a millionth.
 constexpr double kLeastMultiplier = 1e-4;
 
 }  // namespace

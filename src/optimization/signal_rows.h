@@ -12,10 +12,9 @@ namespace codesign {
 
 /// The worst case and the conditional value at risk of scenarios psi_i with weights w_i as smooth
 /// problems with slack variables y:
-///   worst:  minimize t              subject to psi_i <= t,            y = t
-///   CVaR:   minimize t + sum_i w_i z_i / (1 - level)
-///                                   subject to psi_i - t <= z_i, z_i >= 0,   y = (t, z_1, ...,
-///                                   z_S)
+///   worst:  minimize t                                subject to psi_i <= t,    y = t
+///   CVaR:   minimize t + sum_i w_i z_i / (1 - level)  subject to psi_i - t <= z_i, z_i >= 0,
+///           y = (t, z_1, ..., z_S)
 /// (Rockafellar and Uryasev 2002). The other measures need no slack variables: variables() is 0.
 class SlackForm {
  public:

@@ -12,8 +12,8 @@ namespace codesign {
 /// The smooth problem that stands for a robust measure, peaks and constraints on signals; theory
 /// (24b)-(24d). Its variables are rho and slack variables: the variables of SlackForm, then one p
 /// per scenario and peak, for which
-///   psi_i = integral and terminal terms + sum_j weight_j p_ij,    |signal_j - reference_j| <= p_ij
-///   in scenario i.
+///   psi_i = integral and terminal terms + sum_j weight_j p_ij,
+///   |signal_j - reference_j| <= p_ij in scenario i.
 /// The units of all numbers are chosen at the start: the unit of each psi is the unit of the scaled
 /// objective, the unit of each p is its magnitude.
 class SmoothProgram {

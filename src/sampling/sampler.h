@@ -36,7 +36,7 @@ Eigen::MatrixXd sobol_points(int count, int dimension, std::uint32_t seed);
 /// i + 1) / count. kRandom: independent. A larger `count` adds rows to the same points with kSobol
 /// and kRandom; with kLatinHypercube all points are others.
 /// @param count 0 or more
-/// @param dimension 0 or more, with kSobol at most kMaxSobolDimension (sobol.h), otherwise
+/// @param dimension 0 or more, with kSobol at most kMaxSobolDimension, otherwise
 /// std::invalid_argument
 /// @return count x dimension
 Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uint32_t seed);

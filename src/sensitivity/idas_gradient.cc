@@ -91,8 +91,8 @@ const Linearization<double>& IdasTangent::linearize(const State<double>& state, 
 }
 
 // The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) equals the derivative of
-// Phi'' along (q, v + kappa q, a + 2 kappa v
-// + kappa^2 q), because (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
+// Phi'' along (q, v + kappa q, a + 2 kappa v + kappa^2 q), because (Phi'')_v = 2 (Phi')_q and
+// (Phi'')_a = (Phi')_v = Phi_q.
 void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
   const Layout& layout = system_.layout();
   directional_derivative(system_, derivatives_, direction, result);

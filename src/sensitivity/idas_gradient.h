@@ -16,8 +16,8 @@
 namespace codesign {
 
 /// The sensitivity equations that IDAS integrates; doc/theory.md (27):
-///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho, and the same for g; constraint rows
-///   are stabilized as in IdasEquations.
+///   0 = G_q q_rho + G_v v_rho + G_s s_rho + G_z z_rho + G_rho,
+/// and the same for g; constraint rows are stabilized as in IdasEquations.
 /// Derivatives by the state are analytic, derivatives by parameters come from lanes. Both are
 /// computed once per point, and every call of the corrector at this point uses them.
 class IdasTangent final : public IdasSensitivities {

@@ -58,8 +58,8 @@ class TangentEquations {
 ///
 /// The stage equation E u = -(G + G_q w_q + G_s w_s + G_v w_v) is differentiated including the
 /// derivative of E:
-///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v' + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z)
-///   u_z),
+///   E u' = -(G' + G_q w_q' + G_s w_s' + G_v w_v'
+///            + (dG_q) u_q + (dG_s) u_s + (dG_v) u_v + (dG_z) u_z),
 /// with dG_x the change of G_x along (y', e_k). E is solved with the factorization of the step. At
 /// the stages of an explicit pair, G = 0 gives G_z z' = -G' with G' at fixed z.
 template <int N>

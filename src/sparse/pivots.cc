@@ -29,8 +29,9 @@ struct Proposal {
 // thousands of rows, it may fill the matrix, without blocks even more than with them.
 constexpr Proposal kProposals[] = {
     {false, kColamd, 2}, {true, kColamd, 3}, {true, kAmd, 1}, {false, kAmd, 0}};
-constexpr double kHopeless = 4.0;  // AMD with blocks this much costlier than the best so far: AMD
-                                   // without blocks is not tried
+// Where AMD with blocks is this much costlier than the best so far, AMD without blocks is not
+// tried.
+constexpr double kHopeless = 4.0;
 // A diagonal entry is taken as pivot if it is at least this fraction of the largest of its column.
 // KLU's default, 1e-3, saves little fill, and pivots that are small at the start become unusable
 // after a few steps.

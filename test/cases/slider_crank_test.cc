@@ -11,7 +11,7 @@ TEST(SliderCrank, CountsAreThePapers) {
     expect_counts(Shipped(name), {21, 42, 1, 20, 62, 5, 310, 372});
 }
 
-// Objective and gradient are checked with both integrators in test/sensitivity/evaluation_test.cc.
+// Objective and gradient are checked with both integrators in test/allocation/evaluation_test.cc.
 TEST(SliderCrank, SeriesMeetTheReference) {
   expect_series(
       Shipped("slider_crank"),

@@ -39,12 +39,11 @@ constexpr OptionRange kTime{0.0,
                             "number out of range",
                             "a positive number of seconds, or 0 for none"};
 constexpr OptionRange kSeed{0.0, std::numeric_limits<int>::max()};
-// Smallest tolerances that double precision (rounding 1.1e-16) can meet: a relative error test
-// needs some hundred roundings, an absolute one the rounding of a position of 1 m, the objective a
-// few roundings of its own.
 constexpr OptionRange tolerance_from(double least) {
   return {least, 1.0, true, false, "tolerance out of range"};
 }
+// Smallest tolerances that double precision (rounding 1.1e-16) can meet: a relative error test
+// needs some hundred roundings, an absolute one the rounding of a position of 1 m.
 constexpr OptionRange kRelativeTolerance = tolerance_from(1e-13),
                       kAbsoluteTolerance = tolerance_from(1e-16);
 

@@ -59,7 +59,7 @@ void read_options(const YamlValue& block, Options* options,
   visit_options(OptionReader{block}, options);
 }
 
-// All throw InputError for unknown keys and values out of range.
+// Both throw InputError for unknown keys and values out of range.
 
 /// Reads the map `solver:`.
 SolverOptions read_solver_options(const YamlValue& solver);

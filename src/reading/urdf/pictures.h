@@ -45,8 +45,7 @@ LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& li
 class MeshFinder {
  public:
   /// @param uri the filename of a `<mesh>`. Without a scheme (`package://`, `file://`) viewers do
-  /// not find it. What is on a network counts
-  ///     as there.
+  /// not find it. What is on a network counts as there.
   bool is_there(const std::string& uri);
 
  private:

@@ -6,8 +6,7 @@
 
 namespace codesign {
 
-/// The attributes and children of one kind of URDF element, without our annotations
-/// (annotation_rules.h).
+/// The attributes and children of one kind of URDF element, without our annotations (ElementRule).
 struct Vocabulary {
   using Names = std::vector<std::string>;
   std::string path;        ///< tags from `robot` down, separated by slashes

@@ -14,8 +14,8 @@ namespace codesign {
 /// Reads the private parameters of a node:
 /// - `~model`: path of the URDF; without it the text in `robot_description`;
 /// - `~overlays`: a path or a list of paths;
-/// - `~study`: a path, or the study itself as a tree of parameters (`<rosparam ns="study"
-/// file=...>`);
+/// - `~study`: a path, or the study itself as a tree of parameters
+///   (`<rosparam ns="study" file=...>`);
 /// - `~result`: path of a result.json, whose design replaces the values of model and study;
 /// - `~set`: parameter values that replace the values of model, study and result, by name.
 /// @throws InputError for a missing or ill-typed parameter or a file that cannot be read.

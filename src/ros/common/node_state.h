@@ -25,8 +25,8 @@ class NodeState {
 
   /// @param subject name of the entry in /diagnostics, e.g. "simulation".
   explicit NodeState(const std::string& subject);
-  /// Sets and logs the sentence.
 
+  /// Sets and logs the sentence.
   void set(Level level, const std::string& sentence);
 
   /// Sets the warnings of a group, which replace the group's earlier ones. Each warning is logged
