@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "assembly/assembly.h"
 #include "description/solver_names.h"
 #include "integration/servo.h"
 #include "sensitivity/adjoint_step.h"
+#include "sensitivity/lane_directions.h"
+#include "sensitivity/tangent_step.h"
 
 namespace codesign {
 
