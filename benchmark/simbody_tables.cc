@@ -32,7 +32,7 @@ Eigen::VectorXd simbody_gradient(const Eigen::VectorXd& rho, double accuracy, lo
   return gradient;
 }
 
-Contestant simbody(const Eigen::VectorXd& rho, const Reference& reference) {
+Contestant simbody(const Eigen::VectorXd& rho, const ReferenceValues& reference) {
   return {"Simbody",
           [rho, reference](double accuracy, bool with_gradient) -> std::function<Outcome()> {
             return [rho, reference, accuracy, with_gradient] {
@@ -52,7 +52,7 @@ void measure_simbody(Report* report) {
   const Problem tight = *with_solver(problem, "rodas5p", 1e-10);
   const Evaluation evaluation = Evaluator(tight.system()).evaluate(tight.start(), true);
   if (!evaluation.status.ok()) throw std::runtime_error(evaluation.status.cause);
-  const Reference reference{evaluation.objective, evaluation.gradient};
+  const ReferenceValues reference{evaluation.objective, evaluation.gradient};
   const Eigen::VectorXd rho = problem.start();
   if (!(std::abs(run_simbody(rho[0], rho[1], rho[2], 1e-9).psi / reference.psi - 1.0) < 1e-7))
     throw std::runtime_error("Simbody's slider-crank is not the same as ours");

@@ -66,7 +66,7 @@ Problem with_tuned(const Problem& problem, int tuned) {
       replaced(read_source(kStudy).text, "  Kp: {", "}\n",
                "  crank_mass: {}\n  rod_mass: {}\n  slider_mass: {}\n  Kp: {initial: 1.0}\n")};
   const Problem more = load_problem(problem.urdf(), {{"masses", kMasses}}, study);
-  Study changed = more.whole_study();
+  Study changed = more.study();
   changed.solver = problem.study().solver;
   changed.tuned.resize(static_cast<std::size_t>(tuned));
   return with_study(more, std::move(changed));

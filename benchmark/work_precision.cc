@@ -55,13 +55,14 @@ void add_accuracies(const std::string& name, const std::string& title,
 
 }  // namespace
 
-Outcome outcome_of(const Reference& reference, bool with_gradient, double psi,
+Outcome outcome_of(const ReferenceValues& reference, bool with_gradient, double psi,
                    const Eigen::VectorXd& gradient, long steps) {
   if (!with_gradient) return {std::abs(psi / reference.psi - 1.0), steps};
   return {(gradient.array() / reference.gradient.array() - 1.0).abs().maxCoeff(), steps};
 }
 
-Contestant own_solver(const Problem& problem, const std::string& name, const Reference& reference) {
+Contestant own_solver(const Problem& problem, const std::string& name,
+                      const ReferenceValues& reference) {
   return {
       name,
       [problem, name, reference](double tolerance, bool with_gradient) -> std::function<Outcome()> {

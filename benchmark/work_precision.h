@@ -13,7 +13,7 @@
 namespace codesign {
 
 /// Reference values of the objective and its gradient.
-struct Reference {
+struct ReferenceValues {
   double psi;
   Eigen::VectorXd gradient;
 };
@@ -28,7 +28,7 @@ struct Outcome {
 
 /// The outcome of a run that gave `psi` and `gradient`. @param with_gradient whether the error is
 /// that of the gradient.
-Outcome outcome_of(const Reference& reference, bool with_gradient, double psi,
+Outcome outcome_of(const ReferenceValues& reference, bool with_gradient, double psi,
                    const Eigen::VectorXd& gradient, long steps);
 
 /// A solver in a comparison. prepare() sets it up for a tolerance, with or without the gradient,
@@ -39,7 +39,8 @@ struct Contestant {
 };
 
 /// A solver of this library. @param name as with_solver() takes it.
-Contestant own_solver(const Problem& problem, const std::string& name, const Reference& reference);
+Contestant own_solver(const Problem& problem, const std::string& name,
+                      const ReferenceValues& reference);
 
 /// One point of a sweep over tolerances.
 struct Measured {

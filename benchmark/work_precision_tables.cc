@@ -26,7 +26,7 @@ double seconds_at(double tolerance, const Sweep& sweep) {
 }
 
 Contestant sundials(const Problem& problem, const std::string& name, SundialsMatrix matrix,
-                    const Reference& reference) {
+                    const ReferenceValues& reference) {
   return {name,
           [problem, matrix, reference](double tolerance,
                                        bool with_gradient) -> std::function<Outcome()> {
@@ -51,8 +51,8 @@ double fastest(double error, const std::vector<Sweep>& sweeps, std::size_t first
 
 void measure_work_precision(Report* report) {
   const Problem problem = load_slider_crank();
-  const Reference reference{kReferencePsi,
-                            Eigen::Map<const Eigen::VectorXd>(kReferenceGradient, 5)};
+  const ReferenceValues reference{kReferencePsi,
+                                  Eigen::Map<const Eigen::VectorXd>(kReferenceGradient, 5)};
   std::vector<Contestant> contestants;
   for (const char* name : {"rodas4", "rodas4p2", "rodas5p"})
     contestants.push_back(own_solver(problem, name, reference));
