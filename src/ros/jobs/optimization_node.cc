@@ -84,8 +84,9 @@ void OptimizationNode::finish() {
   evaluation_->finish();
   // Returns when the callbacks of services have returned and their answers are sent.
   spinner_.stop();
-  // The answers of actions are messages, which ROS sends in a thread of its own.
-  if ((was_optimizing || was_identifying) && ros::ok()) ros::WallDuration(0.3).sleep();
+  // The answers of actions are messages, and long answers of services are the rest of a buffer:
+  // ROS sends both in a thread of its own, which on a busy machine waits for its turn.
+  if ((was_optimizing || was_identifying) && ros::ok()) ros::WallDuration(1.0).sleep();
 }
 
 void OptimizationNode::load() {
