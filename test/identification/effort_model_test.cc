@@ -68,21 +68,6 @@ void expect_exact_jacobian(const CompiledSystem& system, const std::vector<std::
   }
 }
 
-MotionSamples swing(int samples, double amplitude, double offset = 0.0, int joints = 1) {
-  MotionSamples motion;
-  for (Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration})
-    part->resize(joints, samples);
-  for (int joint = 0; joint < joints; ++joint) {
-    for (int k = 0; k < samples; ++k) {
-      const double w = 3.0 + 0.7 * joint, phase = w * 0.01 * k + joint;
-      motion.position(joint, k) = offset + amplitude * std::sin(phase);
-      motion.velocity(joint, k) = amplitude * w * std::cos(phase);
-      motion.acceleration(joint, k) = -amplitude * w * w * std::sin(phase);
-    }
-  }
-  return motion;
-}
-
 /// Compares the derivatives by parameters and by shifts of all drives with a complex step, where
 /// the motion is shifted.
 TEST(EffortModel, DerivativesByShiftsAreExact) {
@@ -393,17 +378,6 @@ TEST(EffortModel, FollowsAMotionThatBeginsFarFromTheStart) {
   EXPECT_LT((efforts - efforts_of(&turned, *system)).cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(EffortModel, AnImpossibleMotionIsAStatusThatNamesTheSample) {
-  const Shipped shipped("slider_crank");
-  const auto system = make_system(shipped.robot, shipped.study, nullptr);
-  MotionSamples motion = record_motion(*system, {"crank_joint"}, 20, 0.01).motion;
-  motion.position(0, 7) = std::nan("");
-  EffortModel model(*system, measured({"crank_joint"}), motion);
-  const Status status = model.begin(system->parameters());
-  EXPECT_EQ(status.code, StatusCode::kAssemblyFailed);
-  EXPECT_NE(status.cause.find("sample 7"), std::string::npos) << status.cause;
-}
-
 TEST(EffortModel, BeginComesFirstAndNoSamplesAreNoEfforts) {
   const auto system = compiled(pendulum(), let_go("{}", "hinge/velocity"));
   EffortModel model(*system, measured({"hinge"}), swing(10, 1.0));
@@ -418,36 +392,6 @@ TEST(EffortModel, BeginComesFirstAndNoSamplesAreNoEfforts) {
   uneven = swing(10, 1.0);
   uneven.begins = {3};
   EXPECT_THROW(EffortModel(*system, measured({"hinge"}), uneven), std::invalid_argument);
-}
-
-TEST(EffortModel, AnImpossibleDesignIsAStatus) {
-  const Shipped shipped("slider_crank");
-  const auto system = make_system(shipped.robot, shipped.study, nullptr);
-  EffortModel model(*system, measured({"crank_joint"}), swing(70, 0.2, 0.4), 2);
-  Eigen::MatrixXd efforts;
-  ASSERT_TRUE(model.begin(system->parameters()).ok());
-  const auto with_crank = [&](double length) {
-    std::vector<double> parameters = system->parameters();
-    for (std::size_t k = 0; k < parameters.size(); ++k)
-      if (system->study().parameters[k].name == "crank_length") parameters[k] = length;
-    return model.evaluate(parameters, &efforts, nullptr);
-  };
-  EXPECT_EQ(with_crank(-0.1).code, StatusCode::kInvalidDesign);
-  const Status too_long = with_crank(1.5);
-  EXPECT_EQ(too_long.code, StatusCode::kAssemblyFailed);
-  EXPECT_EQ(too_long.cause.find("sample "), 0u) << too_long.cause;
-  EXPECT_TRUE(with_crank(0.09).ok());
-}
-
-TEST(EffortModel, ObeysACancel) {
-  const auto system = compiled(pendulum(), let_go("{}", "hinge/velocity"));
-  EffortModel model(*system, measured({"hinge"}), swing(100, 1.0));
-  ASSERT_TRUE(model.begin(system->parameters()).ok());
-  const std::atomic<bool> cancel{true};
-  model.obey(&cancel);
-  Eigen::MatrixXd efforts;
-  EXPECT_EQ(model.evaluate(system->parameters(), &efforts, nullptr).code, StatusCode::kCancelled);
-  EXPECT_EQ(model.begin(system->parameters()).code, StatusCode::kCancelled);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <memory>
@@ -77,6 +78,22 @@ inline std::vector<MeasuredJoint> measured(const std::vector<std::string>& with_
     joints.push_back({name, true, 1.0, {"study.yaml", 3}});
   for (const std::string& name : without) joints.push_back({name, false, 1.0, {"study.yaml", 4}});
   return joints;
+}
+
+/// Sinusoidal motions of the joints at samples 0.01 s apart, with their exact derivatives.
+inline MotionSamples swing(int samples, double amplitude, double offset = 0.0, int joints = 1) {
+  MotionSamples motion;
+  for (Eigen::MatrixXd* part : {&motion.position, &motion.velocity, &motion.acceleration})
+    part->resize(joints, samples);
+  for (int joint = 0; joint < joints; ++joint) {
+    for (int k = 0; k < samples; ++k) {
+      const double w = 3.0 + 0.7 * joint, phase = w * 0.01 * k + joint;
+      motion.position(joint, k) = offset + amplitude * std::sin(phase);
+      motion.velocity(joint, k) = amplitude * w * std::cos(phase);
+      motion.acceleration(joint, k) = -amplitude * w * w * std::sin(phase);
+    }
+  }
+  return motion;
 }
 
 }  // namespace codesign

@@ -204,6 +204,9 @@ def check(root):
         for first, length in function_lengths(text):
             if length > MAX_FUNCTION:
                 violations.append(f"{name}:{first}: a function of {length} lines, at most {MAX_FUNCTION}")
+    for path in sorted(list(root.glob("test/**/*")) + list(root.glob("benchmark/**/*"))):
+        if path.suffix in (".h", ".cc") and (count := len(path.read_text().splitlines())) > MAX_FILE:
+            violations.append(f"{path.relative_to(root)}:{count}: {count} lines, at most {MAX_FILE}")
     return violations, lines_of
 
 

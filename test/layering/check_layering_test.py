@@ -95,6 +95,10 @@ class PlantedViolations(unittest.TestCase):
         self.plant("src/math/b.cc", "\n" * 401)
         self.assert_only("src/math/b.cc:401", "401 lines")
 
+    def test_long_file_of_a_test(self):
+        self.plant("test/math/b_test.cc", "\n" * 401)
+        self.assert_only("test/math/b_test.cc:401", "401 lines")
+
     def test_long_function(self):
         body = '  if (x) { y("}{"); }  // }\n'
         for head in ["int f(int x) {\n", "template <class T>\nauto Outer<T>::f(int x) const -> int {\n"]:
