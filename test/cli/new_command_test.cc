@@ -18,7 +18,7 @@ class NewCommand : public testing::Test {
     for (const std::string machine : {"press", "crane"}) {
       fs::create_directories(folder_.path("gallery/" + machine));
       for (const std::string file : {"model.urdf", "study.yaml"})
-        std::ofstream(folder_.path("gallery/" + machine + "/" + file)) << machine << ' ' << file;
+        std::ofstream(fs::path(folder_.path("gallery")) / machine / file) << machine << ' ' << file;
     }
     std::ofstream(folder_.path("gallery/press/README.md")) << "# A press\n\nmore\n";
     fs::create_directories(folder_.path("gallery/unfinished"));
