@@ -9,8 +9,8 @@
 #include "description/study.h"
 #include "engine/thread_engine.h"
 #include "equations/formulas.h"
-#include "identification/driven_motion.h"
-#include "identification/effort_tangent.h"
+#include "identification/effort/driven_motion.h"
+#include "identification/effort/effort_tangent.h"
 #include "math/arrays.h"
 #include "text/cancel.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/driven_system.h"
-#include "identification/effort_tangent.h"
+#include "identification/effort/driven_system.h"
+#include "identification/effort/effort_tangent.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/status.h"
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/thread_engine.h"
+#include "identification/fit/residual_source.h"
 #include "identification/judgement.h"
-#include "identification/motion_residuals.h"
-#include "identification/residual_source.h"
+#include "identification/motion/motion_residuals.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "identification/effort_doubts.h"
-#include "identification/effort_residuals.h"
-#include "identification/identification_result.h"
-#include "identification/residual_fit.h"
+#include "identification/effort/effort_doubts.h"
+#include "identification/effort/effort_residuals.h"
+#include "identification/fit/identification_result.h"
+#include "identification/fit/residual_fit.h"
 
 namespace codesign {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "identification/residual_fit.h"
+#include "identification/fit/residual_fit.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/status.h"
 #include "optimization/progress_meter.h"

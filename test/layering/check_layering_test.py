@@ -76,6 +76,14 @@ class PlantedViolations(unittest.TestCase):
         self.plant("src/ros/simulation/b.cc", '#include "ros/apply/apply.h"\n')
         self.assert_only("src/ros/simulation/b.cc:1", "ros/simulation/ includes ros/apply/")
 
+    def test_files_beside_the_inner_rooms_have_a_place_in_their_order(self):
+        self.plant("src/identification/fit/b.cc", '#include "identification/identify.h"\n')
+        self.assert_only("src/identification/fit/b.cc:1", "identification/fit/ includes identification/")
+        self.plant("src/identification/fit/b.cc", "\n")
+        self.plant("src/identification/identify.cc", '#include "identification/motion/segments.h"\n')
+        self.plant("src/reading/study/b.cc", '#include "reading/table.h"\n')
+        self.assertEqual(self.violations(), [])
+
     def test_unknown_folder_inside_ros(self):
         self.plant("src/ros/misc/b.cc", "\n")
         self.assert_only("src/ros/misc/b.cc:1", "no place")

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/residual_fit.h"
+#include "identification/fit/residual_fit.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/progress_meter.h"
 #include "ros/bags/job_bag.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "identification/fit_variables.h"
+#include "identification/fit/fit_variables.h"
 #include "identification/identify.h"
 #include "jobs/files.h"
 #include "jobs/identification_records.h"

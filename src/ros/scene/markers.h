@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "identification/compared_motion.h"
+#include "identification/comparison/compared_motion.h"
 #include "mechanism_codesign/frame.h"
 #include "reading/urdf/pictures.h"
 
