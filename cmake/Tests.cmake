@@ -39,7 +39,7 @@ codesign_warnings(codesign_test_fixtures)
 codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
 
 # Files whose names for small things are also those of a neighbour compile alone.
-set(alone math/lanes_test.cc math/scalar_test.cc math/scalar_test.cc reading/urdf/vocabulary_check_test.cc)
+set(alone math/scalar_test.cc reading/urdf/vocabulary_check_test.cc)
 set(many_cases reading elements equations integration sensitivity cli ros cases)
 foreach(folder IN LISTS codesign_rooms ITEMS mpi cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)

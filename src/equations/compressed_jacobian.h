@@ -7,7 +7,7 @@
 #include "equations/compiled_equations.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
 

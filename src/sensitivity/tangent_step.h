@@ -4,7 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "assembly/assembly.h"
 #include "equations/equations.h"
 #include "integration/increment.h"
 #include "integration/rosenbrock_step.h"
@@ -12,6 +11,8 @@
 #include "sensitivity/lane_directions.h"
 
 namespace codesign {
+
+class Assembly;
 
 /// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by the
 /// recorded equations. A prime denotes a directional derivative; only derivatives are returned, not
