@@ -85,8 +85,8 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays,
                        const ParameterSettings& settings = {});
 
-/// The same problem with parameter values replaced by `settings`, compiled anew. @throws InputError
-/// as load_problem().
+/// The same problem with parameter values replaced by `settings`, compiled again. @throws
+/// InputError as load_problem().
 Problem with_settings(const Problem& problem, const ParameterSettings& settings);
 
 /// Checks that the study has an objective, which evaluations, gradients and optimizations need.

@@ -101,9 +101,9 @@ class Assembly {
     extend(parameters, start, equations, &workspace, state);
   }
 
-  /// SparseLu::settle() after a solution, whose pivots later solutions begin with.
-  void settle_pivots() { matrix_.settle(); }
-  /// The matrix of solve_rates(), with the settled pivots.
+  /// SparseLu::keep_pivots() after a solution, whose pivots later solutions begin with.
+  void keep_pivots() { matrix_.keep_pivots(); }
+  /// The matrix of solve_rates(), with the kept pivots.
   const IterationMatrix& rates_matrix() const { return matrix_; }
 
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.

@@ -81,7 +81,7 @@ class Code final : public ValueCode, private MachineCode {
     xor_(eax, eax);
     leave();
     finish();
-    forget();
+    release_inputs();
   }
 
   bool run(const Arrays& arrays) const override { return call(arrays.data()) != 0; }
@@ -336,7 +336,7 @@ class Code final : public ValueCode, private MachineCode {
   }
 
   /// Releases the data that only code generation needs.
-  void forget() {
+  void release_inputs() {
     recording_ = nullptr, task_ = nullptr, program_ = nullptr;
     uses_ = Uses();
     register_of_ = {}, stored_ = {}, kept_ = {};

@@ -27,7 +27,7 @@ class CompressedJacobian {
   /// As CompiledEquations of the same name.
   void set_design(const std::vector<double>& parameters);
   void allow(bool machine_code) { tangents_.allow(machine_code); }
-  void forget() { tangents_.forget(); }
+  void use_first_variant() { tangents_.use_first_variant(); }
 
   /// All derivatives at a state.
   void linearize(const State<double>& state, Linearization<double>* derivatives);

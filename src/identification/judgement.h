@@ -23,7 +23,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
                    const ResidualFit& fit, IdentificationResult* result);
 
 /// Computes intervals of the profile likelihood of all numbers that the data determine: each number
-/// is fixed in turn, and all others are fitted anew.
+/// is fixed in turn, and all others are fitted again.
 /// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param
 /// observer called after each evaluation, with FitTrial::profile set; may be empty.
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,

@@ -168,7 +168,7 @@ Eigen::VectorXd BoundedStep::within(double radius) const {
   return p;
 }
 
-double BoundedStep::promise(const Eigen::VectorXd& p) const {
+double BoundedStep::predicted_decrease(const Eigen::VectorXd& p) const {
   const Eigen::VectorXd y = scale_.cwiseProduct(p);
   return -(gradient_.dot(y) + (root_ * y).squaredNorm());
 }

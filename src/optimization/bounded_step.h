@@ -27,8 +27,8 @@ class BoundedStep {
   /// The minimum of g^T p + |R p|^2 over the bounds and |D p| <= radius, to 10 % of the radius
   /// where that counts.
   Eigen::VectorXd within(double radius) const;
-  /// The decrease that the model promises, -(g^T p + |R p|^2).
-  double promise(const Eigen::VectorXd& p) const;
+  /// The decrease that the model predicts, -(g^T p + |R p|^2).
+  double predicted_decrease(const Eigen::VectorXd& p) const;
   /// g^T p.
   double slope(const Eigen::VectorXd& p) const { return gradient_.dot(scale_.cwiseProduct(p)); }
   /// |D p|.

@@ -89,7 +89,7 @@ class TangentStep {
 
   /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q,
   /// v, s)) and of the rates that belong to it. @param assembly that solved for the rates of
-  /// `behind`. @param behind the state after the jump, where the step begins anew.
+  /// `behind`. @param behind the state after the jump, where the step begins again.
   void jump(const std::vector<ControlEvent>& events, const State<double>& before,
             const State<double>& behind, const Assembly& assembly);
 

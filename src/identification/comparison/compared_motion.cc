@@ -269,11 +269,11 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings,
   all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
   const std::vector<MeasuredJoint> joints = require_same_joints(all);
   std::vector<MeasuredMotion> motions;
-  Warnings told_before;
+  Warnings known_warnings;
   double seconds = 0.0;
   for (const JointRecording& recording : all) {
     motions.push_back(
-        measured_motion(recording, problem.study().identification->filter, &told_before));
+        measured_motion(recording, problem.study().identification->filter, &known_warnings));
     seconds +=
         static_cast<double>(motions.back().end - motions.back().first) * motions.back().times.step;
   }

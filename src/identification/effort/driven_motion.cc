@@ -18,7 +18,7 @@ constexpr double kConverged = 1e-11;
 constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose
                                           // rounding is divided by a compliance of 1e-9
 constexpr double kSlow = 0.05;  // if a step is larger than this fraction of the previous one, the
-                                // matrix is factorized anew
+                                // matrix is factorized again
 constexpr double kFar = 0.5;    // [rad] a larger turn of a body or joint might leave the branch
 constexpr int kMostDivisions = 12;
 
@@ -96,9 +96,9 @@ void DrivenMotion::set_design(const std::vector<double>& parameters) {
   equations_.set_design(parameters);
 }
 
-void DrivenMotion::forget() {
-  matrix_.forget();
-  equations_.compiled().forget();
+void DrivenMotion::reset_pivots() {
+  matrix_.reset_pivots();
+  equations_.compiled().use_first_variant();
   is_factored_ = false;
 }
 

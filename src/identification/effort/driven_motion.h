@@ -34,10 +34,10 @@ class DrivenMotion {
   /// Evaluates all constants at `parameters` (all named parameters). Allocates.
   void set_design(const std::vector<double>& parameters);
   /// Later solutions do not depend on earlier ones, to the last bit.
-  void forget();
-  /// Keeps the present pivots as the pivots that forget() returns to. Call it at a state near all
-  /// later states.
-  void settle() { matrix_.settle(); }
+  void reset_pivots();
+  /// Keeps the present pivots as the pivots that reset_pivots() returns to. Call it at a state near
+  /// all later states.
+  void keep_pivots() { matrix_.keep_pivots(); }
 
   /// Solves for the whole state at a motion of the drives near the motion of `state`, which is the
   /// start of the iterations.
@@ -76,7 +76,7 @@ class DrivenMotion {
   std::vector<int> turn_slots_;  ///< per drive: the entry of State::turns
   std::vector<int> columns_;     ///< per drive: its coordinate, or -1 if it drives a cut pair
   bool all_given_ = false;       ///< whether all coordinates are driven and nothing else is unknown
-  bool is_factored_ = false;     ///< since forget()
+  bool is_factored_ = false;     ///< since reset_pivots()
   VectorX<double> turns_;        ///< n: turn [rad] per change of a coordinate
   /// 0 for the efforts of driven coordinates, else 1: G is affine in these efforts, with constant
   /// columns, so that an error of one of them alone is removed by one step.

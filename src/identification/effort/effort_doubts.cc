@@ -38,12 +38,12 @@ double reference_of(const Eigen::VectorXd& recorded) {
 /// Unfiltered efforts at few samples.
 std::vector<MeasuredMotion> thinned_motions(const std::vector<JointRecording>& recordings,
                                             FilterOptions filter) {
-  Warnings told_elsewhere;
+  Warnings known_warnings;
   filter.residual_cutoff = 0.0;
   filter.decimate = 1;
   std::vector<MeasuredMotion> motions;
   for (const JointRecording& recording : recordings) {
-    motions.push_back(measured_motion(recording, filter, &told_elsewhere));
+    motions.push_back(measured_motion(recording, filter, &known_warnings));
     motions.back().every = std::max<Eigen::Index>(1, motions.back().fitted() / kSamples);
   }
   return motions;

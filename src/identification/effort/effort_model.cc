@@ -78,9 +78,9 @@ struct EffortModel::EffortWorker {
             LaneCount{static_cast<int>(driven.system->whole_study().tuned.size() + shifted.size())},
             *driven.system, shifted) {}
 
-  void forget() {
-    motion.forget();
-    tangents.for_each([](auto* group) { group->forget(); });
+  void reset_pivots() {
+    motion.reset_pivots();
+    tangents.for_each([](auto* group) { group->reset_pivots(); });
   }
 
   DrivenMotion motion;
@@ -174,7 +174,7 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
     if (samples() == 0) continue;
     if (Status status = each->motion.linearize(states_.front()); !status.ok())
       return at_sample(0, status);
-    each->motion.settle();
+    each->motion.keep_pivots();
   }
   return {};
 }
@@ -182,7 +182,7 @@ Status EffortModel::begin(const std::vector<double>& parameters) {
 EffortModel::Failure EffortModel::evaluate_block(int block, EffortWorker* worker,
                                                  Eigen::MatrixXd* efforts,
                                                  RowJacobian* jacobian) const {
-  worker->forget();
+  worker->reset_pivots();
   const int end = std::min(samples(), (block + 1) * kBlock),
             drives = static_cast<int>(position_.rows());
   for (int sample = block * kBlock; sample < end; ++sample) {

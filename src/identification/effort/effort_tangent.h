@@ -31,7 +31,7 @@ class EffortTangent {
     equations_.equations().set_design(seeded_.seed(system_, parameters));
   }
   /// Later results do not depend on earlier ones, to the last bit.
-  void forget() { equations_.equations().compiled().forget(); }
+  void reset_pivots() { equations_.equations().compiled().use_first_variant(); }
 
   /// @param motion with the design of set_design() and linearized at `state`, its solution.
   /// @param jacobian the rows first_row ... first_row + motion.drives() - 1 get the derivatives in

@@ -100,17 +100,17 @@ class WeightedCost final : public LeastSquaresModel {
       ++fit_.failed_evaluations;
       fit_.last_failure = status;
       if (!is_begun_) fit_.status = status;
-      return tell(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
+      return notify(trial) ? Outcome::kFailed : stop({StatusCode::kCancelled, 0.0, "cancelled"});
     }
     clear_rounding(x, &jacobian_);
     take(x, point);
     trial.cost = point->value;
     trial.iteration = fit_.iterations;
     trial.rms = rms_of(residuals_);
-    return tell(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
+    return notify(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
   }
 
-  /// Whether the fit begins anew with other spreads at its best point, whose residuals are known.
+  /// Whether the fit begins again with other spreads at its best point, whose residuals are known.
   /// Unknowns of the source's own are not.
   bool begins_at_best() const {
     return !is_begun_ && fit_.jacobian.size() > 0 && source_.own_unknowns() == 0;
@@ -124,7 +124,7 @@ class WeightedCost final : public LeastSquaresModel {
     point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());
     if (surprise.size() > 0) point->gradient += 2.0 * surprise.cwiseQuotient(problem_.prior);
     point->root = root_with_prior(problem_, weighted.jacobian);
-    point->owed = source_.own_promise();
+    point->inner_decrease = source_.inner_decrease();
     keep(x, point->value);
   }
 
@@ -132,7 +132,7 @@ class WeightedCost final : public LeastSquaresModel {
     fit_.status = status;
     return Outcome::kStop;
   }
-  bool tell(const FitTrial& trial) const { return !observer_ || observer_(trial); }
+  bool notify(const FitTrial& trial) const { return !observer_ || observer_(trial); }
 
   void keep(const Eigen::VectorXd& x, double cost) {
     if (is_begun_ && !(cost < fit_.cost)) return;
@@ -308,14 +308,14 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
     const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
-    const bool is_settled = ((spreads - fit.spreads).array().abs() <=
-                             spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
-                                .all();
+    const bool has_best_starts = ((spreads - fit.spreads).array().abs() <=
+                                  spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
+                                     .all();
     const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
     fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value +
                surprises(problem, fit.x).squaredNorm();
     fit.spreads = spreads;
-    if (is_settled || has_one_scale) break;
+    if (has_best_starts || has_one_scale) break;
   }
   return fit;
 }

@@ -69,9 +69,9 @@ Eigen::Index StackedResiduals::own_unknowns() const {
   return sum;
 }
 
-double StackedResiduals::own_promise() const {
+double StackedResiduals::inner_decrease() const {
   double sum = 0.0;
-  for (const Part& part : parts_) sum += part.residuals->own_promise();
+  for (const Part& part : parts_) sum += part.residuals->inner_decrease();
   return sum;
 }
 

@@ -65,7 +65,7 @@ class ResidualSource {
   virtual Eigen::Index own_unknowns() const { return 0; }
   /// Decrease of the sum of rho(r / s) by the best unknowns at the last point evaluated with a
   /// Jacobian, to first order.
-  virtual double own_promise() const { return 0.0; }
+  virtual double inner_decrease() const { return 0.0; }
 };
 
 inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/,
@@ -127,7 +127,7 @@ class StackedResiduals final : public RecordingResiduals {
   void obey(const std::atomic<bool>* cancel) override;
   void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
   Eigen::Index own_unknowns() const override;
-  double own_promise() const override;
+  double inner_decrease() const override;
   std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
 
  private:

@@ -15,13 +15,13 @@
 namespace codesign {
 namespace {
 
-constexpr double kSlowStart = 0.1;  // of the segment's previous promise, and of the sum of all: a
-                                    // start with a larger promise is slow
+constexpr double kSlowStart = 0.1;  // of the segment's previous predicted decrease, and of the sum
+                                    // of all: a start with a larger predicted decrease is slow
 constexpr std::size_t kFew = 4;  // slow starts are helped if at most one segment in so many has one
-// Of the value: a smaller sum of promises does not hinder a fit.
+// Of the value: a smaller sum of predicted decreases does not hinder a fit.
 constexpr double kWorthHelp = 1e-6;
-// Of the value of a segment: a start with a smaller promise counts as the best one.
-constexpr double kSettledShare = 1e-8;
+// Of the value of a segment: a start with a smaller predicted decrease counts as the best one.
+constexpr double kBestStartShare = 1e-8;
 
 /// Recorded positions at a few instants, joints x instants.
 Eigen::MatrixXd positions_of_some(const JointRecording& recording,
@@ -157,8 +157,8 @@ Status MotionResiduals::failure_of(std::size_t place, Status status) const {
 Status MotionResiduals::begin(const Eigen::VectorXd& x) {
   for (std::unique_ptr<MotionWorker>& worker : workers_) worker->runs.clear();
   reference_ = {};
-  settled_ = {};
-  is_counted_anew_ = true;
+  best_starts_ = {};
+  is_recounted_ = true;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     Status status = set_branches(recordings_[r], systems_[r], system_, variables_, x, independent_,
                                  cancel_, &segments_[r]);
@@ -173,22 +173,22 @@ Status MotionResiduals::begin(const Eigen::VectorXd& x) {
 void MotionResiduals::count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) {
   spreads_ = spreads;
   loss_ = loss;
-  is_counted_anew_ = true;
+  is_recounted_ = true;
 }
 
 MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) const {
   Guesses guesses(places_.size());
   for (std::size_t place = 0; place < places_.size(); ++place) {
     std::vector<Eigen::VectorXd>& starts = guesses[place];
-    const bool is_settled = settled_.x.size() > 0,
-               is_here = is_settled && is_counted_anew_ && settled_.x == x;
-    if (is_here) starts.push_back(settled_.starts[place]);
+    const bool has_best_starts = best_starts_.x.size() > 0,
+               is_here = has_best_starts && is_recounted_ && best_starts_.x == x;
+    if (is_here) starts.push_back(best_starts_.starts[place]);
     if (reference_.x.size() > 0) {
       starts.push_back(reference_.starts[place] - reference_.corrections[place] -
                        reference_.slopes[place] * (x - reference_.x));
       starts.push_back(reference_.starts[place]);
     }
-    if (is_settled && !is_here) starts.push_back(settled_.starts[place]);
+    if (has_best_starts && !is_here) starts.push_back(best_starts_.starts[place]);
     starts.push_back(segments_[places_[place].recording][places_[place].segment].start);
   }
   return guesses;
@@ -243,7 +243,7 @@ Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentW
     if (from[k].empty() || !(found[k].value < solution.value)) continue;
     (*improved)[k] = {found[k].start};
     solution.value = found[k].value;
-    solution.promise = found[k].promise;
+    solution.predicted_decrease = found[k].predicted_decrease;
     solution.residuals = found[k].residuals;
   }
   return {};
@@ -252,10 +252,11 @@ Status MotionResiduals::improve(const Eigen::VectorXd& x, Guesses from, SegmentW
 /// A point may be worse than the best point only because the step of its starts was too long.
 /// Replaces these starts by the best starts. If the point is then better than the best point so
 /// far, computes its derivatives at these starts, too.
-Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions) {
+Status MotionResiduals::solve_all(const Eigen::VectorXd& x,
+                                  std::vector<SegmentSolution>* solutions) {
   Guesses unsettled(places_.size()), improved;
   for (std::size_t k = 0; k < places_.size(); ++k)
-    if ((*solutions)[k].promise > kSettledShare * (*solutions)[k].value)
+    if ((*solutions)[k].predicted_decrease > kBestStartShare * (*solutions)[k].value)
       // From these starts the value can only fall; for small steps of x it is near the value of the
       // best point.
       unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x),
@@ -272,17 +273,20 @@ Status MotionResiduals::settle(const Eigen::VectorXd& x, std::vector<SegmentSolu
 /// such segments would delay the whole fit. Their starts take a few more steps.
 Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x,
                                          std::vector<SegmentSolution>* solutions) {
-  double owed = 0.0;
-  for (const SegmentSolution& solution : *solutions) owed += solution.promise;
+  double inner_decrease = 0.0;
+  for (const SegmentSolution& solution : *solutions) inner_decrease += solution.predicted_decrease;
   Guesses slow(places_.size()), improved;
   std::size_t count = 0;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const SegmentSolution& solution = (*solutions)[k];
-    if (!(solution.promise > kSlowStart * std::max(owed, reference_.promises[k]))) continue;
+    if (!(solution.predicted_decrease >
+          kSlowStart * std::max(inner_decrease, reference_.predicted_decreases[k])))
+      continue;
     slow[k] = {solution.start - solution.correction, solution.start};
     ++count;
   }
-  if (count == 0 || kFew * count > places_.size() || !(owed > kWorthHelp * value_of(*solutions)))
+  if (count == 0 || kFew * count > places_.size() ||
+      !(inner_decrease > kWorthHelp * value_of(*solutions)))
     return {};
   if (Status status = improve(x, std::move(slow), SegmentWork::kBetterStart, solutions, &improved);
       !status.ok())
@@ -292,14 +296,14 @@ Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x,
 
 void MotionResiduals::remember(const Eigen::VectorXd& x, double value,
                                const std::vector<SegmentSolution>& solutions) {
-  if (!is_counted_anew_ && !(value < reference_.value)) return;
-  is_counted_anew_ = false;
+  if (!is_recounted_ && !(value < reference_.value)) return;
+  is_recounted_ = false;
   reference_ = {x, value, {}, {}, {}, {}};
   for (const SegmentSolution& solution : solutions) {
     reference_.starts.push_back(solution.start);
     reference_.corrections.push_back(solution.correction);
     reference_.slopes.push_back(solution.slope);
-    reference_.promises.push_back(solution.promise);
+    reference_.predicted_decreases.push_back(solution.predicted_decrease);
   }
 }
 
@@ -309,18 +313,19 @@ Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   const SegmentWork work = jacobian ? SegmentWork::kElimination : SegmentWork::kBestStart;
   if (Status status = solve(x, guesses(x), work, &solutions); !status.ok()) return status;
   if (jacobian) {
-    if (!is_counted_anew_) {
+    if (!is_recounted_) {
       const bool is_better = value_of(solutions) < reference_.value;
-      if (Status status = is_better ? help_slow_starts(x, &solutions) : settle(x, &solutions);
+      if (Status status = is_better ? help_slow_starts(x, &solutions) : solve_all(x, &solutions);
           !status.ok())
         return status;
     }
     remember(x, value_of(solutions), solutions);
-    owed_ = 0.0;
-    for (const SegmentSolution& solution : solutions) owed_ += solution.promise;
+    inner_decrease_ = 0.0;
+    for (const SegmentSolution& solution : solutions)
+      inner_decrease_ += solution.predicted_decrease;
   } else {
-    settled_ = {x, {}};
-    for (const SegmentSolution& solution : solutions) settled_.starts.push_back(solution.start);
+    best_starts_ = {x, {}};
+    for (const SegmentSolution& solution : solutions) best_starts_.starts.push_back(solution.start);
   }
   const Eigen::Index outputs = recorded_.cols();
   residuals->resize(rows(), outputs);

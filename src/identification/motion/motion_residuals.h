@@ -42,7 +42,7 @@ class MotionResiduals final : public RecordingResiduals {
                   Eigen::MatrixXd* jacobian) override;
   void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
   Eigen::Index own_unknowns() const override;
-  double own_promise() const override { return owed_; }
+  double inner_decrease() const override { return inner_decrease_; }
   void obey(const std::atomic<bool>* cancel) override { cancel_ = cancel; }
 
   /// Simulations of segments so far divided by the number of segments, the cost of the evaluations.
@@ -68,10 +68,10 @@ class MotionResiduals final : public RecordingResiduals {
     double value = 0.0;
     std::vector<Eigen::VectorXd> starts, corrections;  ///< SegmentSolution::correction
     std::vector<Eigen::MatrixXd> slopes;
-    std::vector<double> promises;
+    std::vector<double> predicted_decreases;
   };
   /// The best starts at the last x without a Jacobian.
-  struct Settled {
+  struct BestStarts {
     Eigen::VectorXd x;
     std::vector<Eigen::VectorXd> starts;
   };
@@ -81,7 +81,7 @@ class MotionResiduals final : public RecordingResiduals {
   Guesses guesses(const Eigen::VectorXd& x) const;
   Status solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work,
                std::vector<SegmentSolution>* solutions);
-  Status settle(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
+  Status solve_all(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
   Status help_slow_starts(const Eigen::VectorXd& x, std::vector<SegmentSolution>* solutions);
   Status improve(const Eigen::VectorXd& x, Guesses from, SegmentWork work,
                  std::vector<SegmentSolution>* solutions, Guesses* improved);
@@ -104,10 +104,10 @@ class MotionResiduals final : public RecordingResiduals {
   SeriesLengths lengths_;
   Eigen::MatrixXd recorded_;
   Reference reference_;
-  bool is_counted_anew_ =
+  bool is_recounted_ =
       true;  ///< whether reference_.value was computed with other spreads or another loss
-  Settled settled_;
-  double owed_ = 0.0;  ///< own_promise()
+  BestStarts best_starts_;
+  double inner_decrease_ = 0.0;  ///< inner_decrease()
   std::int64_t runs_ = 0, whole_runs_ = 0;
   const std::atomic<bool>* cancel_ = nullptr;
 };

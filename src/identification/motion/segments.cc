@@ -19,8 +19,9 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
-constexpr double kSettled = 1e-8;  // of the value: a start with a smaller promise is the best one
-// Factor of kSettled with each run, since predictions of less are noise of step sizes.
+constexpr double kResolved =
+    1e-8;  // of the value: a start with a smaller predicted decrease is the best one
+// Factor of kResolved with each run, since predictions of less are noise of step sizes.
 constexpr double kPatience = 10.0;
 // Share of the sum of squares of the recorded values that a simulation does not resolve.
 constexpr double kResolved = 1e-14;
@@ -36,7 +37,7 @@ class StartColumns {
     return lengths_.cwiseInverse().asDiagonal() * scaled_.solve(right);
   }
   /// Decrease of the sum of squares by the best start, to first order.
-  double promise(const Eigen::VectorXd& residuals) const {
+  double predicted_decrease(const Eigen::VectorXd& residuals) const {
     if (lengths_.size() == 0) return 0.0;
     return scaled_.explained(residuals);
   }
@@ -80,11 +81,11 @@ class StartCost final : public LeastSquaresModel {
     point->gradient = 2.0 * (by_start.transpose() * weighted.residuals.reshaped());
     point->root = triangular_root(by_start);
     const StartColumns columns(by_start);
-    const double promise = columns.promise(weighted.residuals.reshaped());
+    const double predicted_decrease = columns.predicted_decrease(weighted.residuals.reshaped());
     if (!is_begun_ || weighted.value < best_.value)
-      keep(start, weighted, columns, promise > resolved_ ? promise : 0.0);
-    const double settled = kSettled * std::pow(kPatience, best_.runs - 1) * weighted.value;
-    return promise <= std::max(settled, resolved_) ? Outcome::kStop : Outcome::kUsable;
+      keep(start, weighted, columns, predicted_decrease > resolved_ ? predicted_decrease : 0.0);
+    const double enough = kResolved * std::pow(kPatience, best_.runs - 1) * weighted.value;
+    return predicted_decrease <= std::max(enough, resolved_) ? Outcome::kStop : Outcome::kUsable;
   }
   bool is_begun() const { return is_begun_; }
 
@@ -127,12 +128,12 @@ class StartCost final : public LeastSquaresModel {
   }
 
   void keep(const Eigen::VectorXd& start, const WeightedResiduals& weighted,
-            const StartColumns& columns, double promise) {
+            const StartColumns& columns, double predicted_decrease) {
     is_begun_ = true;
     best_.status = {};
     best_.start = start;
     best_.value = weighted.value;
-    best_.promise = promise;
+    best_.predicted_decrease = predicted_decrease;
     best_.residuals = residuals_;
     best_.correction = columns.solve(weighted.residuals.reshaped());
     if (lanes_ != SegmentLanes::kAll) return;
@@ -288,7 +289,7 @@ SegmentSolution fit_segment(const SegmentProblem& problem,
                             SegmentRun* run) {
   LevenbergMarquardtOptions options;
   options.max_evaluations = work == SegmentWork::kBetterStart ? kFewRuns : kMostRuns;
-  options.relative_tolerance = kSettled;
+  options.relative_tolerance = kResolved;
   options.largest_first_step = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd open =
       Eigen::VectorXd::Constant(problem.of.starts, std::numeric_limits<double>::infinity());

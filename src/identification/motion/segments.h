@@ -44,10 +44,10 @@ enum class SegmentWork {
 struct SegmentSolution {
   Status status;
   Eigen::VectorXd start;
-  double value = 0.0;         ///< sum of rho(r / s)
-  double promise = 0.0;       ///< decrease of the value by the best start, to first order; 0 if a
-                              ///< simulation does not resolve it
-  Eigen::MatrixXd residuals;  ///< computed minus recorded, times x outputs
+  double value = 0.0;               ///< sum of rho(r / s)
+  double predicted_decrease = 0.0;  ///< decrease of the value by the best start, to first order; 0
+                                    ///< if a simulation does not resolve it
+  Eigen::MatrixXd residuals;        ///< computed minus recorded, times x outputs
   Eigen::VectorXd
       correction;  ///< to be subtracted from the start for the best start, to first order
   // Only for kElimination.

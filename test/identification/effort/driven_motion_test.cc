@@ -82,14 +82,14 @@ TEST_F(DrivenMotionTest, SolvesFromNearbyToTheSameEffort) {
 
 TEST_F(DrivenMotionTest, ForgettingMakesResultsRepeatToTheLastBit) {
   ASSERT_TRUE(motion.linearize(state).ok());
-  motion.settle();
+  motion.keep_pivots();
   const State<double> start = state;
-  motion.forget();
+  motion.reset_pivots();
   ASSERT_TRUE(follow(0.35, 1.0, 2.0).ok());
   const double first = motion.effort(state, 0);
   ASSERT_TRUE(follow(1.2, 1.0, 2.0).ok());
   state = start;
-  motion.forget();
+  motion.reset_pivots();
   ASSERT_TRUE(follow(0.35, 1.0, 2.0).ok());
   EXPECT_EQ(motion.effort(state, 0), first);
 }

@@ -81,7 +81,7 @@ FitProblem from(double amplitude, double rate) {
 
 Eigen::VectorXd one(double number) { return Eigen::VectorXd::Constant(1, number); }
 
-// With other spreads a fit begins anew where its residuals are known.
+// With other spreads a fit begins again where its residuals are known.
 TEST(ResidualFit, NoPointIsEvaluatedTwiceWhenSpreadsChange) {
   const Eigen::Vector2d factors(1.0, 20.0), noise(0.01, 0.5);
   Decays source(decay(300, factors, noise), factors);

@@ -112,28 +112,29 @@ TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
   steps.residuals.count_by(Eigen::VectorXd::Constant(1, 1e-3),
                            c.problem.study().identification->loss);
   ASSERT_TRUE(steps.residuals.begin(truth).ok());
-  double owed = 0.0, cost = 0.0;
+  double inner_decrease = 0.0, cost = 0.0;
   for (int step = 1; step <= 3; ++step) {
     ASSERT_TRUE(steps.residuals.evaluate(truth, &residuals, &jacobian).ok());
     EXPECT_EQ(steps.residuals.whole_runs(), step);
     const double now = residuals.squaredNorm() / 1e-6;
     if (step > 1) {
-      EXPECT_NEAR(cost - now, owed, 0.02 * owed) << "the promise of step " << step << " is kept";
+      EXPECT_NEAR(cost - now, inner_decrease, 0.02 * inner_decrease)
+          << "the predicted_decrease of step " << step << " is kept";
     }
-    owed = steps.residuals.own_promise();
+    inner_decrease = steps.residuals.inner_decrease();
     cost = now;
     if (step == 1) {
-      EXPECT_GT(owed, 1e-3 * cost);
+      EXPECT_GT(inner_decrease, 1e-3 * cost);
     }
   }
   EXPECT_EQ(steps.residuals.runs(), steps.residuals.whole_runs());
-  EXPECT_LT(owed, 1e-6 * cost);
+  EXPECT_LT(inner_decrease, 1e-6 * cost);
   EXPECT_NEAR(residuals.squaredNorm(), best.squaredNorm(), 1e-7 * best.squaredNorm());
 }
 
 TEST(MotionResiduals, APointWhoseStartsWentTooFarGetsItsBestStarts) {
   // The second point is far from the first one, where the starts were bad, too: they do not keep
-  // their promise.
+  // their predicted_decrease.
   MotionRig rig;
   rig.noise = 1e-3;
   MotionCase c(motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n",

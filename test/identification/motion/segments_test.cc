@@ -66,7 +66,7 @@ TEST(SegmentFit, FindsPositionVelocityAndIntegral) {
   EXPECT_LT(solution.residuals.cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LE(solution.runs, 6);
   EXPECT_EQ(solution.whole_runs, 0);
-  EXPECT_LE(solution.promise, 1e-4 * solution.value);
+  EXPECT_LE(solution.predicted_decrease, 1e-4 * solution.value);
 }
 
 TEST(SegmentFit, WhatAStartExplainsIsNotInTheJacobian) {
@@ -108,8 +108,9 @@ TEST(SegmentFit, AnEliminationTellsWhatTheBestStartWouldGain) {
   near[0] += 0.003;
   const SegmentSolution solution = segment.fit({near}, SegmentWork::kElimination);
   ASSERT_TRUE(solution.status.ok());
-  EXPECT_GT(solution.promise, 0.0);
-  EXPECT_NEAR(solution.value - best.value, solution.promise, 0.02 * solution.promise);
+  EXPECT_GT(solution.predicted_decrease, 0.0);
+  EXPECT_NEAR(solution.value - best.value, solution.predicted_decrease,
+              0.02 * solution.predicted_decrease);
   EXPECT_LT((solution.start - solution.correction - best.start).norm(),
             0.02 * solution.correction.norm());
 }
