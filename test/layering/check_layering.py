@@ -49,6 +49,13 @@ INNER_ROWS = {
     "ros": [["scene"], ["bags"], ["common"], ["apply", "simulation"], ["jobs"], ["nodes"], [""]],
 }
 INNER_ROW_OF = {room: {inner: row for row, rooms in enumerate(rows) for inner in rooms} for room, rows in INNER_ROWS.items()}
+# Features that most users never enter, and the places outside them that know them: all others would build without.
+FEATURES = {
+    "mpi/": ("cli/", "ros/nodes/"),
+    "excitation/": ("jobs/", "cli/", "ros/bags/"),
+    "ros/apply/": ("ros/jobs/", "ros/nodes/"),
+    "jobs/journal": ("cli/", "ros/jobs/"),
+}
 # The room that each public header belongs to; the rooms after it may include it.
 PUBLIC = {
     "counts.h": "assembly",
@@ -127,6 +134,14 @@ def check_inner_include(room, inner, header):
     return f"{room}/{inner}/ includes {'/'.join(filter(None, (room, other)))}/, which does not stand before it"
 
 
+def check_feature(name, header):
+    """Why the file `name` below src/ must not know the feature that `header` belongs to, or None."""
+    for feature, places in FEATURES.items():
+        if header.startswith(feature) and not name.startswith((feature, *places)):
+            return f"{feature} is a feature that only {', '.join(places)} may include"
+    return None
+
+
 def defining_rooms(sources):
     """The room that defines each class of ours, from the texts by file."""
     return {name: room_of_file(path) for path, text in sources.items() for name in DEFINITION.findall(text)}
@@ -193,7 +208,9 @@ def check(root):
             match = INCLUDE.match(line)
             if match:
                 in_brackets = match.group(1) == "<"
-                reason = check_include(room, match.group(2), in_brackets) or (None if in_brackets else check_inner_include(room, inner, match.group(2)))
+                header = match.group(2)
+                reason = check_include(room, header, in_brackets) or (
+                    None if in_brackets else check_inner_include(room, inner, header) or check_feature("/".join(name.parts[1:]), header))
             else:
                 reason = check_declaration(room, line, room_of_class)
             if reason:

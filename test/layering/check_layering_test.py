@@ -84,6 +84,13 @@ class PlantedViolations(unittest.TestCase):
         self.plant("src/reading/study/b.cc", '#include "reading/table.h"\n')
         self.assertEqual(self.violations(), [])
 
+    def test_features_are_known_at_their_doors_only(self):
+        self.plant("src/ros/nodes/b.cc", '#include "ros/apply/plan.h"\n#include "mpi/ranks.h"\n')
+        self.plant("src/jobs/journal.cc", '#include "jobs/journal.h"\n')
+        self.assertEqual(self.violations(), [])
+        self.plant("src/jobs/b.cc", '#include "jobs/files.h"\n#include "jobs/journal.h"\n')
+        self.assert_only("src/jobs/b.cc:2", "jobs/journal is a feature")
+
     def test_unknown_folder_inside_ros(self):
         self.plant("src/ros/misc/b.cc", "\n")
         self.assert_only("src/ros/misc/b.cc:1", "no place")
