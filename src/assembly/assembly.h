@@ -20,15 +20,6 @@ namespace codesign {
 template <class T>
 class Equations;
 
-/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from
-/// design to design.
-template <class T>
-struct ExtensionWorkspace {
-  VectorX<T> theta, rate, Phi, Phi_rate, G;
-  Eigen::MatrixXd errors, rows, scaled, changes, rates;  ///< derivatives, one column per direction
-  LeastSquaresWorkspace solution;
-};
-
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
 /// Positions: the tree's joint coordinates theta start from the study's positions, else from its

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "assembly/loop_jacobian.h"
 #include "equations/equations.h"
 #include "integration/increment.h"
 #include "integration/rosenbrock_step.h"

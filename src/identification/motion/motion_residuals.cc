@@ -119,7 +119,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
     lengths_.push_back(rows - begin);
   }
   recorded_.resize(rows, to_signed(outputs.size()));
-  for (const Place& place : places_) {
+  for (const SegmentRow& place : places_) {
     const Eigen::MatrixXd& part = segments_[place.recording][place.segment].recorded;
     recorded_.middleRows(place.row, part.rows()) = part;
   }
@@ -132,7 +132,7 @@ MotionResiduals::~MotionResiduals() = default;
 
 std::vector<double> MotionResiduals::times() const {
   std::vector<double> times;
-  for (const Place& place : places_)
+  for (const SegmentRow& place : places_)
     for (const double time : segments_[place.recording][place.segment].times)
       times.push_back(time + systems_[place.recording].epoch);
   return times;
@@ -140,13 +140,13 @@ std::vector<double> MotionResiduals::times() const {
 
 Eigen::Index MotionResiduals::own_unknowns() const {
   Eigen::Index sum = 0;
-  for (const Place& place : places_) sum += systems_[place.recording].starts;
+  for (const SegmentRow& place : places_) sum += systems_[place.recording].starts;
   return sum;
 }
 
 Status MotionResiduals::failure_of(std::size_t place, Status status) const {
   if (status.code == StatusCode::kCancelled) return status;
-  const Place& at = places_[place];
+  const SegmentRow& at = places_[place];
   const double begin =
       segments_[at.recording][at.segment].begin.time + systems_[at.recording].epoch;
   status.cause = "segment at " + readable(begin, 6) + " s of " + recordings_[at.recording].element +
@@ -156,7 +156,7 @@ Status MotionResiduals::failure_of(std::size_t place, Status status) const {
 
 Status MotionResiduals::begin(const Eigen::VectorXd& x) {
   for (std::unique_ptr<MotionWorker>& worker : workers_) worker->runs.clear();
-  reference_ = {};
+  best_ = {};
   best_starts_ = {};
   is_recounted_ = true;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
@@ -183,10 +183,10 @@ MotionResiduals::Guesses MotionResiduals::guesses(const Eigen::VectorXd& x) cons
     const bool has_best_starts = best_starts_.x.size() > 0,
                is_here = has_best_starts && is_recounted_ && best_starts_.x == x;
     if (is_here) starts.push_back(best_starts_.starts[place]);
-    if (reference_.x.size() > 0) {
-      starts.push_back(reference_.starts[place] - reference_.corrections[place] -
-                       reference_.slopes[place] * (x - reference_.x));
-      starts.push_back(reference_.starts[place]);
+    if (best_.x.size() > 0) {
+      starts.push_back(best_.starts[place] - best_.corrections[place] -
+                       best_.slopes[place] * (x - best_.x));
+      starts.push_back(best_.starts[place]);
     }
     if (has_best_starts && !is_here) starts.push_back(best_starts_.starts[place]);
     starts.push_back(segments_[places_[place].recording][places_[place].segment].start);
@@ -202,7 +202,7 @@ Status MotionResiduals::solve(const Eigen::VectorXd& x, const Guesses& guesses, 
     runs.resize(recordings_.size());
     for (std::size_t k = next++; k < places_.size() && !is_set(cancel_); k = next++) {
       if (guesses[k].empty()) continue;
-      const Place& place = places_[k];
+      const SegmentRow& place = places_[k];
       std::unique_ptr<SegmentRun>& run = runs[place.recording];
       if (!run)
         run = std::make_unique<SegmentRun>(systems_[place.recording],
@@ -259,13 +259,13 @@ Status MotionResiduals::solve_all(const Eigen::VectorXd& x,
     if ((*solutions)[k].predicted_decrease > kBestStartShare * (*solutions)[k].value)
       // From these starts the value can only fall; for small steps of x it is near the value of the
       // best point.
-      unsettled[k] = {reference_.starts[k] - reference_.slopes[k] * (x - reference_.x),
-                      reference_.starts[k], (*solutions)[k].start};
+      unsettled[k] = {best_.starts[k] - best_.slopes[k] * (x - best_.x), best_.starts[k],
+                      (*solutions)[k].start};
   if (Status status =
           improve(x, std::move(unsettled), SegmentWork::kBestStart, solutions, &improved);
       !status.ok())
     return status;
-  if (!(value_of(*solutions) < reference_.value)) return {};
+  if (!(value_of(*solutions) < best_.value)) return {};
   return solve(x, improved, SegmentWork::kElimination, solutions);
 }
 
@@ -280,7 +280,7 @@ Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x,
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const SegmentSolution& solution = (*solutions)[k];
     if (!(solution.predicted_decrease >
-          kSlowStart * std::max(inner_decrease, reference_.predicted_decreases[k])))
+          kSlowStart * std::max(inner_decrease, best_.predicted_decreases[k])))
       continue;
     slow[k] = {solution.start - solution.correction, solution.start};
     ++count;
@@ -296,14 +296,14 @@ Status MotionResiduals::help_slow_starts(const Eigen::VectorXd& x,
 
 void MotionResiduals::remember(const Eigen::VectorXd& x, double value,
                                const std::vector<SegmentSolution>& solutions) {
-  if (!is_recounted_ && !(value < reference_.value)) return;
+  if (!is_recounted_ && !(value < best_.value)) return;
   is_recounted_ = false;
-  reference_ = {x, value, {}, {}, {}, {}};
+  best_ = {x, value, {}, {}, {}, {}};
   for (const SegmentSolution& solution : solutions) {
-    reference_.starts.push_back(solution.start);
-    reference_.corrections.push_back(solution.correction);
-    reference_.slopes.push_back(solution.slope);
-    reference_.predicted_decreases.push_back(solution.predicted_decrease);
+    best_.starts.push_back(solution.start);
+    best_.corrections.push_back(solution.correction);
+    best_.slopes.push_back(solution.slope);
+    best_.predicted_decreases.push_back(solution.predicted_decrease);
   }
 }
 
@@ -314,7 +314,7 @@ Status MotionResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   if (Status status = solve(x, guesses(x), work, &solutions); !status.ok()) return status;
   if (jacobian) {
     if (!is_recounted_) {
-      const bool is_better = value_of(solutions) < reference_.value;
+      const bool is_better = value_of(solutions) < best_.value;
       if (Status status = is_better ? help_slow_starts(x, &solutions) : solve_all(x, &solutions);
           !status.ok())
         return status;

@@ -58,12 +58,12 @@ class MotionResiduals final : public RecordingResiduals {
  private:
   struct MotionWorker;
   /// The place of a segment among recordings and rows.
-  struct Place {
+  struct SegmentRow {
     std::size_t recording, segment;
     Eigen::Index row;  ///< row of its first sample
   };
   /// The starts at the best x so far, and how they follow x.
-  struct Reference {
+  struct BestPoint {
     Eigen::VectorXd x;
     double value = 0.0;
     std::vector<Eigen::VectorXd> starts, corrections;  ///< SegmentSolution::correction
@@ -99,13 +99,13 @@ class MotionResiduals final : public RecordingResiduals {
   std::vector<std::vector<std::optional<RecordedEffort>>>
       efforts_;                                         ///< [recording][output], of efforts
   std::vector<std::vector<Segment>> segments_;          ///< [recording]
-  std::vector<Place> places_;                           ///< of all segments
+  std::vector<SegmentRow> places_;                      ///< of all segments
   std::vector<std::unique_ptr<MotionWorker>> workers_;  ///< one per thread
   SeriesLengths lengths_;
   Eigen::MatrixXd recorded_;
-  Reference reference_;
+  BestPoint best_;
   bool is_recounted_ =
-      true;  ///< whether reference_.value was computed with other spreads or another loss
+      true;  ///< whether best_.value was computed with other spreads or another loss
   BestStarts best_starts_;
   double inner_decrease_ = 0.0;  ///< inner_decrease()
   std::int64_t runs_ = 0, whole_runs_ = 0;
