@@ -55,9 +55,9 @@ class PageTest(PanelTestCase):
             "rows": [["length", 0.5, 0.1 + 0.2], [LONG_NAME, 1.0, None]], "values": {"length": 0.1 + 0.2}, "warnings": ["parameter_on_bound: <b>wide</b>"], "bag": "/a/b.bag"})
         self.page.wait("!document.getElementById('result').hidden")
 
-    def test_it_fits_two_widths_in_light_and_dark(self):
+    def test_it_fits_wide_and_narrow_windows_in_light_and_dark(self):
         self.finish_job()
-        for width in (1280, 400):
+        for width in (1280, 400, 320):
             for scheme in ("light", "dark"):
                 self.page.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
                 self.page.resize(width)
