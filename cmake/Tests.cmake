@@ -154,6 +154,10 @@ endif()
 add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
 add_test(NAME example_controller COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/example_controller_test.py)
+add_test(NAME panel COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_test.py)
+# Skipped, with a message, where there is no chromium.
+add_test(NAME panel_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_page_test.py)
+set_tests_properties(panel_page PROPERTIES SKIP_REGULAR_EXPRESSION "no chromium on this machine")
 add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
 add_test(NAME show_in_rviz COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/show_in_rviz_test.py)
 
