@@ -7,7 +7,7 @@ import math
 import os
 import re
 from html import escape
-from typing import Any, Callable, Iterable, List, Sequence, Tuple
+from typing import Any, Iterable, List, Sequence, Tuple
 
 _MOST_CURVES = 6
 _MOST_SECONDS = 2.0  # of a run that is repeated for its picture
@@ -64,28 +64,33 @@ def _scene(sides: Sequence[Tuple[str, str, Any]]) -> List[Tuple[str, str]]:
     return [(caption, scene.picture(k, caption)) for k, (caption, _, _) in enumerate(sides)]
 
 
+def _outcome(of: Any) -> str:
+    return escape(str(of.status) if of.termination == of.status.code else f"{of.status}, {of.termination}")
+
+
 def problem(name: str, of: Any) -> str:
     rows = [(p.name, p.value, p.lower, p.upper, p.unit, "tuned" if p.tuned else "") for p in of.parameters]
     return f"<p><b>{escape(name)}</b>, {of.duration:g} s</p>" + _table(("parameter", "value", "lower", "upper", "unit", ""), rows) + _notes(of.warnings)
 
 
-def run(of: Any, details: Callable[[], Any], urdf: Callable[[], str]) -> str:
-    found = details() if of.statistics["cpu_seconds"] < _MOST_SECONDS else {}
+def run(of: Any) -> str:
+    rho, parameters = of._design
+    found = of._problem._core.details(rho, parameters) if of.statistics["cpu_seconds"] < _MOST_SECONDS else {}
     units = {signal["name"]: signal["unit"] for signal in found.get("signals", [])}
     rows = [(name, float(y.min()), float(y.max()), float(y[-1]), units.get(name, "")) for name, y in of.items() if len(y)]
     pictures = [_curve(name, of.time, [(name, "tuned", y)], units.get(name, "")) for name, y in list(of.items())[:_MOST_CURVES] if len(y)]
     if found.get("poses", {}).get("times"):
-        pictures = _scene([("at the start; faint: later", urdf(), found["poses"])]) + pictures
+        pictures = _scene([("at the start; faint: later", of._problem.urdf(rho, **parameters), found["poses"])]) + pictures
     objective = "" if of.objective is None else f", objective {of.objective:.10g}"
     head = f'<p>{escape(str(of.status))}{objective}, {of.statistics["steps"]} steps, {of.statistics["cpu_seconds"]:.3g} s of processor time</p>'
     return head + _table(("signal", "smallest", "largest", "at the end", "unit"), rows) + _images(pictures, _style()) + _notes(of.warnings)
 
 
 def result(of: Any) -> str:
-    head = f"<p>{escape(str(of.status))}"
+    head = f"<p>{_outcome(of)}"
     if not of._core.has_point:
         return head + "</p>" + _notes(of.warnings)
-    head += f", {escape(of.termination)}: objective {_short(of.initial_objective)} \u2192 <b>{_short(of.objective)}</b></p>"
+    head += f": objective {_short(of.initial_objective)} \u2192 <b>{_short(of.objective)}</b></p>"
     problem_ = of._problem
     rows = [(p.name, a, b, p.lower, p.upper, p.unit) for p, a, b in zip((p for p in problem_.parameters if p.tuned), of.initial_rho.tolist(), of.rho.tolist())]
     pictures = []
@@ -98,7 +103,7 @@ def result(of: Any) -> str:
 
 
 def fit(of: Any) -> str:
-    head = f"<p>{escape(str(of.status))}, {escape(of.termination)}</p>"
+    head = f"<p>{_outcome(of)}</p>"
     rows = [(name, n.start, n.value, n.deviation, *(n.interval or (None, None)), n.unit,
              "on its bound" if n.on_bound else "" if n.determined else "not determined") for name, n in of.numbers.items()]
     pictures = [_curve(f"{name}: recorded (dashed) and computed", of.time, [("recorded", "initial", of.recorded[name]), ("computed", "tuned", of.computed[name])], "")

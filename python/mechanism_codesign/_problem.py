@@ -129,9 +129,9 @@ class Problem:
         """
         if isinstance(signals, str):
             signals = [signals]
-        table, names, record = self._core.simulate(rho, parameters, list(signals or ()), samples)
-        run = Run(table, names, record, lambda: self._core.details(rho, parameters), lambda: self.urdf(rho, **parameters))
-        if not run.status.ok:
+        failure, table, names, notes = self._core.simulate(rho, parameters, list(signals or ()), samples)
+        run = Run(self, (rho, parameters), failure, table, names, notes)
+        if failure is not None:
             raise ComputationError(run.status, run)
         return run
 

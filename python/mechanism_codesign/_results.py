@@ -2,10 +2,11 @@
 """What computations return."""
 from __future__ import annotations
 
+import functools
 import os
 import tempfile
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -24,19 +25,47 @@ class Run(Mapping):  # type: ignore[type-arg]
     share the memory of the run and are read-only. A mapping: dict(run), pandas.DataFrame(dict(run), index=run.time).
     """
 
-    def __init__(self, table: Array, names: List[str], record: Dict[str, Any], details: Callable[[], Any], urdf: Callable[[], str]):
+    def __init__(self, problem: "Problem", design: Tuple[Any, Dict[str, float]], failure: Optional[Dict[str, Any]], table: Array,
+                 names: List[str], notes: "_core.RunNotes"):
         self.time: Array = table[0]  #: [s]
+        self.status = Status("success", "", float(self.time[-1])) if failure is None else Status(**failure)
+        self._problem, self._design, self._notes = problem, design, notes
         self._columns = dict(zip(names[1:], table[1:]))
-        self._details, self._urdf = details, urdf
-        self.status = Status(**record["status"])
-        self.objective: Optional[float] = record["objective"]  #: psi of this run; None if the study has no objective
-        self.parameters: Dict[str, float] = record["parameters"]  #: every named parameter, in SI units
-        self.limits_exceeded: List[Dict[str, Any]] = record["limits_exceeded"]  #: joint, limit, bound, worst, time
-        self.methods: List[Dict[str, Any]] = record["methods"]  #: from [s], method
-        self.warnings = [Warning(**w) for w in record["warnings"]]
-        #: steps, rejected_steps, explicit_steps, cpu_seconds, constraint_drift, energy_error
-        self.statistics: Dict[str, float] = {key: record[key] for key in (
+
+    @functools.cached_property
+    def _record(self) -> Dict[str, Any]:
+        return self._notes.record()
+
+    @property
+    def objective(self) -> Optional[float]:
+        """psi of this run; None if the study has no objective."""
+        return self._record["objective"]  # type: ignore[no-any-return]
+
+    @property
+    def parameters(self) -> Dict[str, float]:
+        """Every named parameter, in SI units."""
+        return dict(self._record["parameters"])
+
+    @property
+    def statistics(self) -> Dict[str, float]:
+        """steps, rejected_steps, explicit_steps, cpu_seconds, constraint_drift, energy_error."""
+        return {key: self._record[key] for key in (
             "steps", "rejected_steps", "explicit_steps", "cpu_seconds", "constraint_drift", "energy_error")}
+
+    @property
+    def limits_exceeded(self) -> List[Dict[str, Any]]:
+        """Limits of the model that the motion exceeds: joint, limit, bound, worst, time."""
+        return list(self._record["limits_exceeded"])
+
+    @property
+    def methods(self) -> List[Dict[str, Any]]:
+        """From when on [s] which method took the steps: from, method."""
+        return list(self._record["methods"])
+
+    @property
+    def warnings(self) -> List[Warning]:
+        """About the run."""
+        return [Warning(**w) for w in self._record["warnings"]]
 
     def __getitem__(self, signal: str) -> Array:
         try:
@@ -56,7 +85,7 @@ class Run(Mapping):  # type: ignore[type-arg]
         return f"<Run: {self.status.code}, {len(self.time)} samples of {len(self)} signals>"
 
     def _repr_html_(self) -> str:
-        return _notebook.run(self, self._details, self._urdf)
+        return _notebook.run(self)
 
 
 class _Progress:

@@ -92,23 +92,36 @@ Json methods_json(const RunSummary& summary) {
   return methods;
 }
 
-/// (table of columns x instants, names of the columns, record)
+/// What is told of a run besides its table, converted when it is asked for: most runs of a loop are
+/// read for their numbers alone.
+struct RunNotes {
+  Problem problem;
+  std::vector<double> design;
+  RunSummary summary;
+
+  py::object record() const {
+    Json record = {{"objective", summary.objective ? Json(*summary.objective) : Json()},
+                   {"parameters", parameters_json(problem, design)}};
+    add_statistics(summary.statistics, &record);
+    record["methods"] = methods_json(summary);
+    record["limits_exceeded"] = to_json(summary.crossings);
+    record["warnings"] = to_json(summary.warnings);
+    return to_python(record);
+  }
+};
+
+/// (failure or None, table of columns x instants, names of the columns, notes)
 py::tuple simulate(const Session& session, const py::object& rho, const py::dict& settings,
                    const py::list& signals, int samples) {
-  const std::vector<double> design = design_of(session, rho, settings);
+  std::vector<double> design = design_of(session, rho, settings);
   const std::vector<std::string> asked = strings_of(signals);
   RunTable run = interruptible(
       [&](const std::atomic<bool>* cancel) { return session.run(design, asked, samples, cancel); });
-  const RunSummary& summary = run.summary;
-  Json record = {{"status", to_json(summary.status)},
-                 {"objective", summary.objective ? Json(*summary.objective) : Json()},
-                 {"parameters", parameters_json(session.problem(), design)}};
-  add_statistics(summary.statistics, &record);
-  record["methods"] = methods_json(summary);
-  record["limits_exceeded"] = to_json(summary.crossings);
-  record["warnings"] = to_json(summary.warnings);
-  return py::make_tuple(keep_as_array(std::move(run.values), run.room, run.rows),
-                        to_list(run.names), to_python(record));
+  const Status& status = run.summary.status;
+  const py::object failure = status.ok() ? py::none() : to_python(to_json(status));
+  return py::make_tuple(failure, keep_as_array(std::move(run.values), run.room, run.rows),
+                        to_list(run.names),
+                        RunNotes{session.problem(), std::move(design), std::move(run.summary)});
 }
 
 /// The summary of record_design(): ranges and units of signals, energies, poses of all links.
@@ -216,6 +229,7 @@ void add_jobs(py::module_* module) {
 }
 
 void add_session(py::module_* module) {
+  py::class_<RunNotes>(*module, "RunNotes").def("record", &RunNotes::record);
   py::class_<Session>(*module, "Session")
       .def(py::init(&open))
       .def_property_readonly("parameters", &parameters)

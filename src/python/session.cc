@@ -67,7 +67,18 @@ void require_adjoint(const Problem& problem) {
 Session::Session(Problem problem)
     : problem_(std::move(problem)),
       start_(problem_.parameters()),
-      scenarios_(make_scenarios(problem_)) {}
+      scenarios_(make_scenarios(problem_)),
+      default_signals_(
+          checked(codesign::default_signals(problem_.robot(), problem_.study().controllers))) {}
+
+std::vector<SignalDescription> Session::checked(const std::vector<std::string>& signals) const {
+  std::vector<SignalDescription> parsed;
+  for (const std::string& text : signals) {
+    parsed.push_back(parse_signal(text, {kCall, 0}, "signals"));
+    check_signal(parsed.back(), problem_.robot(), problem_.study().controllers, "signals");
+  }
+  return parsed;
+}
 
 std::vector<double> Session::design(const std::optional<std::vector<double>>& rho,
                                     const ParameterSettings& settings) const {
@@ -154,22 +165,17 @@ RunTable Session::run(const std::vector<double>& parameters,
   if (samples < 2)
     throw InputError(
         {{kCall, 0}, "samples", "a run has both its ends", std::to_string(samples), "at least 2"});
-  const RobotDescription& robot = problem_.robot();
-  const std::vector<ControllerDescription>& controllers = problem_.study().controllers;
-  std::vector<SignalDescription> parsed;
-  for (const std::string& text : signals.empty() ? default_signals(robot, controllers) : signals) {
-    parsed.push_back(parse_signal(text, {kCall, 0}, "signals"));
-    check_signal(parsed.back(), robot, controllers, "signals");
-  }
+  const std::vector<SignalDescription> recorded =
+      signals.empty() ? default_signals_ : checked(signals);
   RunTable table;
-  table.names = column_names(parsed);
+  table.names = column_names(recorded);
   table.room = to_index(samples);
   table.values.resize(table.names.size() * table.room);
   const auto sink = [&table](const std::vector<double>& row) {
     for (std::size_t k = 0; k < row.size(); ++k) table.values[k * table.room + table.rows] = row[k];
     ++table.rows;
   };
-  table.summary = record_run(problem_, parameters, parsed, samples, sink, cancel);
+  table.summary = record_run(problem_, parameters, recorded, samples, sink, cancel);
   RunSummary& summary = table.summary;
   // A peak needs a run of its own that follows it.
   if (summary.status.ok() && has_objective(problem_.study()) && !summary.objective) {

@@ -57,12 +57,14 @@ class Session {
                int samples, const std::atomic<bool>* cancel) const;
 
  private:
+  std::vector<SignalDescription> checked(const std::vector<std::string>& signals) const;
   std::vector<Scenario> scenarios_at(const std::vector<double>& parameters) const;
   std::shared_ptr<EvaluationEngine> take_engine();
 
   const Problem problem_;
   const std::vector<double> start_;
   const std::vector<Scenario> scenarios_;
+  const std::vector<SignalDescription> default_signals_;
   std::mutex mutex_;                                        ///< guards the members below
   std::vector<std::shared_ptr<EvaluationEngine>> engines_;  ///< that no thread uses
   std::unique_ptr<Session> adjoint_;
