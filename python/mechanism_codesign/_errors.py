@@ -68,3 +68,7 @@ class ComputationError(RuntimeError):
 
     def __str__(self) -> str:
         return f"{self.status} (at t = {self.status.time:g} s)"
+
+
+for _class in (Status, Warning, InputError, OutputError, ComputationError):
+    _class.__module__ = __package__  # as tracebacks name it

@@ -29,7 +29,9 @@ class Run(Mapping):  # type: ignore[type-arg]
                  names: List[str], notes: "_core.RunNotes"):
         self.time: Array = table[0]  #: [s]
         self.status = Status("success", "", float(self.time[-1])) if failure is None else Status(**failure)
-        self._problem, self._design, self._notes = problem, design, notes
+        rho, parameters = design
+        self._problem, self._notes = problem, notes
+        self._design = None if rho is None else np.array(rho, float), parameters  # as it is now
         self._columns = dict(zip(names[1:], table[1:]))
 
     @functools.cached_property

@@ -2,6 +2,7 @@
 #include "python/interruption.h"
 
 #include <csignal>
+#include <cstdint>
 
 namespace codesign::python {
 namespace {
@@ -34,7 +35,7 @@ bool has_handler(const struct sigaction& action) {
 
 bool is_main_thread() {
   const py::module_ threading = py::module_::import("threading");
-  return threading.attr("main_thread")().attr("ident").cast<unsigned long>() ==
+  return threading.attr("main_thread")().attr("ident").cast<std::uint64_t>() ==
          PyThread_get_thread_ident();
 }
 

@@ -126,10 +126,17 @@ std::vector<Scenario> Session::scenarios_at(const std::vector<double>& parameter
 
 std::shared_ptr<EvaluationEngine> Session::take_engine() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (engines_.empty()) return make_engine(problem_, to_signed(scenarios_.size()), nullptr);
+  if (engines_.empty())
+    engines_.emplace_back(make_engine(problem_, to_signed(scenarios_.size()), nullptr));
   std::shared_ptr<EvaluationEngine> engine = engines_.back();
-  engines_.pop_back();
+  if (is_serial()) engines_.pop_back();
   return engine;
+}
+
+void Session::give_back(const std::shared_ptr<EvaluationEngine>& engine) {
+  if (!is_serial()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  engines_.push_back(engine);
 }
 
 Evaluation Session::evaluate(const std::vector<double>& parameters, Derivatives derivatives,
@@ -144,8 +151,7 @@ Evaluation Session::evaluate(const std::vector<double>& parameters, Derivatives 
   const std::shared_ptr<EvaluationEngine> engine = take_engine();
   const Ensemble ensemble(scenarios_at(parameters), study.ensemble.robust_options(), engine);
   Evaluation evaluation = ensemble.evaluate(rho, derivatives, cancel).total;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  engines_.push_back(engine);
+  give_back(engine);
   return evaluation;
 }
 

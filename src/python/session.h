@@ -59,14 +59,18 @@ class Session {
  private:
   std::vector<SignalDescription> checked(const std::vector<std::string>& signals) const;
   std::vector<Scenario> scenarios_at(const std::vector<double>& parameters) const;
+  /// Whether an evaluation is one run: each thread then has an engine of its own. Else they share
+  /// one, whose workers serve all.
+  bool is_serial() const { return scenarios_.size() == 1; }
   std::shared_ptr<EvaluationEngine> take_engine();
+  void give_back(const std::shared_ptr<EvaluationEngine>& engine);
 
   const Problem problem_;
   const std::vector<double> start_;
   const std::vector<Scenario> scenarios_;
   const std::vector<SignalDescription> default_signals_;
   std::mutex mutex_;                                        ///< guards the members below
-  std::vector<std::shared_ptr<EvaluationEngine>> engines_;  ///< that no thread uses
+  std::vector<std::shared_ptr<EvaluationEngine>> engines_;  ///< free ones, or the shared one
   std::unique_ptr<Session> adjoint_;
 };
 

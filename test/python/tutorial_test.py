@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The notebooks of doc/tutorials/ run, cell after cell, and print what stands in them. Usage: tutorial_test.py [--write]
+"""The notebooks of doc/tutorials/ run, cell after cell, and print what stands in them; so does the Python of README.md and doc/python.md. Usage: tutorial_test.py [--write]
 
 --write puts the outputs of this run into the notebooks.
 """
@@ -12,9 +12,13 @@ import json
 import os
 import re
 import sys
+import tempfile
 import unittest
 
 from fixture import ROOT
+from jobs_test import ARM, FIT, recorded
+
+import mechanism_codesign as codesign
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
@@ -44,10 +48,27 @@ def run(path):
     """(notebook as it is, its cells of code, the outputs of this run)"""
     with open(path, encoding="utf-8") as file:
         notebook = json.load(file)
-    cells, names, before = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"], {}, os.getcwd()
-    os.chdir(os.path.dirname(path))
-    try:
+    cells, names = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"], {}
+    with folder(os.path.dirname(path)):
         return notebook, cells, [execute("".join(cell["source"]), names) for cell in cells]
+
+
+def page(name):
+    with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+        return file.read()
+
+
+def blocks(name):
+    """The blocks of Python on a page."""
+    return re.findall(r"^```python\n(.*?)^```", page(name), re.DOTALL | re.MULTILINE)
+
+
+@contextlib.contextmanager
+def folder(path):
+    before = os.getcwd()
+    os.chdir(path)
+    try:
+        yield
     finally:
         os.chdir(before)
 
@@ -81,6 +102,27 @@ class Tutorials(unittest.TestCase):
                         self.compare("".join(stored.get("text", stored.get("data", {}).get("text/plain", []))),
                                      "".join(found.get("text", found.get("data", {}).get("text/plain", []))))
                         self.assertEqual("text/html" in stored.get("data", {}), "text/html" in found.get("data", {}))
+
+    def test_the_six_lines_of_the_readme(self):
+        """On the files that its example writes."""
+        files, names = re.findall(r"^cat > (\S+) <<'EOF'\n(.*?)^EOF", page("README.md"), re.DOTALL | re.MULTILINE), {}
+        with tempfile.TemporaryDirectory() as place, folder(place):
+            for name, text in files:
+                with open(name, "w", encoding="utf-8") as file:
+                    file.write(text)
+            (block,) = blocks("README.md")
+            execute(block, names)
+        shown = re.search(r"^length +\S+ +(\S+)", page("README.md"), re.MULTILINE).group(1)
+        self.assertAlmostEqual(names["result"].parameters["length"], float(shown), delta=1e-6)
+
+    def test_the_page_of_the_interface(self):
+        time, position, effort = recorded()
+        first, scipy, identification = blocks("doc/python.md")
+        names = {"time": time, "position": position, "effort": effort}
+        with folder(ROOT):
+            execute(first, names)
+            execute(scipy, names)
+            execute(identification, {**names, "problem": codesign.Problem(ARM, FIT)})
 
     def compare(self, stored, found):
         """The same words, and numbers that another processor may round otherwise."""
