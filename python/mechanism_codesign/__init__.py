@@ -42,7 +42,11 @@ __all__ = sorted(_MODULES)
 def __getattr__(name: str) -> object:
     if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    import importlib
+    import importlib.util
+    if importlib.util.find_spec(__name__ + "._core") is None:
+        import sys
+        raise ImportError(f"{__name__} has no extension for Python {sys.version.split()[0]}, {sys.executable}: it is built for /usr/bin/python3, and "
+                          "only where pybind11-dev and python3-dev are installed (tools/setup)")
     value = globals()[name] = getattr(importlib.import_module("." + _MODULES[name], __name__), name)
     return value
 

@@ -44,6 +44,12 @@ class Package(unittest.TestCase):
         code = "import mechanism_codesign, sys; assert not {'numpy', 'mechanism_codesign._core'} & set(sys.modules)"
         subprocess.run([sys.executable, "-c", code], check=True)
 
+    def test_a_python_without_the_extension_is_told_so(self):
+        code = "import mechanism_codesign as m; m.__path__[:] = [p for p in m.__path__ if not p.endswith('build/python')]; m.Problem"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+        self.assertIn("ImportError: mechanism_codesign has no extension for Python 3", done.stderr)
+        self.assertIn("pybind11-dev", done.stderr)
+
     def test_the_stub_of_the_extension_has_what_is_there(self):
         import ast
         from mechanism_codesign import _core
