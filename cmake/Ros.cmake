@@ -18,6 +18,8 @@ file(GLOB action_files RELATIVE ${PROJECT_SOURCE_DIR}/action CONFIGURE_DEPENDS $
 add_message_files(DIRECTORY msg FILES ${message_files})
 add_service_files(DIRECTORY srv FILES ${service_files})
 add_action_files(DIRECTORY action FILES ${action_files})
+# The package of the messages has sources, too (cmake/Python.cmake): their __init__.py is not generated.
+set(${PROJECT_NAME}_CATKIN_PYTHON_SETUP_HAS_PACKAGE_INIT TRUE)
 generate_messages(DEPENDENCIES ${message_dependencies})
 
 catkin_package(

@@ -53,6 +53,9 @@ class Problem {
   /// Values of all named parameters: the tuned ones from `rho` (order of tuned_names()), the others
   /// at their start values.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
+  /// Values of all named parameters: those of `settings`, the others at their start values.
+  /// @throws InputError for an unknown name, and a value that is not finite or outside its bounds.
+  std::vector<double> parameters(const ParameterSettings& settings) const;
   /// Names of the tuned parameters, in the order of rho and of every gradient.
   std::vector<std::string> tuned_names() const;
   /// The start of rho: values of the tuned parameters.

@@ -39,7 +39,7 @@ ROWS = [
     ["excitation"],
     ["jobs"],
     ["mpi"],
-    ["cli", "ros"],
+    ["cli", "python", "ros"],
 ]
 ROW_OF = {room: row for row, rooms in enumerate(ROWS) for room in rooms}
 # The same order of the rooms inside a room; "" are the files beside them.
