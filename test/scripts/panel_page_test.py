@@ -70,7 +70,7 @@ class PageTest(PanelTestCase):
         self.finish_job()
         controls = self.page.controls()
         self.assertEqual([each for each in controls if not each[1].strip()], [])
-        for control in (("slider", "length [m]"), ("spinbutton", "length [m]"), ("spinbutton", "servo"), ("button", "Set effort of elbow"), ("button", "Pause"),
+        for control in (("slider", "length [m]"), ("spinbutton", "length [m]"), ("spinbutton", "servo"), ("button", "Set the effort of elbow"), ("button", "Pause"),
                         ("button", "Remove the curve of elbow/friction"), ("link", "Report of this job (new tab)"), ("combobox", "Signal")):
             self.assertIn(control, controls)
         self.assertEqual(self.page.run("[...document.querySelectorAll('[role=status]')].map(e => e.id)"), ["state", "job-state", "said"])
@@ -142,6 +142,21 @@ class PageTest(PanelTestCase):
         self.assertEqual(self.page.run(names), ["elbow/position", f"{LONG_NAME}/position"])
         self.page.run("document.getElementById('signal').value = 'elbow/friction'; document.getElementById('add').click()")
         self.page.wait("document.querySelectorAll('svg').length === 3")
+
+    def test_a_peak_of_one_frame_among_thousands_stays_in_the_picture(self):
+        for k in range(40, 3000):
+            self.board.curves.add("joint_friction", 4.0 + 0.002 * k, ["elbow"], ("friction",), [[50.0 if k == 1234 else 1.0]])
+        self.page.wait("document.querySelector('figure .values').textContent === 'now 1, from -1 to 50'")
+        points = self.page.run("document.querySelector('polyline').getAttribute('points')").split()
+        self.assertLess(len(points), 1500)
+        heights = sorted(float(point.partition(",")[2]) for point in points)
+        self.assertLess(heights[0], heights[1] - 50.0, "one point stands far above the others")
+
+    def test_an_arrow_key_in_a_number_is_one_step_of_its_slider(self):
+        self.page.run("document.getElementById('parameter-0').focus()")
+        self.page.press("ArrowUp")
+        self.page.press("Enter")
+        self.wait_for_asked(("parameters", {"values": {"length": 0.505}}))
 
     def test_a_node_that_ends_is_said(self):
         self.board.tell("simulation", seen=-math.inf)

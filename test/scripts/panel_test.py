@@ -104,7 +104,8 @@ class RequestsTest(PanelTestCase):
                                (b'{"do": "shutdown"}', "do: unknown"), (b'{"do": "pause", "x": 1}', "pause: wrong fields (value: x, needed: none)"),
                                (b'{"do": "effort", "name": "elbow"}', "needed: name, value"), (b'{"do": "effort", "name": "elbow", "value": NaN}', "finite"),
                                (b'{"do": "effort", "name": "elbow", "value": true}', "finite"), (b'{"do": "effort", "name": 3, "value": 1}', "a name needs"),
-                               (b'{"do": "effort", "name": ["x"], "value": 1}', "a name needs"),
+                               (b'{"do": "effort", "name": ["x"], "value": 1}', "a name needs"), (b'{"do": "effort", "name": "\\ud800", "value": 1}', "a name needs"),
+                               (b'{"do": "effort", "name": "elbow", "value": 1' + 400 * b"0" + b"}", "finite"), (b'{"do": "effort", "name": "elbow", "value": 1e999}', "finite"),
                                (b'{"do": "parameters", "values": [1]}', "finite"), (b'{"do": "parameters", "values": {"length": "1"}}', "finite")):
             code, _, text = self.ask("POST", "/do", body, Content_Type="application/json")
             self.assertEqual(code, 400, body[:80])
