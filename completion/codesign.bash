@@ -18,7 +18,7 @@ _codesign() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-} options
   shopt -q extglob || return 0
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite report apply help --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite new report apply help --help --version" -- "$word")
     return
   fi
   # readline splits --verify=ridders in three.
@@ -27,7 +27,11 @@ _codesign() {
     return
   fi
   if [ "$command" = help ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite report apply" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite new report apply" -- "$word")
+    return
+  fi
+  if [ "$previous" = --from ]; then
+    mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" new 2>/dev/null | cut -d ' ' -f 1)" -- "$word")
     return
   fi
   case $previous in
@@ -43,11 +47,14 @@ _codesign() {
     gradient) options+=" --verify" ;;
     optimize) options+=" --output --resume" ;;
     identify | excite) options+=" --output" ;;
+    new) options="--from --json --help" ;;
     report) options="-o --output --help" ;;
     apply) options="--dry-run --server --ramp --hold --limit --deviation --joint-states --max-age --unwatched --json --help" ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  elif [ "$command" = new ]; then
+    COMPREPLY=()
   elif [ "$command" = report ] || [ "$command" = apply ]; then
     mapfile -t COMPREPLY < <(compgen -f -X '!*.bag' -- "$word"; compgen -d -- "$word")
   else

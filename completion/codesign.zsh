@@ -10,7 +10,7 @@ _codesign() {
   if (( CURRENT == 2 )); then
     _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
       'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' 'excite[find the motion to record]' \
-      'report[a page of what a job has found]' 'apply[send gains to a running robot]' 'help[the options]' '--help' '--version'
+      'new[a project from the gallery]'       'report[a page of what a job has found]' 'apply[send gains to a running robot]' 'help[the options]' '--help' '--version'
     return
   fi
   case ${words[2]} in
@@ -20,7 +20,11 @@ _codesign() {
     optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;
     identify|excite) options=('--output[folder of the results]:folder:_files -/') ;;
     help)
-      _arguments '1:command:' '2:command:(check urdf simulate gradient optimize identify excite report apply)'
+      _arguments '1:command:' '2:command:(check urdf simulate gradient optimize identify excite new report apply)'
+      return
+      ;;
+    new)
+      _arguments '1:command:' '2:folder:' "--from[machine of the gallery]:machine:($(codesign new 2>/dev/null | cut -d ' ' -f 1 | tr '\n' ' '))" '--json[one JSON object]' '--help[the options]'
       return
       ;;
     report)

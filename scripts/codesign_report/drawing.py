@@ -95,6 +95,14 @@ class Scene:
                 # Behind the solids around it.
                 yield depth - 8.0 / self.scale, f'<path class="{kind} stick" d="M{a[0]} {a[1]}L{b[0]} {b[1]}"/>'
 
+    def draw_rods(self, robot, links, index):
+        for ends in robot.rods:
+            if all(name in links for name, _ in ends):
+                points = [placed(links[name][index], point) for name, point in ends]
+                (ax, ay), (bx, by) = map(self.place, points)
+                depth = 0.5 * sum(geometry.dot(self.towards, p) for p in points)
+                yield depth, f'<path class="{"ghost" if index else "body"} stick" d="M{ax} {ay}L{bx} {by}"/>'
+
     def joints(self, robot, poses, index):
         links = poses["links"]
         places = {self.place(placed(links[name][index], p)) for name, ends in robot.joints_on.items() if name in links for p in ends}
@@ -109,6 +117,7 @@ class Scene:
                 kind = "ground" if name == robot.root else "ghost" if index else "body"
                 if kind != "ground" or index == 0:
                     parts += self.draw_link(robot, name, series[index], kind)
+            parts += self.draw_rods(robot, poses["links"], index)
             body += [text for _, text in sorted(parts, key=lambda part: part[0])]
         if count:
             body.append(self.joints(robot, poses, 0))

@@ -3,6 +3,7 @@
 import math
 import xml.etree.ElementTree as ElementTree
 
+SPRING = "{urn:mechanism_codesign}spring_damper"
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
@@ -100,13 +101,16 @@ class Robot:
             children.add(child)
             self.add_point(parent, joint.find("origin"))
             self.joints_on.setdefault(child, []).append((0.0, 0.0, 0.0))
-        for loop in root.findall("loop"):
-            for tag in ("predecessor", "successor"):
-                end = loop.find(tag)
-                if end is not None:
-                    self.add_point(end.get("link"), end.find("origin"))
+        # Rods without mass and springs: what runs between points of two links.
+        self.rods = []
+        for part in root.findall("loop") + root.findall(SPRING):
+            ends = [(end.get("link"), self.add_point(end.get("link"), end.find("origin")))
+                    for end in map(part.find, ("predecessor", "successor")) if end is not None]
+            if len(ends) == 2 and part.get("type", "codesign:distance") == "codesign:distance":
+                self.rods.append(ends)
         self.root = next((name for name in self.links if name not in children), None)
 
     def add_point(self, link, origin):
         xyz = numbers(origin.get("xyz"), (0.0, 0.0, 0.0)) if origin is not None else (0.0, 0.0, 0.0)
         self.joints_on.setdefault(link, []).append(xyz)
+        return xyz

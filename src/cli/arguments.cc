@@ -19,7 +19,7 @@ using Names = std::vector<std::string>;
 struct Option {
   enum class Value { kNone, kOptional, kRequired };
   Value value = Value::kRequired;
-  Names commands;  ///< commands that have the option; empty: all
+  Names commands;  ///< commands that have the option; empty: all but `new`
   std::function<void(const std::string&, Arguments*)> apply;
 };
 
@@ -81,7 +81,10 @@ const std::map<std::string, Option>& options() {
       {"--set", {Value::kRequired, {}, add_setting}},
       {"--result",
        {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
-      {"--json", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->json = true; }}},
+      {"--json",
+       {Value::kNone,
+        {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "new"},
+        [](const std::string&, Arguments* to) { to->json = true; }}},
       {"--quiet", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->quiet = true; }}},
       {"--sticks",
        {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
@@ -100,6 +103,10 @@ const std::map<std::string, Option>& options() {
        {Value::kRequired,
         {"optimize"},
         [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
+      {"--from",
+       {Value::kRequired,
+        {"new"},
+        [](const std::string& text, Arguments* to) { to->from = text; }}},
   };
   return kOptions;
 }
@@ -113,8 +120,9 @@ const std::map<std::string, Option>& options() {
 const Option& find_option(const std::string& name, const std::string& command) {
   Names known;
   for (const auto& [option_name, option] : options()) {
-    const bool fits = option.commands.empty() ||
-                      std::count(option.commands.begin(), option.commands.end(), command) > 0;
+    const bool fits = option.commands.empty()
+                          ? command != "new"
+                          : std::count(option.commands.begin(), option.commands.end(), command) > 0;
     if (fits && option_name == name) return option;
     if (fits) known.push_back(option_name);
   }
@@ -142,8 +150,10 @@ std::size_t apply_option(const Names& words, std::size_t i, Arguments* arguments
 void take_positional(const std::string& word, Arguments* arguments) {
   if (arguments->model.empty())
     arguments->model = word;
-  else if (arguments->study.empty())
+  else if (arguments->study.empty() && arguments->command != "new")
     arguments->study = word;
+  else if (arguments->command == "new")
+    throw UsageError("unexpected \"" + word + "\" after the name of the folder");
   else
     throw UsageError("unexpected \"" + word + "\" after model and study");
 }
@@ -195,6 +205,11 @@ const CommandHelp kCommands[] = {
      R"(  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
     --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
 )"},
+    {"new",
+     R"(  new [NAME]               a project of your own, the folder NAME, from a machine of the gallery;
+                           without NAME the machines are listed
+    --from MACHINE         the machine whose model and study are copied
+)"},
     {"report",
      R"(  report DIR|BAG           a page with all that an optimization or identification has found
     -o FILE                the page; by default report.html
@@ -226,8 +241,8 @@ the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check",    "urdf",   "simulate", "gradient", "optimize",
-                          "identify", "excite", "report",   "apply",    "help"};
+  const Names commands = {"check",  "urdf", "simulate", "gradient", "optimize", "identify",
+                          "excite", "new",  "report",   "apply",    "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];
@@ -253,6 +268,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     else
       take_positional(words[i], &arguments);
   }
+  if (arguments.command == "new") return arguments;
   if (arguments.model.empty()) throw UsageError("\"" + arguments.command + "\" needs a MODEL");
   if (arguments.study.empty() && arguments.command != "check" && arguments.command != "urdf")
     throw UsageError("\"" + arguments.command + "\" needs a STUDY");
@@ -263,6 +279,8 @@ std::string usage(const std::string& command) {
   const auto one = std::find_if(std::begin(kCommands), std::end(kCommands),
                                 [&](const CommandHelp& help) { return help.name == command; });
   if (one != std::end(kCommands)) {
+    if (command == "new")
+      return "usage: codesign new [NAME --from MACHINE] [--json]\n\n" + one->text;
     const bool is_for_jobs = command == "report" || command == "apply";
     const std::string head =
         "usage: codesign " + command +
@@ -275,7 +293,7 @@ std::string usage(const std::string& command) {
   std::string text =
       std::string("usage: codesign COMMAND MODEL [STUDY] [OPTIONS]\n\n") + kFiles + "\ncommands\n";
   for (const CommandHelp& help : kCommands) text += help.text;
-  return text + kOtherCommands + "\noptions of every command but report and apply\n" +
+  return text + kOtherCommands + "\noptions of every command but new, report and apply\n" +
          kSharedOptions + kExitCodes;
 }
 

@@ -21,9 +21,9 @@ class UsageError : public std::runtime_error {
 struct Arguments {
   std::string topic;  ///< help; the command that it is about, empty: all
   std::string
-      command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, help or version
-  std::string model;
-  std::string study;                  ///< path; empty: none given
+      command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, new, help, version
+  std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
+  std::string study;  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
   std::string result;          ///< path of the result.json with the design to use; empty: none
   ParameterSettings settings;  ///< --set NAME=VALUE, in order; they replace the values of `result`
@@ -38,6 +38,7 @@ struct Arguments {
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files
   bool resume = false;  ///< optimize; continue with the journal in `output`
+  std::string from;     ///< new; the machine of the gallery
 };
 
 /// @param words the command line without the program's name.

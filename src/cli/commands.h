@@ -19,6 +19,11 @@ int optimize(const Arguments& arguments, const Console& console);
 int identify(const Arguments& arguments, const Console& console);
 int excite(const Arguments& arguments, const Console& console);
 
+/// Copies model and study of a machine of the gallery into a new folder and prints the next
+/// commands; without arguments it lists the machines. @param gallery its folder. @throws InputError
+/// also for a machine that the gallery does not have, and for a folder that exists.
+int start_project(const Arguments& arguments, const std::string& gallery, const Console& console);
+
 /// Runs the program and reports every error. @param words the command line without the program's
 /// name. @returns the exit code, an ExitCode.
 int run(const std::vector<std::string>& words, const Console& console);

@@ -59,13 +59,19 @@ std::string find_script(const std::string& name, const std::string& program_fold
   return "";
 }
 
+std::string find_gallery(const std::string& program_folder) {
+  return find_script("../gallery", program_folder);
+}
+
+std::string own_path() { return fs::read_symlink("/proc/self/exe").string(); }
+
 std::string find_program(const std::string& name, const std::string& program_folder) {
   const fs::path path = fs::path(program_folder) / name;
   return access(path.c_str(), X_OK) == 0 && fs::is_regular_file(path) ? path.string() : "";
 }
 
 void become(const std::string& program, const std::vector<std::string>& words) {
-  const fs::path self = fs::read_symlink("/proc/self/exe");
+  const fs::path self = own_path();
   const std::string path = find_program(program, self.parent_path().string());
   if (path.empty())
     throw std::runtime_error("the program " + program + ", which needs ROS, is not beside " +
@@ -78,7 +84,7 @@ void become(const std::string& program, const std::vector<std::string>& words) {
 }
 
 int hand_over(const std::string& script, const std::vector<std::string>& words) {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path program = own_path();
   const std::string path = find_script(script, program.parent_path().string());
   if (path.empty())
     throw std::runtime_error("the script " + script + " of this package is not installed beside " +

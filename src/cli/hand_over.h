@@ -11,6 +11,12 @@ namespace codesign::cli {
 /// `share/mechanism_codesign/scripts.path` names. Empty if there is none.
 std::string find_script(const std::string& name, const std::string& program_folder);
 
+/// The path of the gallery, a folder beside that of the scripts; empty if there is none.
+std::string find_gallery(const std::string& program_folder);
+
+/// The path of this program, without links.
+std::string own_path();
+
 /// Runs a script of this package with `words` and waits for it. The script finds this program by
 /// the environment variable CODESIGN.
 /// @returns the exit code of the script, or kFailed if a signal ended it. @throws

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "cli/arguments.h"
@@ -23,6 +25,14 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "optimize") return optimize(arguments, console);
   if (arguments.command == "identify") return identify(arguments, console);
   if (arguments.command == "excite") return excite(arguments, console);
+  if (arguments.command == "new") {
+    const std::filesystem::path program = own_path();
+    const std::string gallery = find_gallery(program.parent_path().string());
+    if (gallery.empty())
+      throw std::runtime_error("the gallery of this package is not installed beside " +
+                               program.string());
+    return start_project(arguments, gallery, console);
+  }
   if (arguments.command == "version")
     console.out << "codesign " << version() << '\n';
   else

@@ -19,12 +19,20 @@ TEST(HandOver, FindsTheScriptsOfABuildAndOfAnInstallation) {
   EXPECT_EQ(find_script("report", folder.path("devel/lib/mechanism_codesign")),
             fs::canonical(folder.path("source/scripts/report")));
   EXPECT_EQ(find_script("other", folder.path("devel/lib/mechanism_codesign")), "");
+  EXPECT_EQ(find_gallery(folder.path("devel/lib/mechanism_codesign")), "");
+  fs::create_directories(folder.path("source/gallery"));
+  EXPECT_EQ(find_gallery(folder.path("devel/lib/mechanism_codesign")),
+            fs::canonical(folder.path("source/gallery")));
   // An installation, here one without ROS.
   fs::create_directories(folder.path("usr/bin"));
   fs::create_directories(folder.path("usr/share/mechanism_codesign/scripts"));
   std::ofstream(folder.path("usr/share/mechanism_codesign/scripts/report")) << "";
   EXPECT_EQ(find_script("report", folder.path("usr/bin")),
             fs::canonical(folder.path("usr/share/mechanism_codesign/scripts/report")));
+  EXPECT_EQ(find_gallery(folder.path("usr/bin")), "");
+  fs::create_directories(folder.path("usr/share/mechanism_codesign/gallery"));
+  EXPECT_EQ(find_gallery(folder.path("usr/bin")),
+            fs::canonical(folder.path("usr/share/mechanism_codesign/gallery")));
 }
 
 TEST(HandOver, FindsAProgramBesideThisOne) {

@@ -24,9 +24,9 @@ def usage():
     return subprocess.run([sys.argv[1], "--help"], capture_output=True, text=True, check=True).stdout
 
 
-def complete(*typed, folder=ROOT):
+def complete(*typed, folder=ROOT, program="codesign"):
     """What bash offers for the last of the words."""
-    quoted = " ".join(f"'{word}'" for word in ("codesign", *typed))
+    quoted = " ".join(f"'{word}'" for word in (program, *typed))
     script = f'. "{BASH}"; COMP_WORDS=({quoted}); COMP_CWORD={len(typed)}; _codesign; printf "%s\\n" "${{COMPREPLY[@]}}"'
     done = subprocess.run(["bash", "--norc", "-c", script], capture_output=True, text=True, check=True, cwd=folder)
     return done.stdout.split()
@@ -51,6 +51,8 @@ class CommandLine(unittest.TestCase):
         self.assertIn("urdf/governor.urdf", complete("check", "urdf/gov"))
         self.assertEqual(complete("check", "CMakeLi"), [])
         self.assertEqual(complete("optimize", "a", "b", "--output", "scri"), ["scripts"])
+        self.assertEqual(complete("new", "mine", "--f"), ["--from"])
+        self.assertEqual(complete("new", "mine", "--from", "tog", program=sys.argv[1]), ["toggle_press"])
 
     def test_a_start_without_bags_loads_no_library_of_ros(self):
         loaded = subprocess.run(["ldd", sys.argv[1]], capture_output=True, text=True, check=True).stdout

@@ -70,6 +70,19 @@ class Parts(unittest.TestCase):
         right, up, towards = drawing.view_of([(x, 0.0, z) for x in (0.0, 1.0) for z in (0.0, 2.0)])
         self.assertEqual([tuple(map(abs, v)) for v in (right, up, towards)], [(1, 0, 0), (0, 0, 1), (0, 1, 0)])
 
+    def test_rods_without_mass_and_springs_are_drawn(self):
+        ends = '<predecessor link="ground"><origin xyz="1 0 0"/></predecessor><successor link="arm"><origin xyz="0.5 0 1"/></successor>'
+        urdf = f"""<robot name="r" xmlns:codesign="urn:mechanism_codesign"><link name="ground"/><link name="arm"/>
+            <joint name="j" type="continuous"><parent link="ground"/><child link="arm"/></joint>
+            <loop name="rod" type="codesign:distance">{ends}</loop> <loop name="pin" type="codesign:spherical">{ends}</loop>
+            <codesign:spring_damper name="spring">{ends}</codesign:spring_damper></robot>"""
+        robot = geometry.Robot(urdf)
+        self.assertEqual(robot.rods, 2 * [[("ground", (1.0, 0.0, 0.0)), ("arm", (0.5, 0.0, 1.0))]])
+        pose = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+        scene = drawing.Scene([(robot, {"times": [0.0], "links": {"ground": [pose], "arm": [pose]}})])
+        (ax, ay), (bx, by) = scene.place((1.0, 0.0, 0.0)), scene.place((0.5, 0.0, 1.0))
+        self.assertEqual(scene.picture(0, "t").count(f'<path class="body stick" d="M{ax} {ay}L{bx} {by}"/>'), 2)
+
     def test_the_outline_of_a_square(self):
         self.assertEqual(len(drawing.hull([(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0.5)])), 4)
 
