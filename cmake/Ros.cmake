@@ -18,6 +18,8 @@ file(GLOB action_files RELATIVE ${PROJECT_SOURCE_DIR}/action CONFIGURE_DEPENDS $
 add_message_files(DIRECTORY msg FILES ${message_files})
 add_service_files(DIRECTORY srv FILES ${service_files})
 add_action_files(DIRECTORY action FILES ${action_files})
+# The package of the messages has sources, too (cmake/Python.cmake): their __init__.py is not generated.
+set(${PROJECT_NAME}_CATKIN_PYTHON_SETUP_HAS_PACKAGE_INIT TRUE)
 generate_messages(DEPENDENCIES ${message_dependencies})
 
 catkin_package(
@@ -94,7 +96,7 @@ endforeach()
 
 target_link_libraries(optimization PRIVATE codesign_mpi)
 
-install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/example_controller scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/play_bag scripts/restore_parameters scripts/simulate_sensors
+install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/example_controller scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/panel scripts/play_bag scripts/restore_parameters scripts/simulate_sensors
   scripts/show_in_rviz scripts/trajectory_from_bag scripts/watch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
-install(FILES scripts/watch.html DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+install(FILES scripts/panel.html scripts/watch.html DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
 install(DIRECTORY launch plotjuggler rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -39,7 +39,7 @@ codesign_warnings(codesign_test_fixtures)
 codesign_precompile(codesign_test_fixtures <gtest/gtest.h>)
 
 # Files whose names for small things are also those of a neighbour compile alone.
-set(alone math/lanes_test.cc math/scalar_test.cc math/scalar_test.cc reading/urdf/vocabulary_check_test.cc)
+set(alone math/scalar_test.cc reading/urdf/vocabulary_check_test.cc)
 set(many_cases reading elements equations integration sensitivity cli ros cases)
 foreach(folder IN LISTS codesign_rooms ITEMS mpi cli ros benchmark cases allocation)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
@@ -114,9 +114,19 @@ add_test(NAME layering_of_objects COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_
 add_test(NAME layering COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering.py ${PROJECT_SOURCE_DIR})
 add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/layering/check_layering_test.py)
 
+if(TARGET codesign_python)
+  add_dependencies(tests codesign_python)
+  foreach(part problem jobs notebook tutorial)
+    add_test(NAME python_${part} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/${part}_test.py)
+    set_tests_properties(python_${part} PROPERTIES
+      ENVIRONMENT "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages;CODESIGN=$<TARGET_FILE:codesign>")
+  endforeach()
+endif()
+
 add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/update_tables_test.py)
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 add_test(NAME identify_cases COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/identify_cases_test.py $<TARGET_FILE:codesign>)
+add_test(NAME json_schema COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/json_schema_test.py $<TARGET_FILE:codesign>)
 add_test(NAME readme COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/readme_test.py $<TARGET_FILE:codesign>)
 add_test(NAME gallery COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/scripts/gallery_test.py $<TARGET_FILE:codesign>)
 add_test(NAME watch_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/watch_test.py)
@@ -154,6 +164,10 @@ endif()
 add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
 add_test(NAME example_controller COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/example_controller_test.py)
+add_test(NAME panel COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_test.py)
+# Skipped, with a message, where there is no chromium.
+add_test(NAME panel_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_page_test.py)
+set_tests_properties(panel_page PROPERTIES SKIP_REGULAR_EXPRESSION "no chromium on this machine")
 add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
 add_test(NAME show_in_rviz COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/show_in_rviz_test.py)
 

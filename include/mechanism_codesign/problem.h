@@ -53,6 +53,9 @@ class Problem {
   /// Values of all named parameters: the tuned ones from `rho` (order of tuned_names()), the others
   /// at their start values.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
+  /// Values of all named parameters: those of `settings`, the others at their start values.
+  /// @throws InputError for an unknown name, and a value that is not finite or outside its bounds.
+  std::vector<double> parameters(const ParameterSettings& settings) const;
   /// Names of the tuned parameters, in the order of rho and of every gradient.
   std::vector<std::string> tuned_names() const;
   /// The start of rho: values of the tuned parameters.
@@ -85,8 +88,8 @@ Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& over
 Problem load_mechanism(const SourceText& urdf, const std::vector<SourceText>& overlays,
                        const ParameterSettings& settings = {});
 
-/// The same problem with parameter values replaced by `settings`, compiled anew. @throws InputError
-/// as load_problem().
+/// The same problem with parameter values replaced by `settings`, compiled again. @throws
+/// InputError as load_problem().
 Problem with_settings(const Problem& problem, const ParameterSettings& settings);
 
 /// Checks that the study has an objective, which evaluations, gradients and optimizations need.

@@ -44,7 +44,7 @@ class Simulation {
 
   /// Assembles positions, velocities, accelerations and reactions at t = 0, theory (19); the status
   /// says whether and why this failed. Call start() before the functions below; a second call
-  /// starts the run anew.
+  /// starts the run again.
   Status start();
 
   /// Integrates until `time` [s] lies within the last step; returns at once if it does already.
@@ -58,7 +58,7 @@ class Simulation {
   /// Goes on from `time` [s], which must lie within the last step (or be 0 after start()), with
   /// other parameter values. Positions and velocities stay; if dimensions change, the independent
   /// coordinates stay and the loops are closed from there. Accelerations and reactions follow the
-  /// new values, and the energy balance begins anew. The part of the last step after `time` is
+  /// new values, and the energy balance begins again. The part of the last step after `time` is
   /// discarded.
   /// @param parameters values of all named parameters. @returns kInvalidDesign, kAssemblyFailed or
   /// another status if the mechanism cannot have these values at `time`; the run then continues

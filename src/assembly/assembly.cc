@@ -60,7 +60,7 @@ void Assembly::begin_at(double time, const VectorX<double>& theta) {
 }
 
 void Assembly::set_start(const std::vector<double>& parameters) {
-  matrix_.forget();
+  matrix_.reset_pivots();
   theta_.setZero(tree_.size);
   theta_rate_.setZero(tree_.size);
   for (const InitialJointState& initial : system_.study().initial_state) {

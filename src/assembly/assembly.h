@@ -20,15 +20,6 @@ namespace codesign {
 template <class T>
 class Equations;
 
-/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from
-/// design to design.
-template <class T>
-struct ExtensionWorkspace {
-  VectorX<T> theta, rate, Phi, Phi_rate, G;
-  Eigen::MatrixXd errors, rows, scaled, changes, rates;  ///< derivatives, one column per direction
-  LeastSquaresWorkspace solution;
-};
-
 /// Consistent initial conditions of a design; doc/theory.md (19), (20).
 ///
 /// Positions: the tree's joint coordinates theta start from the study's positions, else from its
@@ -101,9 +92,9 @@ class Assembly {
     extend(parameters, start, equations, &workspace, state);
   }
 
-  /// SparseLu::settle() after a solution, whose pivots later solutions begin with.
-  void settle_pivots() { matrix_.settle(); }
-  /// The matrix of solve_rates(), with the settled pivots.
+  /// SparseLu::keep_pivots() after a solution, whose pivots later solutions begin with.
+  void keep_pivots() { matrix_.keep_pivots(); }
+  /// The matrix of solve_rates(), with the kept pivots.
   const IterationMatrix& rates_matrix() const { return matrix_; }
 
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.

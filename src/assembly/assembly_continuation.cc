@@ -45,7 +45,7 @@ Status Assembly::close_from(const TreeCoordinates& from, const std::vector<doubl
                             Equations<double>* equations) {
   warnings_.clear();
   contradicting_.clear();
-  matrix_.forget();
+  matrix_.reset_pivots();
   theta_ = from.theta;
   theta_rate_ = from.rate;
   follow_couplings(equations->constants());

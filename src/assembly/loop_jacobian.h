@@ -30,6 +30,15 @@ struct LoopMiss {
   double angle = 0.0;   ///< [rad]; for a coupling, in the unit of its follower's coordinate
 };
 
+/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from
+/// design to design.
+template <class T>
+struct ExtensionWorkspace {
+  VectorX<T> theta, rate, Phi, Phi_rate, G;
+  Eigen::MatrixXd errors, rows, scaled, changes, rates;  ///< derivatives, one column per direction
+  LeastSquaresWorkspace solution;
+};
+
 /// The memory that LoopJacobian computes in.
 struct LoopWorkspace {
   std::vector<LinkMotion<double>> links;
@@ -125,12 +134,12 @@ class LoopJacobian {
   std::vector<std::string> owners_;
   std::vector<Loop> loops_;
   /// Where evaluate() puts a number: the first one of a slot is written, later ones are added.
-  struct Place {
+  struct Slot {
     int slot;
     bool is_first;
   };
   SparseMatrix pattern_;       ///< zeros
-  std::vector<Place> places_;  ///< in the order of evaluate()
+  std::vector<Slot> places_;   ///< in the order of evaluate()
   std::vector<int> joint_of_;  ///< per coordinate: its joint in the description
   std::vector<bool> slides_;   ///< per coordinate: whether it is a length
   int first_coupling_row_ = 0;

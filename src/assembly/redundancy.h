@@ -4,11 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "assembly/assembly.h"
+#include "control/signal.h"
 #include "equations/equations.h"
 #include "mechanism_codesign/counts.h"
+#include "system/reaction_sharing.h"
 
 namespace codesign {
+
+class Assembly;
 
 class CompiledSystem;
 

@@ -5,13 +5,13 @@
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/job_folder.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "excitation/excite.h"
 #include "jobs/csv_writer.h"
 #include "jobs/files.h"
+#include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/recording_records.h"
 #include "text/number_text.h"
@@ -110,7 +110,7 @@ int excite(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) {
     make_folder(arguments.output, "--output");
     require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile},
-                        problem);
+                        "--output", problem);
   }
   LinePace pace;
   const auto observer = [&](const ExcitationTrial& trial) {

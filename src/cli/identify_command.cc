@@ -6,13 +6,13 @@
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
-#include "cli/job_folder.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "identification/identify.h"
 #include "jobs/files.h"
 #include "jobs/identification_records.h"
+#include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/trial_lines.h"
 #include "text/number_text.h"
@@ -69,7 +69,7 @@ void make_room(const std::string& folder, const Problem& problem) {
   std::vector<std::string> names;
   for (const IdentificationFile& file : identification_files(problem, {}, {}))
     names.push_back(file.name);
-  require_other_files(folder, names, problem);
+  require_other_files(folder, names, "--output", problem);
 }
 
 /// A failure to write one file is reported and does not affect the others.

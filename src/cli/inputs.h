@@ -16,17 +16,6 @@ namespace codesign::cli {
 /// @throws InputError that names the option, if the file cannot be opened.
 void open_output(const std::string& path, const std::string& option, std::ofstream* file);
 
-/// Checks that an output does not replace a file that is read, by its own path, a link or another
-/// path to the same file.
-/// @param option the option with the path. @param what the output, for the message. @throws
-/// InputError
-void require_no_input(const std::string& path, const std::string& option, const std::string& what,
-                      const std::vector<std::string>& inputs);
-
-/// Creates a folder and the folders above it. @throws InputError that names the option, if that
-/// fails.
-void make_folder(const std::string& path, const std::string& option);
-
 /// Loads the problem from the files that a command line names, and calls Console::loaded if it is
 /// set. Without a study the mechanism is loaded alone. @throws InputError as load_problem(), and
 /// for files that cannot be read.
@@ -35,10 +24,6 @@ Problem load(const Arguments& arguments, const Console* console = nullptr);
 /// load() for commands that need a gradient. @throws InputError also if the study has no objective
 /// or tunes no parameter.
 Problem load_tunable(const Arguments& arguments, const Console* console = nullptr);
-
-/// The paths of all files from which a problem was made: model, overlays, study, and the files,
-/// trajectories and recordings that the study names.
-std::vector<std::string> input_files(const Problem& problem);
 
 /// The signals of the option `--signals`, or default_signals() without it. @throws InputError for a
 /// signal that does not exist.

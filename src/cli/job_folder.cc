@@ -8,6 +8,7 @@
 
 #include "cli/inputs.h"
 #include "jobs/files.h"
+#include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/result_folder.h"
 
@@ -20,14 +21,6 @@ constexpr const char* kConvergence = "convergence.csv";
 
 }  // namespace
 
-void require_other_files(const std::string& folder, const std::vector<std::string>& names,
-                         const Problem& problem) {
-  const std::vector<std::string> inputs = input_files(problem);
-  for (const std::string& name : names)
-    require_no_input((std::filesystem::path(folder) / name).string(), "--output",
-                     "the result " + name, inputs);
-}
-
 JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resume)
     : path_(path), problem_(problem), best_(in_folder(""), problem) {
   if (resume)
@@ -36,7 +29,7 @@ JobFolder::JobFolder(const std::string& path, const Problem& problem, bool resum
     make_folder(path, "--output");
   std::vector<std::string> names = ResultFolder::file_names();
   names.push_back(kConvergence);
-  require_other_files(path, names, problem);
+  require_other_files(path, names, "--output", problem);
   lock_ = LockFile::take(in_folder(".codesign_optimize.lock"));
   if (!lock_)
     throw InputError({{path, 0},

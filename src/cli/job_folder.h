@@ -19,11 +19,6 @@
 
 namespace codesign::cli {
 
-/// Checks that no result replaces an input file. @param names of the files to be written into the
-/// folder. @throws InputError
-void require_other_files(const std::string& folder, const std::vector<std::string>& names,
-                         const Problem& problem);
-
 /// The output folder of `codesign optimize`. convergence.csv, best.urdf and best.json are written
 /// while the optimization runs; finish() writes the files of ResultFolder, each as a whole. A lock
 /// admits one optimization at a time. Results of an earlier optimization are removed; its journal

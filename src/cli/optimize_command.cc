@@ -54,7 +54,7 @@ void print_result(const Problem& problem, const OptimizationResult& result, std:
   if (const std::string stop = stop_sentence(result); !stop.empty()) out << stop << '\n';
 }
 
-void tell(const std::vector<std::string>& sentences, const Console& console) {
+void print_lines(const std::vector<std::string>& sentences, const Console& console) {
   for (const std::string& sentence : sentences)
     console.err << "codesign optimize: " << sentence << std::endl;
 }
@@ -74,11 +74,11 @@ std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ra
 int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
   require_engine(problem.study().ensemble.engine, console.ranks);
-  tell(idle_ranks(problem, console.ranks), console);
+  print_lines(idle_ranks(problem, console.ranks), console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
     folder.emplace(arguments.output, problem, arguments.resume);
-    tell(folder->notes(), console);
+    print_lines(folder->notes(), console);
   }
   std::mutex printing;  // progress comes from the workers
   LinePace stages, trials;
@@ -110,9 +110,9 @@ int optimize(const Arguments& arguments, const Console& console) {
   add_warnings(arguments, problem, warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   if (result.status.code == StatusCode::kWorkerLost && folder)
-    tell({"all that was evaluated is in the journal; go on with --resume " + arguments.output +
-          " in place of --output"},
-         console);
+    print_lines({"all that was evaluated is in the journal; go on with --resume " +
+                 arguments.output + " in place of --output"},
+                console);
   std::vector<Failure> failures;
   // The files are written before the output, so that the output reports missing ones.
   if (folder && designed) failures = folder->finish(object, result, console.cancel);

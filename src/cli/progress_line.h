@@ -2,14 +2,8 @@
 #pragma once
 
 #include <chrono>
-#include <string>
-
-#include "optimization/progress_meter.h"
 
 namespace codesign::cli {
-
-/// "screening: 12 of 400 points, 288 runs, 31.2 runs/s, about 5 min left".
-std::string progress_line(const Progress& progress);
 
 /// Bounds the number of lines that a long job prints: the first kLines all, later ones only after a
 /// hundredth of the time so far, so that the next e times that time have some hundred lines.

@@ -24,15 +24,15 @@ void add_warnings(const Arguments& arguments, const Problem& problem, const Warn
 
 int finish(const Arguments& arguments, const Status& status, Json object, const Console& console,
            const std::vector<Failure>& failures) {
-  const auto tell = [&](const std::string& sentence) {
+  const auto print_line = [&](const std::string& sentence) {
     console.err << "codesign " << arguments.command << ": " << sentence << std::endl;
   };
   if (!status.ok()) {
     object["error"] = to_json(status);
-    tell(describe(status));
+    print_line(describe(status));
   }
   for (const Failure& failure : failures) {
-    tell(failure.message);
+    print_line(failure.message);
     if (object.contains("error"))
       object["error"]["message"] =
           object["error"]["message"].get<std::string>() + "; " + failure.message;

@@ -9,6 +9,7 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "jobs/csv_writer.h"
+#include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "text/number_text.h"

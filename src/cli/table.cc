@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "identification/effort_doubts.h"
+#include "identification/effort/effort_doubts.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 

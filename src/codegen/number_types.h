@@ -4,7 +4,7 @@
 #include <complex>
 
 #include "codegen/traced.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 
 // Templates over the scalar that a .cc file defines are instantiated for these types; INSTANTIATE
 // is a macro with the type as its argument.

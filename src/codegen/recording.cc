@@ -10,49 +10,76 @@
 namespace codesign {
 namespace {
 
-int find_or_append(const SourceId& source, std::vector<SourceId>* sources) {
+int index_of(const SourceId& source, std::vector<SourceId>* sources) {
   const auto known = std::find(sources->begin(), sources->end(), source);
   const auto index = static_cast<int>(known - sources->begin());
   if (known == sources->end()) sources->push_back(source);
   return index;
 }
 
+/// The bits of a number: zeros of both signs differ, since one over each does.
+std::uint64_t bits_of(double x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+bool are_same(const Recording::Node& x, const Recording::Node& y) {
+  return x.operation == y.operation && x.a == y.a && x.b == y.b &&
+         bits_of(x.literal) == bits_of(y.literal);
+}
+
 }  // namespace
 
-int Recording::append(const Node& node) {
-  nodes_.push_back(node);
-  return size() - 1;
+int Recording::find_or_append(const Node& node) {
+  if (2 * (nodes_.size() + 1) > table_.size()) grow_table();
+  int& place = place_of(node);
+  if (place < 0) {
+    place = size();
+    nodes_.push_back(node);
+  }
+  return place;
+}
+
+// Fibonacci hashing, then the next entry that is empty or has the node.
+int& Recording::place_of(const Node& node) {
+  constexpr unsigned kOperand = 29;
+  const std::uint64_t key =
+      bits_of(node.literal) ^ (static_cast<std::uint64_t>(node.operation) << (2 * kOperand)) ^
+      (static_cast<std::uint64_t>(node.a + 1) << kOperand) ^ static_cast<std::uint64_t>(node.b + 1);
+  const std::size_t last = table_.size() - 1;
+  std::size_t k = to_index((key * 0x9E3779B97F4A7C15U) >> unused_bits_);
+  while (table_[k] >= 0 && !are_same(nodes_[to_index(table_[k])], node)) k = (k + 1) & last;
+  return table_[k];
+}
+
+void Recording::grow_table() {
+  constexpr int kFirstBits = 13;
+  unused_bits_ = table_.empty() ? 64 - kFirstBits : unused_bits_ - 1;
+  table_.assign(std::size_t{1} << static_cast<unsigned>(64 - unused_bits_), -1);
+  for (int n = 0; n < size(); ++n) place_of(node(n)) = n;
 }
 
 int Recording::leaf(int array, int index, bool varies) {
-  const auto [known, is_new] = leaves_.try_emplace({array, index}, size());
-  return is_new ? append({Operation::kLeaf, array, index, 0.0, varies}) : known->second;
+  return find_or_append({Operation::kLeaf, varies, array, index, 0.0});
 }
 
 int Recording::literal(double x) {
   if (std::isnan(x)) refuse();
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
-  const auto [known, is_new] = literals_.try_emplace(bits, size());
-  return is_new ? append({Operation::kLiteral, -1, -1, x, false}) : known->second;
+  return find_or_append({Operation::kLiteral, false, -1, -1, x});
 }
 
 int Recording::supplied(const SourceId& source) {
-  return leaf(kSupplied, find_or_append(source, &supplied_), false);
+  return leaf(kSupplied, index_of(source, &supplied_), false);
 }
 
 int Recording::timed(const SourceId& source, int order) {
-  return leaf(kTimed, kFunctionOrders * find_or_append(source, &timed_) + order, true);
+  return leaf(kTimed, kFunctionOrders * index_of(source, &timed_) + order, true);
 }
 
 int Recording::operate(Operation operation, int a, int b) {
   if ((operation == Operation::kAdd || operation == Operation::kMultiply) && a > b) std::swap(a, b);
-  constexpr int kBits = 29;
-  const std::uint64_t key = (static_cast<std::uint64_t>(operation) << (2 * kBits)) |
-                            (static_cast<std::uint64_t>(a + 1) << kBits) |
-                            static_cast<std::uint64_t>(b + 1);
-  if (const auto [known, is_new] = operations_.find_or_add(key, size()); !is_new) return known;
-  return append({operation, a, b, 0.0, node(a).varies || (b >= 0 && node(b).varies)});
+  return find_or_append({operation, node(a).varies || (b >= 0 && node(b).varies), a, b, 0.0});
 }
 
 bool Recording::decide(int a, int b, bool expected, unsigned place) {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <map>
 #include <typeindex>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -34,47 +33,6 @@ class SourceId {
  private:
   const void* address_;
   std::type_index type_;
-};
-
-/// Nodes by a key other than zero: a hash table in one array, since a recording looks every
-/// operation up and most of them are new.
-class NodeTable {
- public:
-  /// The node of a key, which becomes `node` if there is none. @return the node, and whether it is
-  /// new.
-  std::pair<int, bool> find_or_add(std::uint64_t key, int node) {
-    if (2 * (count_ + 1) > entries_.size()) grow();
-    Entry& entry = place_of(key);
-    if (entry.key == key) return {entry.node, false};
-    entry = {key, node};
-    ++count_;
-    return {node, true};
-  }
-
- private:
-  struct Entry {
-    std::uint64_t key = 0;
-    int node = -1;
-  };
-
-  /// Fibonacci hashing, then the next place that is empty or has the key.
-  Entry& place_of(std::uint64_t key) {
-    const std::size_t mask = entries_.size() - 1;
-    std::size_t k = to_index((key * 0x9E3779B97F4A7C15U) >> 32U) & mask;
-    while (entries_[k].key != 0 && entries_[k].key != key) k = (k + 1) & mask;
-    return entries_[k];
-  }
-
-  void grow() {
-    constexpr std::size_t kFirst = 16384;
-    std::vector<Entry> old(entries_.empty() ? kFirst : 2 * entries_.size());
-    old.swap(entries_);
-    for (const Entry& entry : old)
-      if (entry.key != 0) place_of(entry.key) = entry;
-  }
-
-  std::vector<Entry> entries_;  ///< a power of two of them
-  std::size_t count_ = 0;
 };
 
 /// Elementary operations of a Recording.
@@ -106,9 +64,9 @@ class Recording {
 
   struct Node {
     Operation operation;
+    bool varies = false;   ///< depends on a leaf that varies between evaluations of one design
     int a = -1, b = -1;    ///< operands, -1 where there is none
     double literal = 0.0;  ///< of kLiteral
-    bool varies = false;   ///< depends on a leaf that varies between evaluations of one design
   };
 
   /// A branch of the recorded computation: the recording is valid only where (a < b) == outcome.
@@ -166,11 +124,19 @@ class Recording {
   static constexpr int kSupplied = 100, kTimed = 101, kFunctionOrders = 4;
 
  private:
-  static constexpr std::size_t kUsualNodes = 8192;  ///< of a mechanism with some ten bodies
+  static constexpr std::size_t kUsualNodes = 4096;  ///< of a mechanism with some ten bodies
 
-  int append(const Node& node);
+  /// The node with this operation and these operands, entry or literal.
+  int find_or_append(const Node& node);
+  /// The entry of table_ that holds a node with this content, or is empty and would.
+  int& place_of(const Node& node);
+  void grow_table();
 
   std::vector<Node> nodes_;
+  /// A hash table in one array of a power of two entries: each node's index, -1 where there is
+  /// none. Without keys, since most operations are new, and what it costs is to touch its memory.
+  std::vector<int> table_;
+  int unused_bits_ = 64;  ///< of 64 bits of a hash
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
   std::map<std::pair<int, int>, int>
@@ -180,9 +146,6 @@ class Recording {
   std::function<bool(unsigned)> turned_;
   std::vector<unsigned> places_;
   bool refused_ = false;
-  NodeTable operations_;  ///< the node of each operation recorded so far, by operation and operands
-  std::map<std::pair<int, int>, int> leaves_;
-  std::unordered_map<std::uint64_t, int> literals_;  ///< by their bits
 };
 
 }  // namespace codesign

@@ -81,7 +81,7 @@ class Code final : public ValueCode, private MachineCode {
     xor_(eax, eax);
     leave();
     finish();
-    forget();
+    release_inputs();
   }
 
   bool run(const Arrays& arrays) const override { return call(arrays.data()) != 0; }
@@ -120,7 +120,7 @@ class Code final : public ValueCode, private MachineCode {
     for (int r = 0; r < kRegisters; ++r) {
       if (busy_[to_index(r)]) continue;
       if (held_[to_index(r)] < 0) return r;
-      if (const int next = uses_.next(held_[to_index(r)]); next > farthest) {
+      if (const int next = next_read_[to_index(r)]; next > farthest) {
         farthest = next;
         best = r;
       }
@@ -134,6 +134,13 @@ class Code final : public ValueCode, private MachineCode {
   void hold(int node, int r) {
     held_[to_index(r)] = node;
     register_of_[to_index(node)] = r;
+    next_read_[to_index(r)] = uses_.next(node);
+  }
+
+  /// Notes that the present instruction is past reading a node.
+  void pass(int node) {
+    uses_.pass(node);
+    if (in_register(node)) next_read_[to_index(register_of_[to_index(node)])] = uses_.next(node);
   }
 
   /// A register with the value of the node; it stays unchanged during the present instruction.
@@ -181,7 +188,7 @@ class Code final : public ValueCode, private MachineCode {
     busy_.fill(false);
     last_dropped_ = -1;
     for (int n : {i.a, i.b, i.c})
-      if (n >= 0) uses_.pass(n);
+      if (n >= 0) pass(n);
     switch (i.kind) {
       case Kind::kGuardLess:
       case Kind::kGuardGreaterEqual:
@@ -336,7 +343,7 @@ class Code final : public ValueCode, private MachineCode {
   }
 
   /// Releases the data that only code generation needs.
-  void forget() {
+  void release_inputs() {
     recording_ = nullptr, task_ = nullptr, program_ = nullptr;
     uses_ = Uses();
     register_of_ = {}, stored_ = {}, kept_ = {};
@@ -350,8 +357,9 @@ class Code final : public ValueCode, private MachineCode {
   std::vector<int> register_of_;  ///< per node: the register that holds it, -1 if none
   std::vector<bool> stored_,
       kept_;  ///< per node: its value is in its slot; it must be there at the end
-  std::array<int, kRegisters> held_{};   ///< the node in each register, -1 if none
-  std::array<bool, kRegisters> busy_{};  ///< the present instruction reads or writes it
+  std::array<int, kRegisters> held_{};       ///< the node in each register, -1 if none
+  std::array<int, kRegisters> next_read_{};  ///< per register in use: Uses::next() of its node
+  std::array<bool, kRegisters> busy_{};      ///< the present instruction reads or writes it
   int last_dropped_ = -1;
   Xmm operand_register_{0};
   Xbyak::Address operand_address_{0, false, Xbyak::RegExp()};

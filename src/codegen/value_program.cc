@@ -26,6 +26,8 @@ class Compiler {
     count_uses();
     program->slot.assign(uses_.size(), -1);
     program->slots = task_.reserved_slots;
+    const auto used = uses_.size() - to_index(std::count(uses_.begin(), uses_.end(), 0));
+    program->instructions.reserve(used), program->stores.reserve(used);
     for (int n = 0; n < recording_.size(); ++n) {
       if (is_computed(n) && !is_absorbed(n)) {
         program->slot[to_index(n)] = program->slots++;

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 
 namespace codesign {
 

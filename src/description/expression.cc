@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "codegen/traced.h"
 #include "description/expression_syntax.h"
 #include "math/arrays.h"
 
@@ -328,6 +329,13 @@ ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables) {
     }
   }
   return stack.back();
+}
+
+Traced value_at(const Expression& expression, const std::vector<Traced>& parameters) {
+  Recording* const recording = parameters.front().recording();
+  const UsedNumbers<double> values = expression.used<double>(
+      parameters, [](const Traced& parameter) { return parameter.value(); });
+  return {recording, recording->supplied(SourceId(expression)), expression.value_of(values)};
 }
 
 }  // namespace codesign

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "description/control_realization.h"
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "description/reference.h"
 #include "description/signal.h"
 #include "description/solver_options.h"

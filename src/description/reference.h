@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "math/sampled_function.h"
 #include "mechanism_codesign/error.h"
 

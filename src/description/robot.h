@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "description/reference.h"
 #include "mechanism_codesign/error.h"
 

@@ -22,7 +22,7 @@ std::string in_seconds(RankTimes::Duration duration) {
 Dispatcher::Dispatcher(Transport* transport, const RankTimes& times)
     : transport_(transport), times_(times) {
   RankState unheard;
-  unheard.heard = unheard.told = Clock::now();
+  unheard.heard = unheard.addressed = Clock::now();
   ranks_.assign(transport ? to_index(transport->ranks()) : 1, unheard);
   if (ranks() > 1) thread_ = std::thread([this] { work(); });
 }
@@ -60,7 +60,7 @@ void Dispatcher::remove(std::uint32_t problem) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     problems_.erase(problem);
-    forgotten_.push_back(problem);
+    removed_.push_back(problem);
   }
   has_local_work_.notify_all();
   has_work_.notify_all();
@@ -145,13 +145,13 @@ void Dispatcher::work() {
     }
     lock.lock();
     const Clock::time_point now = Clock::now();
-    for (const auto& [rank, bytes] : outgoing) ranks_[to_index(rank)].told = now;
+    for (const auto& [rank, bytes] : outgoing) ranks_[to_index(rank)].addressed = now;
     const bool is_quiet = inbox.empty() && outgoing.empty();
     if (!is_quiet) pause.restart(now);
     outgoing.clear();
     for (Envelope& envelope : inbox) handle(std::move(envelope), now);
     inbox.clear();
-    forget_removed(&outgoing);
+    send_removals(&outgoing);
     watch_cancels(now, &outgoing);
     watch_ranks(now, &outgoing);
     hand_out(&outgoing);
@@ -255,8 +255,8 @@ void Dispatcher::send_next(int rank, Outgoing* outgoing) {
   sort_in(rank);
 }
 
-void Dispatcher::forget_removed(Outgoing* outgoing) {
-  for (const std::uint32_t problem : std::exchange(forgotten_, {}))
+void Dispatcher::send_removals(Outgoing* outgoing) {
+  for (const std::uint32_t problem : std::exchange(removed_, {}))
     for (int rank = 1; rank < ranks(); ++rank)
       if (ranks_[to_index(rank)].problems.erase(problem) > 0)
         outgoing->emplace_back(rank, write_numbered(MessageKind::kForget, problem));
@@ -334,7 +334,7 @@ void Dispatcher::watch_ranks(Clock::time_point now, Outgoing* outgoing) {
     if (now - state.heard > patience)
       lose(name_of_rank(rank) + " has said nothing for " + in_seconds(patience) +
            ": it was killed, or its machine is stopped or cannot be reached");
-    if (now - state.told > times_.sign)
+    if (now - state.addressed > times_.sign)
       outgoing->emplace_back(rank, write_numbered(MessageKind::kSign));
   }
 }

@@ -62,8 +62,9 @@ struct RankState {
   bool is_ready = false;  ///< kHello has arrived
   bool has_left = false;  ///< kGoodbye has arrived
   std::string host;
-  PollPause::Clock::time_point heard, told;  ///< time of the last message from this rank and to it
-  std::uint64_t pong = 0;                    ///< the last ping that the rank has answered
+  PollPause::Clock::time_point heard,
+      addressed;           ///< time of the last message from this rank and to it
+  std::uint64_t pong = 0;  ///< the last ping that the rank has answered
   std::vector<SentTask>
       sent{};  ///< tasks without an answer, at most two: one runs, and one waits at the rank
   std::set<std::uint32_t> problems{};  ///< problems that were sent to this rank
@@ -140,7 +141,7 @@ class Dispatcher {
   void drop_waiting(RankBatch* batch);
   void sort_in(int rank);
   void watch_ranks(Clock::time_point now, Outgoing* outgoing);
-  void forget_removed(Outgoing* outgoing);
+  void send_removals(Outgoing* outgoing);
   void lose(const std::string& sentence);
   void end(RankBatch* batch, const Status& status);
   std::string name_of_rank(int rank) const;
@@ -157,7 +158,7 @@ class Dispatcher {
   std::deque<RankBatch*> waiting_;  // batches with tasks that no rank has taken
   std::size_t waiting_tasks_ = 0;
   std::vector<RankBatch*> batches_;  // all batches that have not ended
-  std::vector<std::uint32_t> forgotten_;
+  std::vector<std::uint32_t> removed_;
   std::vector<std::uint64_t> roll_calls_;  // pings to be sent
   Status lost_;
   bool ends_ = false;

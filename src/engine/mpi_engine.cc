@@ -92,7 +92,7 @@ std::string RankWorker::run() {
 
 std::string RankWorker::listen() {
   PollPause pause;
-  Clock::time_point heard = Clock::now(), told = heard, looked = heard;
+  Clock::time_point heard = Clock::now(), sent = heard, looked = heard;
   for (;;) {
     bool is_quiet = true;
     const Clock::time_point now = Clock::now();
@@ -109,12 +109,12 @@ std::string RankWorker::listen() {
     if (now - heard > times_.orphaned) return "rank 0 has said nothing for too long";
     std::unique_lock<std::mutex> lock(mutex_);
     std::vector<std::string> answers = std::exchange(answers_, {});
-    if (answers.empty() && now - told > times_.sign)
+    if (answers.empty() && now - sent > times_.sign)
       answers.push_back(write_numbered(MessageKind::kSign));
     if (!answers.empty()) {
       lock.unlock();
       for (std::string& answer : answers) transport_->send(0, std::move(answer));
-      told = now;
+      sent = now;
       pause.restart(now);
       continue;
     }

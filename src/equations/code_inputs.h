@@ -8,7 +8,7 @@
 #include "control/reference.h"
 #include "equations/equation_code.h"
 #include "equations/transposed_code.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

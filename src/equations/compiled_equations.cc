@@ -82,9 +82,9 @@ void CompiledEquations<T>::allow(bool machine_code) {
 }
 
 template <class T>
-void CompiledEquations<T>::forget() {
+void CompiledEquations<T>::use_first_variant() {
   current_ = 0;
-  for_each_other([](auto* other) { other->forget(); });
+  for_each_other([](auto* other) { other->use_first_variant(); });
 }
 
 template <class T>

@@ -46,7 +46,7 @@ class CompiledEquations {
   /// it.
   void allow(bool machine_code);
   /// Begins again with the first variant.
-  void forget();
+  void use_first_variant();
 
   /// The functions of Equations of the same name.
   void residual(const State<T>& state, VectorX<T>* G, T* g);

@@ -12,11 +12,13 @@ namespace codesign {
 
 CompiledSystem::CompiledSystem(const RobotDescription& robot, const Study& study,
                                ReactionSharing sharing, const std::vector<int>& drives)
-    : System(robot, study, std::move(sharing), drives),
-      patterns_(record_patterns(*this)),
-      variants_{std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(),
-                std::make_unique<EquationVariants>(), std::make_unique<EquationVariants>(),
-                std::make_unique<EquationVariants>()} {}
+    : System(robot, study, std::move(sharing), drives) {
+  auto residual = std::make_unique<ResidualRecording>(*this);
+  patterns_ = record_patterns(*this, *residual);
+  for (auto& variants : variants_) variants = std::make_unique<EquationVariants>();
+  variants_[to_index(EquationPart::kMotion)] =
+      std::make_unique<EquationVariants>(std::move(residual));
+}
 
 CompiledSystem::~CompiledSystem() = default;
 

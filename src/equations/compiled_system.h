@@ -58,9 +58,9 @@ class CompiledSystem final : public System {
                            EquationPart part = EquationPart::kMotion) const;
 
  private:
-  const ByVariable<Sparsity> patterns_;
-  const std::array<std::unique_ptr<EquationVariants>, kEquationParts>
-      variants_;  ///< per EquationPart
+  ByVariable<Sparsity> patterns_;
+  /// Per EquationPart.
+  std::array<std::unique_ptr<EquationVariants>, kEquationParts> variants_;
 };
 
 }  // namespace codesign

@@ -7,7 +7,7 @@
 #include "equations/compiled_equations.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 #include "sparse/sparsity.h"
 #include "system/state.h"
 
@@ -27,7 +27,7 @@ class CompressedJacobian {
   /// As CompiledEquations of the same name.
   void set_design(const std::vector<double>& parameters);
   void allow(bool machine_code) { tangents_.allow(machine_code); }
-  void forget() { tangents_.forget(); }
+  void use_first_variant() { tangents_.use_first_variant(); }
 
   /// All derivatives at a state.
   void linearize(const State<double>& state, Linearization<double>* derivatives);

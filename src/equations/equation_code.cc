@@ -58,20 +58,22 @@ bool is_tangent_leaf(const Recording::Node& node) {
 }  // namespace
 
 EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
-                           std::vector<bool> outcomes)
+                           std::vector<bool> outcomes, std::unique_ptr<ResidualRecording> begun)
     : system_(system),
       long_(system.layout().columns() > kMostColumns),
       functions_(count_functions(system, part)),
       known_(functions_.size()) {
-  values_.recording.follow(std::move(outcomes));
-  RecordedEquations equations(system, &values_.recording);
-  std::vector<Recording::Guard> none;
-  take_guards(0, &none);
-  if (part == EquationPart::kMotion || part == EquationPart::kLinearized ||
-      part == EquationPart::kRates)
-    record_motion(part, &equations);
-  if (part == EquationPart::kSignals) record_signals(&equations);
-  if (part == EquationPart::kStart) record_start(&equations);
+  if (part == EquationPart::kSignals || part == EquationPart::kStart) {
+    values_.recording.follow(std::move(outcomes));
+    RecordedEquations equations(system, &values_.recording);
+    take_design_guards(values_.recording.decisions().size());
+    part == EquationPart::kSignals ? record_signals(&equations) : record_start(&equations);
+  } else {
+    if (!begun) begun = std::make_unique<ResidualRecording>(system, std::move(outcomes));
+    recording_ = &begun->recording;
+    record_motion(part, begun.get());
+    values_.recording = std::move(*std::exchange(recording_, nullptr));
+  }
   if (values_.recording.refused())
     throw std::logic_error("the formulas decide something without is_less()");
   for (const Recording::Guard& guard : values_.recording.guards())
@@ -81,17 +83,19 @@ EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
 
 template <class Compute>
 void EquationCode::record(EquationFunction function, const Compute& compute) {
-  const std::size_t decisions = values_.recording.decisions().size();
+  const std::size_t decisions = recording_->decisions().size();
   const std::vector<VectorX<Traced>> results = compute();
-  take_guards(decisions, &at(function).guards);
+  take_guards(decisions, recording_->decisions().size(), &at(function).guards);
   take_outputs(function, results);
 }
 
-void EquationCode::record_motion(EquationPart part, RecordedEquations* equations) {
-  record(EquationFunction::kResidual, [&] {
-    equations->record_residual();
-    return std::vector<VectorX<Traced>>{equations->G, VectorX<Traced>::Constant(1, equations->g)};
-  });
+void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
+  RecordedEquations* const equations = &begun->equations;
+  take_design_guards(begun->of_design);
+  take_guards(begun->of_design, recording_->decisions().size(),
+              &at(EquationFunction::kResidual).guards);
+  take_outputs(EquationFunction::kResidual,
+               {equations->G, VectorX<Traced>::Constant(1, equations->g)});
   record(EquationFunction::kConstraintErrors, [&] {
     std::vector<VectorX<Traced>> errors(2);
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
@@ -122,7 +126,7 @@ void EquationCode::record_motion(EquationPart part, RecordedEquations* equations
                                     EquationFunction::kAccelerations})
     at(function).guards = at(EquationFunction::kResidual).guards;
   if (rates_only && system_.layout().m == 0 &&
-      is_affine(values_.recording, at(EquationFunction::kRates).guards, d.rate, equations->g))
+      is_affine(*recording_, at(EquationFunction::kRates).guards, d.rate, equations->g))
     record_accelerations(d.rate, equations);
 }
 
@@ -132,7 +136,7 @@ void EquationCode::record_accelerations(const std::vector<Traced>& G_z,
   const Sparsity& pattern = system_.patterns().rate;
   constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take
                                       // longer to make than most runs
-  if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, values_.recording, pattern, G_z))
+  if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, *recording_, pattern, G_z))
     return;
   VectorX<Traced>& z = equations->state.z;
   const VectorX<Traced> trial = z;
@@ -159,7 +163,7 @@ void EquationCode::record_signals(RecordedEquations* equations) {
     });
   std::vector<std::vector<Traced>> gradients(values.size());
   for (const JacobianEntry& entry :
-       derive_gradients(system_, values, EliminationOrder::kReverse, &values_.recording)) {
+       derive_gradients(system_, values, EliminationOrder::kReverse, recording_)) {
     gradients[to_index(entry.row)].push_back(entry.value);
     at(with_gradient(functions[to_index(entry.row)])).columns.push_back(entry.column);
   }
@@ -216,19 +220,24 @@ void EquationCode::take_outputs(EquationFunction function,
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k].size(); ++i)
       at(function).outputs.push_back(
-          {results[k][i].node_in(&values_.recording),
+          {results[k][i].node_in(recording_),
            {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
-void EquationCode::take_guards(std::size_t first, std::vector<Recording::Guard>* guards) {
-  const Recording& recording = values_.recording;
-  std::vector<int> decisions(recording.decisions().begin() + to_signed(first),
-                             recording.decisions().end());
+void EquationCode::take_design_guards(std::size_t last) {
+  std::vector<Recording::Guard> none;
+  take_guards(0, last, &none);
+}
+
+void EquationCode::take_guards(std::size_t first, std::size_t last,
+                               std::vector<Recording::Guard>* guards) {
+  const auto all = recording_->decisions().begin();
+  std::vector<int> decisions(all + to_signed(first), all + to_signed(last));
   std::sort(decisions.begin(), decisions.end());
   decisions.erase(std::unique(decisions.begin(), decisions.end()), decisions.end());
   for (int decision : decisions) {
-    const Recording::Guard& guard = recording.guards()[to_index(decision)];
-    const bool varies = recording.node(guard.a).varies || recording.node(guard.b).varies;
+    const Recording::Guard& guard = recording_->guards()[to_index(decision)];
+    const bool varies = recording_->node(guard.a).varies || recording_->node(guard.b).varies;
     (varies ? *guards : design_guards_).push_back(guard);
   }
 }
@@ -323,6 +332,7 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
                                    std::vector<Place>* value_places) const {
   const NumberedRecording& from = numbered(scalar.lanes > 0);
   ValueTask task;
+  task.homes.reserve(from.homes.size());
   const int state_lanes = scalar.split ? 0 : scalar.lanes;
   for (const Place& home : from.homes)
     task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
@@ -330,8 +340,8 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
   if (!scalar.split)
     for (const ValueTask::Output& output : functions_[function].outputs)
       task.outputs.push_back({output.node, spread(output.place, scalar.lanes)});
-  *value_places = task.homes;
   if (scalar.lanes == 0) return task;
+  *value_places = task.homes;
   for (int n : from.tangents[function]->factors) {
     Place& place = (*value_places)[to_index(n)];
     if (place.array < 0) {

@@ -21,6 +21,7 @@
 namespace codesign {
 
 struct RecordedEquations;
+struct ResidualRecording;
 class TransposedCode;
 
 /// The arrays that the compiled code reads and writes, by index: the state q, v, s, z; numbers that
@@ -90,10 +91,12 @@ class EquationCode {
   };
 
   /// Records the equations. @param system must outlive this. @param outcomes of the first
-  /// decisions; the later ones have their expected outcomes.
+  /// decisions; the later ones have their expected outcomes. @param begun the residual with these
+  /// outcomes, if it was recorded already; for the parts that begin with it.
   /// @throws std::logic_error if the formulas decide something without is_less().
   explicit EquationCode(const CompiledSystem& system, EquationPart part,
-                        std::vector<bool> outcomes = {});
+                        std::vector<bool> outcomes = {},
+                        std::unique_ptr<ResidualRecording> begun = nullptr);
   ~EquationCode();
 
   /// One function, made by the first call. It is interpreted also where machine code cannot be
@@ -127,15 +130,17 @@ class EquationCode {
   const RecordedFunction& at(EquationFunction function) const {
     return functions_[to_index(function)];
   }
-  void record_motion(EquationPart part, RecordedEquations* equations);
+  void record_motion(EquationPart part, ResidualRecording* begun);
   void record_signals(RecordedEquations* equations);
   void record_start(RecordedEquations* equations);
   /// Records one function whose results `compute` returns.
   template <class Compute>
   void record(EquationFunction function, const Compute& compute);
-  /// Gives the decisions that were made from index `first` of Recording::decisions() on to a
-  /// function if they vary with the state, else to design_guards_.
-  void take_guards(std::size_t first, std::vector<Recording::Guard>* guards);
+  /// Gives the decisions `first` to `last` - 1 of Recording::decisions() to a function if they vary
+  /// with the state, else to design_guards_.
+  void take_guards(std::size_t first, std::size_t last, std::vector<Recording::Guard>* guards);
+  /// The same with the decisions before index `last`, which a design makes.
+  void take_design_guards(std::size_t last);
   void record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
@@ -148,6 +153,7 @@ class EquationCode {
   const CompiledSystem& system_;
   bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
+  Recording* recording_ = &values_.recording;  ///< while the constructor records
   std::vector<RecordedFunction>
       functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;

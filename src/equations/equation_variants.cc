@@ -11,7 +11,9 @@ namespace codesign {
 const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& system,
                                          EquationPart part) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (variants_.empty()) variants_.push_back(std::make_unique<EquationCode>(system, part));
+  if (variants_.empty())
+    variants_.push_back(
+        std::make_unique<EquationCode>(system, part, std::vector<bool>(), std::move(begun_)));
   return k < variants_.size() ? variants_[k].get() : nullptr;
 }
 

@@ -5,9 +5,11 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "equations/equation_code.h"
+#include "equations/recorded_equations.h"
 
 namespace codesign {
 
@@ -17,6 +19,10 @@ namespace codesign {
 /// which variants were added. Thread-safe.
 class EquationVariants {
  public:
+  /// @param begun the residual with expected outcomes, for the first variant; may be null.
+  explicit EquationVariants(std::unique_ptr<ResidualRecording> begun = nullptr)
+      : begun_(std::move(begun)) {}
+
   /// The k-th variant; null if fewer are known. The first one is recorded by the first call for it.
   const EquationCode* at(std::size_t k, const CompiledSystem& system, EquationPart part);
   /// Adds a variant, unless one with the same outcomes is known. @return its index.
@@ -24,6 +30,7 @@ class EquationVariants {
 
  private:
   std::mutex mutex_;
+  std::unique_ptr<ResidualRecording> begun_;  ///< until the first variant takes it
   std::deque<std::unique_ptr<EquationCode>> variants_;
 };
 

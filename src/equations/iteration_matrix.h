@@ -33,12 +33,12 @@ class IterationMatrix {
   /// Forms the matrix and factors it. @param derivatives on CompiledSystem::patterns(). Returns
   /// false if the matrix is singular.
   bool factor(const Linearization<double>& derivatives, double c_v, double c_q, double c_s);
-  /// SparseLu::forget().
-  void forget() { lu_.forget(); }
-  /// SparseLu::settle().
-  void settle() { lu_.settle(); }
-  /// SparseLu::settle_as(). @param other of the same system.
-  void settle_as(const IterationMatrix& other) { lu_.settle_as(other.lu_); }
+  /// SparseLu::reset_pivots().
+  void reset_pivots() { lu_.reset_pivots(); }
+  /// SparseLu::keep_pivots().
+  void keep_pivots() { lu_.keep_pivots(); }
+  /// SparseLu::keep_pivots_of(). @param other of the same system.
+  void keep_pivots_of(const IterationMatrix& other) { lu_.keep_pivots_of(other.lu_); }
   /// The factorization of the last factor().
   const SparseLu& lu() const { return lu_; }
 

@@ -69,6 +69,7 @@ using ColumnSet = std::vector<int>;
 
 ColumnSet merged(const ColumnSet& x, const ColumnSet& y) {
   ColumnSet both;
+  both.reserve(x.size() + y.size());
   std::set_union(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both));
   return both;
 }
@@ -127,29 +128,31 @@ Dependencies::Dependencies(const Recording& recording, const Layout& layout)
 
 using Turned = std::function<bool(unsigned)>;
 
-/// Adds the columns that each row depends on if the decisions at some places are turned round.
-/// @return the places of all decisions.
-std::vector<unsigned> add_rows(const System& system, Turned turned, std::vector<ColumnSet>* rows) {
-  Recording recording;
-  recording.turn(std::move(turned));
-  RecordedEquations equations(system, &recording);
-  equations.record_residual();
-  const Dependencies dependencies(recording, system.layout());
+/// Adds the columns that each row depends on in one recording of the residual.
+void add_rows(const System& system, const RecordedEquations& equations,
+              std::vector<ColumnSet>* rows) {
+  const Dependencies dependencies(*equations.recording, system.layout());
   const auto add = [&](std::size_t row, const Traced& value) {
     if (!value.is_literal()) (*rows)[row] = merged((*rows)[row], dependencies.of(value.node()));
   };
   for (Eigen::Index row = 0; row < equations.G.size(); ++row) add(to_index(row), equations.G[row]);
   add(rows->size() - 1, equations.g);
-  return recording.places();
 }
 
 // Turned round: none, all, each place alone, all but each place. So every combination of up to
 // three places that follow one another in one law is seen, and every joint takes part at once.
-void add_all_branches(const System& system, std::vector<ColumnSet>* rows) {
-  std::vector<unsigned> places = add_rows(system, nullptr, rows);
+void add_all_branches(const System& system, const ResidualRecording& expected,
+                      std::vector<ColumnSet>* rows) {
+  add_rows(system, expected.equations, rows);
+  std::vector<unsigned> places = expected.recording.places();
   if (places.empty()) return;
   const auto find_more = [&](Turned turned) {
-    for (unsigned place : add_rows(system, std::move(turned), rows))
+    Recording recording;
+    recording.turn(std::move(turned));
+    RecordedEquations equations(system, &recording);
+    equations.record_residual();
+    add_rows(system, equations, rows);
+    for (unsigned place : recording.places())
       if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
   };
   find_more([](unsigned) { return true; });
@@ -189,6 +192,12 @@ RecordedEquations::RecordedEquations(const System& system, Recording* to)
   state.t = std::numeric_limits<double>::quiet_NaN();
   make_leaves(Arrays::kQ, recording, &state.q), make_leaves(Arrays::kV, recording, &state.v);
   make_leaves(Arrays::kS, recording, &state.s), make_leaves(Arrays::kZ, recording, &state.z);
+}
+
+ResidualRecording::ResidualRecording(const System& system, std::vector<bool> outcomes)
+    : equations(system, (recording.follow(std::move(outcomes)), &recording)),
+      of_design(recording.decisions().size()) {
+  equations.record_residual();
 }
 
 void RecordedEquations::record_placement(VectorX<Traced>* q, VectorX<Traced>* v) {
@@ -237,10 +246,10 @@ Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
   return derivatives;
 }
 
-ByVariable<Sparsity> record_patterns(const System& system) {
+ByVariable<Sparsity> record_patterns(const System& system, const ResidualRecording& expected) {
   const Layout& layout = system.layout();
   std::vector<ColumnSet> rows(to_index(layout.columns()) + 1);
-  add_all_branches(system, &rows);
+  add_all_branches(system, expected, &rows);
   const int positions = layout.positions();
   return {part_of(rows, 0, positions), part_of(rows, positions, layout.n),
           part_of(rows, positions + layout.n, layout.columns())};

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "codegen/derivatives.h"
@@ -33,6 +34,15 @@ struct RecordedEquations {
   Traced g;           ///< after record_residual()
 };
 
+/// A recording that begins with the residual. @param outcomes as of EquationCode.
+struct ResidualRecording {
+  explicit ResidualRecording(const System& system, std::vector<bool> outcomes = {});
+
+  Recording recording;
+  RecordedEquations equations;
+  std::size_t of_design = 0;  ///< decisions that were made before the residual's
+};
+
 /// The gradients of recorded numbers by the state and the time; JacobianEntry::column counts (q,
 /// s), v, z and t side by side.
 std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values,
@@ -51,6 +61,7 @@ Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
 /// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row,
 /// column) is there if the recorded row depends on the column's variable in some branch. Columns:
 /// Layout::positions() of (q, s), Layout::n of v, Layout::columns() of z.
-ByVariable<Sparsity> record_patterns(const System& system);
+/// @param expected every decision of it has its expected outcome.
+ByVariable<Sparsity> record_patterns(const System& system, const ResidualRecording& expected);
 
 }  // namespace codesign

@@ -9,8 +9,8 @@
 #include "description/study.h"
 #include "engine/thread_engine.h"
 #include "equations/formulas.h"
-#include "identification/driven_motion.h"
-#include "identification/effort_tangent.h"
+#include "identification/effort/driven_motion.h"
+#include "identification/effort/effort_tangent.h"
 #include "math/arrays.h"
 #include "text/cancel.h"
 
@@ -58,9 +58,9 @@ struct ExcitedMotion::PathWorker {
     motion.set_design(parameters);
     tangents.for_each([&](auto* group) { group->set_design(parameters); });
   }
-  void forget() {
-    motion.forget();
-    tangents.for_each([](auto* group) { group->forget(); });
+  void reset_pivots() {
+    motion.reset_pivots();
+    tangents.for_each([](auto* group) { group->reset_pivots(); });
   }
   Status differentiate(const State<double>& at, Eigen::Index first_row, RowJacobian* rows) {
     if (Status status = motion.linearize(at); !status.ok()) return status;
@@ -110,7 +110,7 @@ Status ExcitedMotion::begin(const Eigen::VectorXd& positions) {
     State<double> state = rest_;
     if (Status status = worker->motion.follow({positions, still, still}, &state); !status.ok())
       return status;
-    worker->motion.settle();
+    worker->motion.keep_pivots();
     if (worker == workers_.back()) rest_ = state;
   }
   return {};
@@ -124,7 +124,7 @@ Status ExcitedMotion::in_blocks(Eigen::Index samples, const Work& work) {
   std::atomic<Eigen::Index> next{0};
   side_by_side(workers_.size(), static_cast<int>(workers_.size()), [&](std::size_t k) {
     for (Eigen::Index block = next++; block < blocks && !is_set(cancel_); block = next++) {
-      workers_[k]->forget();
+      workers_[k]->reset_pivots();
       const Eigen::Index end = std::min(samples, (block + 1) * kSamplesInARow);
       for (Eigen::Index sample = block * kSamplesInARow; sample < end; ++sample)
         statuses[to_index(sample)] = work(sample, workers_[k].get());
@@ -160,7 +160,7 @@ Status ExcitedMotion::respond(const DrivePath& path, bool with_jacobian, PathRes
   response->jacobian.resize(with_jacobian ? samples * joints() : 0, parameters());
   states_.resize(to_index(samples));
   PathWorker& first = *workers_.front();
-  first.forget();
+  first.reset_pivots();
   State<double> state = rest_;
   for (Eigen::Index sample = 0; sample < samples; ++sample) {
     if (is_set(cancel_)) return cancelled();

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/driven_system.h"
-#include "identification/effort_tangent.h"
+#include "identification/effort/driven_system.h"
+#include "identification/effort/effort_tangent.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/status.h"
 
@@ -68,7 +68,7 @@ class ExcitedMotion {
 
  private:
   struct PathWorker;
-  struct Place {
+  struct FrictionSource {
     int pair, element;
   };
   template <class Work>
@@ -82,7 +82,7 @@ class ExcitedMotion {
   const std::vector<MeasuredJoint> joints_;
   const DrivenSystem driven_;
   const std::vector<double> parameters_;
-  std::vector<Place> followers_;
+  std::vector<FrictionSource> followers_;
   std::vector<std::unique_ptr<PathWorker>> workers_;
   State<double> rest_;
   std::vector<State<double>> states_;  ///< states at the samples of the last response

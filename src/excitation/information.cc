@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "identification/effort_tangent.h"
+#include "identification/effort/effort_tangent.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "statistics/identifiability.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "excitation/excited_motion.h"
-#include "identification/effort_tangent.h"
-#include "identification/fit_variables.h"
+#include "identification/effort/effort_tangent.h"
+#include "identification/fit/fit_variables.h"
 
 namespace codesign {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/driven_system.h"
+#include "identification/effort/driven_system.h"
 #include "mechanism_codesign/problem.h"
 
 namespace codesign {

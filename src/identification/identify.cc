@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/thread_engine.h"
+#include "identification/fit/residual_source.h"
 #include "identification/judgement.h"
-#include "identification/motion_residuals.h"
-#include "identification/residual_source.h"
+#include "identification/motion/motion_residuals.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
@@ -110,9 +110,10 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
 
 /// Warnings about efforts or motions that the fit does not explain; only then mistakes in the
 /// recordings are looked for.
-Warnings told_of_unexplained(const Problem& problem, const std::vector<JointRecording>& recordings,
-                             const IdentificationResult& result, const std::atomic<bool>* cancel,
-                             Status* failure) {
+Warnings warnings_of_unexplained(const Problem& problem,
+                                 const std::vector<JointRecording>& recordings,
+                                 const IdentificationResult& result,
+                                 const std::atomic<bool>* cancel, Status* failure) {
   const IdentificationDescription& options = *problem.study().identification;
   const bool is_doubtful =
       std::any_of(result.data.begin(), result.data.end(),
@@ -143,7 +144,7 @@ Warnings unmet_constraints(const Study& study, const std::vector<double>& parame
 void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
                 const std::atomic<bool>* cancel, IdentificationResult* result) {
   Status unexplained;
-  Warnings found = told_of_unexplained(problem, data, *result, cancel, &unexplained);
+  Warnings found = warnings_of_unexplained(problem, data, *result, cancel, &unexplained);
   append(warnings_of(*problem.study().identification, *result), &found);
   append(unmet_constraints(problem.study(), result->parameters), &found);
   append(result->warnings, &found);

@@ -3,8 +3,8 @@
 
 #include <atomic>
 
-#include "identification/identification_result.h"
-#include "identification/residual_fit.h"
+#include "identification/fit/identification_result.h"
+#include "identification/fit/residual_fit.h"
 #include "mechanism_codesign/problem.h"
 #include "recordings/joint_recording.h"
 

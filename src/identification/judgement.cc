@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "identification/inertial_numbers.h"
+#include "identification/fit/inertial_numbers.h"
 #include "math/arrays.h"
 #include "statistics/parameter_covariance.h"
 #include "text/cancel.h"

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "identification/effort_doubts.h"
-#include "identification/effort_residuals.h"
-#include "identification/identification_result.h"
-#include "identification/residual_fit.h"
+#include "identification/effort/effort_doubts.h"
+#include "identification/effort/effort_residuals.h"
+#include "identification/fit/identification_result.h"
+#include "identification/fit/residual_fit.h"
 
 namespace codesign {
 
@@ -23,7 +23,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
                    const ResidualFit& fit, IdentificationResult* result);
 
 /// Computes intervals of the profile likelihood of all numbers that the data determine: each number
-/// is fixed in turn, and all others are fitted anew.
+/// is fixed in turn, and all others are fitted again.
 /// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param
 /// observer called after each evaluation, with FitTrial::profile set; may be empty.
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,

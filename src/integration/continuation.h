@@ -14,7 +14,7 @@ class Assembly;
 
 /// Computes the state after an instant at which inputs jump or the design changes, doc/theory.md
 /// (55). Positions, velocities and extra states stay; if the design changes the geometry, the tree
-/// coordinates stay as far as the loops allow it. Accelerations and reactions are computed anew.
+/// coordinates stay as far as the loops allow it. Accelerations and reactions are computed again.
 class Continuation {
  public:
   explicit Continuation(const CompiledSystem& system) : system_(system) {}

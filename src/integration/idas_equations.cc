@@ -53,7 +53,7 @@ IdasEquations::IdasEquations(const CompiledSystem& system, IdasNewton* newton)
 }
 
 void IdasEquations::start() {
-  newton_.forget();
+  newton_.reset_pivots();
   visited_[0] = std::numeric_limits<double>::quiet_NaN();
   failure_.clear();
 }

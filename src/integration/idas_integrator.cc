@@ -65,14 +65,14 @@ void IdasIntegrator::carry(IdasSensitivities* sensitivities) {
 
 // Newton's matrix has the pattern of the matrix that the assembly factors.
 Status IdasIntegrator::assemble(const std::vector<double>& parameters) {
-  return settled_start_.start(
+  return repeatable_start_.start(
       system_, parameters,
       [this](const std::vector<double>& design) {
         return assemble_start(system_, design, &assembly_, &equations(), &initial_);
       },
       [this] {
-        assembly_.settle_pivots();
-        newton_.settle_as(assembly_.rates_matrix());
+        assembly_.keep_pivots();
+        newton_.keep_pivots_of(assembly_.rates_matrix());
       });
 }
 
@@ -164,8 +164,8 @@ Status IdasIntegrator::begin_anew(const Change& change) {
   return {};
 }
 
-// A multistep method interpolates the points before, so that it has to begin anew where the efforts
-// jump.
+// A multistep method interpolates the points before, so that it has to begin again where the
+// efforts jump.
 Status IdasIntegrator::jump() {
   const std::vector<ControlEvent>& events = clock_.due(state_.t);
   if (events.empty()) return {};

@@ -103,7 +103,7 @@ class IdasIntegrator final : public Integrator {
   bool watch_singularities_ = false;
   bool has_stepped_ = false;  ///< since the last start() or go_on()
   RestartPace pace_;
-  SettledStart settled_start_;
+  RepeatableStart repeatable_start_;
   Warnings restart_warnings_;
   std::string message_;
   Statistics statistics_;

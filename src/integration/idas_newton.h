@@ -38,10 +38,10 @@ class IdasNewton {
   /// error (m entries) as in (17), with the matrix of the last setup in place of G_z.
   void correct(const VectorX<double>& error, VectorX<double>* correction) const;
 
-  /// IterationMatrix::forget(), at the beginning of a run.
-  void forget() { reduced_.forget(); }
-  /// IterationMatrix::settle_as().
-  void settle_as(const IterationMatrix& other) { reduced_.settle_as(other); }
+  /// IterationMatrix::reset_pivots(), at the beginning of a run.
+  void reset_pivots() { reduced_.reset_pivots(); }
+  /// IterationMatrix::keep_pivots_of().
+  void keep_pivots_of(const IterationMatrix& other) { reduced_.keep_pivots_of(other); }
 
   SUNMatrix matrix() { return matrix_.get(); }
   SUNLinearSolver solver() { return solver_.get(); }

@@ -7,7 +7,7 @@
 
 #include "integration/tableau.h"
 #include "math/arrays.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 #include "system/state.h"
 
 namespace codesign {

@@ -89,27 +89,27 @@ Status assemble_start(const CompiledSystem& system, const std::vector<double>& p
 /// Starts the runs of an integrator, each with the pivots that are chosen at the study's own start.
 /// The last bits of a run then depend on its design alone, and pivots need not be chosen for each
 /// run. See doc/decisions/0049-journal.md.
-class SettledStart {
+class RepeatableStart {
  public:
   /// Before the first run, unless it is the study's own, the study's own start is begun and
-  /// settled.
+  /// its pivots are kept.
   /// @param parameters of this run. @param begin (parameters) -> Status: assembles the start, which
   /// factors the matrices.
-  /// @param settle () -> keeps their present pivots, SparseLu::settle().
+  /// @param keep_pivots () -> keeps their present pivots, SparseLu::keep_pivots().
   /// @returns the status of begin(parameters).
-  template <class Begin, class Settle>
+  template <class Begin, class Keep>
   Status start(const CompiledSystem& system, const std::vector<double>& parameters,
-               const Begin& begin, const Settle& settle) {
-    const bool is_first = !has_settled_, is_own = is_first && parameters == system.parameters();
-    has_settled_ = true;
-    if (is_first && !is_own && begin(system.parameters()).ok()) settle();
+               const Begin& begin, const Keep& keep_pivots) {
+    const bool is_first = !has_begun_, is_own = is_first && parameters == system.parameters();
+    has_begun_ = true;
+    if (is_first && !is_own && begin(system.parameters()).ok()) keep_pivots();
     Status status = begin(parameters);
-    if (is_own && status.ok()) settle();
+    if (is_own && status.ok()) keep_pivots();
     return status;
   }
 
  private:
-  bool has_settled_ = false;  ///< whether the study's own start was begun
+  bool has_begun_ = false;  ///< whether the study's own start was begun
 };
 
 }  // namespace codesign

@@ -25,11 +25,11 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       continuation_(system) {}
 
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
-  return settled_start_.start(
+  return repeatable_start_.start(
       system_, parameters, [this](const std::vector<double>& design) { return begin(design); },
       [this] {
-        assembly_.settle_pivots();
-        step_.settle_pivots();
+        assembly_.keep_pivots();
+        step_.keep_pivots();
       });
 }
 

@@ -79,7 +79,7 @@ class RosenbrockIntegrator final : public Integrator {
   SingularityWatch singularity_;
   Continuation continuation_;
   bool watch_singularities_ = false;
-  SettledStart settled_start_;
+  RepeatableStart repeatable_start_;
   double proposal_ = 0.0;
   Statistics statistics_;
 };

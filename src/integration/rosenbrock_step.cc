@@ -85,23 +85,23 @@ void RosenbrockStep<T>::use(const RosenbrockTableau& tableau) {
 template <class T>
 void RosenbrockStep<T>::choose_pivots(double h) {
   const double hg = h * tableau_->gamma;
-  stage_matrix_.forget();
-  projection_matrix_.forget();
+  stage_matrix_.reset_pivots();
+  projection_matrix_.reset_pivots();
   if (!needs_matrix()) return;
   stage_matrix_.factor(derivatives_, hg, hg * hg, hg);
   if (layout_.m > 0) projection_matrix_.factor(derivatives_, 0.0, 0.0, 0.0);
 }
 
 template <class T>
-void RosenbrockStep<T>::settle_pivots() {
-  stage_matrix_.settle();
-  projection_matrix_.settle();
+void RosenbrockStep<T>::keep_pivots() {
+  stage_matrix_.keep_pivots();
+  projection_matrix_.keep_pivots();
 }
 
 template <class T>
-void RosenbrockStep<T>::settle_pivots_as(const RosenbrockStep& other) {
-  stage_matrix_.settle_as(other.stage_matrix_);
-  projection_matrix_.settle_as(other.projection_matrix_);
+void RosenbrockStep<T>::keep_pivots_of(const RosenbrockStep& other) {
+  stage_matrix_.keep_pivots_of(other.stage_matrix_);
+  projection_matrix_.keep_pivots_of(other.projection_matrix_);
 }
 
 // Sets w of (16) in increment i: w_v = h gamma r_v, w_q = h gamma (r_q + w_v), w_s = h gamma r_s,
@@ -157,7 +157,7 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
 
 // Newton's iteration with G_z of its first point, from which the solution is near: G is affine in z
 // unless friction depends on reactions. Complex numbers converge one part after the other and need
-// G_z anew.
+// G_z again.
 template <class T>
 bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g, StageFactor* factor) {
   constexpr bool kIsReal = std::is_same_v<T, double>;

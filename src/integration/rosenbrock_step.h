@@ -44,14 +44,14 @@ class RosenbrockStep {
   /// stays.
   void restart(const State<T>& state);
 
-  /// Begins again with the pivots of settle_pivots(), or chooses pivots anew if that was never
+  /// Begins again with the pivots of keep_pivots(), or chooses pivots again if that was never
   /// called, so that no bit of later steps depends on earlier runs. To be called at the beginning
   /// of a run, after start(). @param h size of the first step [s].
   void choose_pivots(double h);
-  /// SparseLu::settle() for all factorizations.
-  void settle_pivots();
-  /// SparseLu::settle_as() for all factorizations. @param other of the same system.
-  void settle_pivots_as(const RosenbrockStep& other);
+  /// SparseLu::keep_pivots() for all factorizations.
+  void keep_pivots();
+  /// SparseLu::keep_pivots_of() for all factorizations. @param other of the same system.
+  void keep_pivots_of(const RosenbrockStep& other);
   /// Computes the step of size h [s] from state(), without accepting it. False if the matrix is
   /// singular or a value is not finite.
   bool attempt(double h);

@@ -147,7 +147,7 @@ void Projection::correct(const VectorX<double>& error, VectorX<double>* target) 
 
 bool Projection::apply(Equations<double>* equations, State<double>* state) {
   if (layout_.m == 0) return std::isfinite(state->q.sum() + state->v.sum());
-  matrix_.forget();
+  matrix_.reset_pivots();
   for (int round = 0; round < kRounds; ++round) {
     equations->linearize_rates(*state, &derivatives_);
     if (!matrix_.factor(derivatives_, 0.0, 0.0, 0.0)) return false;

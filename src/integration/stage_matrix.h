@@ -26,9 +26,9 @@ class StageMatrix<double> {
   bool factor(const Linearization<double>& d, double c_v, double c_q, double c_s) {
     return matrix_.factor(d, c_v, c_q, c_s);
   }
-  void forget() { matrix_.forget(); }
-  void settle() { matrix_.settle(); }
-  void settle_as(const StageMatrix& other) { matrix_.settle_as(other.matrix_); }
+  void reset_pivots() { matrix_.reset_pivots(); }
+  void keep_pivots() { matrix_.keep_pivots(); }
+  void keep_pivots_of(const StageMatrix& other) { matrix_.keep_pivots_of(other.matrix_); }
   void solve(VectorX<double>* x) const { matrix_.lu().solve(*x); }
   const SparseLu& lu() const { return matrix_.lu(); }
 
@@ -45,9 +45,9 @@ class StageMatrix<std::complex<double>> {
   StageMatrix(StageMatrix&&) noexcept;
 
   bool factor(const Linearization<Scalar>& d, double c_v, double c_q, double c_s);
-  void forget() {}
-  void settle() {}
-  void settle_as(const StageMatrix& /*other*/) {}
+  void reset_pivots() {}
+  void keep_pivots() {}
+  void keep_pivots_of(const StageMatrix& /*other*/) {}
   void solve(VectorX<Scalar>* x) const;
 
  private:

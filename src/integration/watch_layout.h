@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "description/motion_study.h"
-
 namespace codesign {
+
+struct MotionStudy;
 
 /// The indices of the extreme values of the watched signals of a study; doc/theory.md (21a).
 ///

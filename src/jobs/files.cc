@@ -7,9 +7,12 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 #include <utility>
+
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
 namespace {
@@ -52,6 +55,31 @@ void give_final_name(const std::string& active, const std::string& path) {
   const int cause = errno;
   if (cause == EEXIST) throw OutputError::of_system(path, cause);
   if (std::rename(active.c_str(), path.c_str()) != 0) throw OutputError::of_system(path, errno);
+}
+
+void require_no_input(const std::string& path, const std::string& option, const std::string& what,
+                      const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(input, error) &&
+        std::filesystem::equivalent(path, input, error))
+      throw InputError({{input, 0},
+                        option,
+                        what + " would replace this file, which is read",
+                        path,
+                        "the path of another file"});
+  }
+}
+
+void make_folder(const std::string& path, const std::string& option) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path))
+    throw InputError({{path, 0},
+                      option,
+                      "the folder cannot be created",
+                      path,
+                      "a folder that exists or can be created"});
 }
 
 LockFile::LockFile(LockFile&& other) noexcept

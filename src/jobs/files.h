@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace codesign {
 
@@ -38,6 +39,17 @@ void write_whole_file(const std::string& path, const std::string& text);
 /// Renames the finished file `active` to `path`, which must not exist. @throws OutputError if it
 /// exists or renaming fails.
 void give_final_name(const std::string& active, const std::string& path);
+
+/// Checks that an output does not replace a file that is read, by its own path, a link or another
+/// path to the same file.
+/// @param option the option with the path. @param what the output, for the message. @throws
+/// InputError
+void require_no_input(const std::string& path, const std::string& option, const std::string& what,
+                      const std::vector<std::string>& inputs);
+
+/// Creates a folder and the folders above it. @throws InputError that names the option, if that
+/// fails.
+void make_folder(const std::string& path, const std::string& option);
 
 /// A lock file (flock) that exists while a process works on the files that it protects. The system
 /// releases the lock at every end of the process, so that an unlocked file is the file of a killed

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/compared_motion.h"
-#include "identification/identification_result.h"
+#include "identification/comparison/compared_motion.h"
+#include "identification/fit/identification_result.h"
 #include "jobs/json.h"
 #include "mechanism_codesign/problem.h"
 #include "mechanism_codesign/warning.h"

@@ -110,6 +110,27 @@ Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
                          loader, inputs.study_is_tree ? files_in("") : FileLoader());
 }
 
+std::vector<std::string> input_files(const Problem& problem) {
+  std::vector<std::string> paths = {problem.urdf().name, problem.study_text().name};
+  for (const SourceText& overlay : problem.overlays()) paths.push_back(overlay.name);
+  for (const LoadedFile& file : problem.contents().files) paths.push_back(file.source.name);
+  const fs::path folder = fs::absolute(problem.study_text().name).parent_path();
+  for (const LoadedTrajectory& trajectory : problem.contents().trajectories)
+    paths.push_back(folder / trajectory.bag);
+  if (const auto& identification = problem.study().identification)
+    for (const auto* recordings : {&identification->data, &identification->holdout})
+      for (const RecordingDescription& recording : *recordings)
+        paths.push_back(folder / recording.file);
+  return paths;
+}
+
+void require_other_files(const std::string& folder, const std::vector<std::string>& names,
+                         const std::string& option, const Problem& problem) {
+  const std::vector<std::string> inputs = input_files(problem);
+  for (const std::string& name : names)
+    require_no_input((fs::path(folder) / name).string(), option, "the result " + name, inputs);
+}
+
 JobFiles::JobFiles(const std::string& directory, const std::string& robot)
     : JobFiles(reserve(directory, robot)) {}
 

@@ -25,6 +25,15 @@ struct Inputs {
 /// @throws InputError as load_problem().
 Problem load(const Inputs& inputs, const TrajectoryLoader& loader = {});
 
+/// The paths of all files from which a problem was made: model, overlays, study, and the files,
+/// trajectories and recordings that the study names.
+std::vector<std::string> input_files(const Problem& problem);
+
+/// Checks that no result replaces an input file. @param names of the files to be written into the
+/// folder. @param option the option or argument with the folder. @throws InputError
+void require_other_files(const std::string& folder, const std::vector<std::string>& names,
+                         const std::string& option, const Problem& problem);
+
 /// Another process, or another job of this one, works on the files of a job.
 class JobIsRunning : public std::runtime_error {
  public:

@@ -21,6 +21,15 @@ std::string in_a_good_unit(double seconds) {
   return roughly(seconds / 3600.0) + " h";
 }
 
+/// What is counted, as "12 of 400 points".
+std::string counted(const Progress& progress) {
+  const std::string of = std::to_string(progress.done) + " of ", all = std::to_string(progress.of);
+  if (progress.stage == SearchStage::kScreening) return "screening: " + of + all + " points";
+  if (progress.stage == SearchStage::kValidating) return "validating: " + of + all + " runs";
+  if (progress.starts > 0) return "searching: " + of + all + " searches ended";
+  return "searching: " + of + "at most " + all + " evaluations";
+}
+
 double distance(const std::vector<double>& one, const std::vector<double>& other) {
   double squares = 0.0;
   for (std::size_t k = 0; k < one.size(); ++k) squares += (one[k] - other[k]) * (one[k] - other[k]);
@@ -58,6 +67,13 @@ std::string moment(const Status& status) {
 std::string time_left(const std::optional<double>& seconds, bool is_bound) {
   if (!seconds || !(*seconds > 0.0)) return "";
   return (is_bound ? ", at most " : ", about ") + in_a_good_unit(*seconds) + " left";
+}
+
+std::string progress_line(const Progress& progress) {
+  std::string line = counted(progress) + ", " + std::to_string(progress.runs) + " runs";
+  if (progress.runs_per_second > 0.0)
+    line += ", " + readable(progress.runs_per_second, 3) + " runs/s";
+  return line + time_left(progress.seconds_left, progress.is_bound);
 }
 
 std::string TrialLines::line(const Trial& trial, const Progress& progress) {

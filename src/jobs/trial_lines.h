@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "identification/residual_fit.h"
+#include "identification/fit/residual_fit.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/status.h"
 #include "optimization/progress_meter.h"
@@ -16,6 +16,9 @@ namespace codesign {
 
 /// ", about 12 s left", ", at most 5 min left"; empty if the time is not known or nothing is left.
 std::string time_left(const std::optional<double>& seconds, bool is_bound);
+
+/// "screening: 12 of 400 points, 288 runs, 31.2 runs/s, about 5 min left".
+std::string progress_line(const Progress& progress);
 
 /// One line of text for each trial point of an optimization, for logs.
 class TrialLines {

@@ -5,6 +5,7 @@
 
 #include "codegen/traced.h"
 #include "forces/normal_force.h"
+#include "joints/pair_constants.h"
 #include "joints/pair_rows.h"
 
 namespace codesign {

@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "forces/law.h"
-#include "joints/pair_constants.h"
 
 namespace codesign {
+
+template <class T>
+struct PairConstants;
+template <class T>
+struct FrictionNumbers;
 
 /// The types of joints and loops to which other parts of a file refer, such as limits, lengths and
 /// poses. kOther: only its row of the table of joints (JointLaw) tells about it.

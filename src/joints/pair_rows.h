@@ -6,6 +6,7 @@
 
 #include "joints/body_kinematics.h"
 #include "joints/joint_law.h"
+#include "joints/pair_constants.h"
 #include "math/arrays.h"
 #include "math/euler_parameters.h"
 

@@ -155,7 +155,7 @@ Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& A);
 /// times as many rows as columns, at least 32 rows more than columns. No allocation in add().
 class RowRoot {
  public:
-  /// Begins anew, without rows.
+  /// Begins again, without rows.
   void start(Eigen::Index columns);
   /// Adds a row, given as a column vector.
   void add(const Eigen::Ref<const Eigen::VectorXd>& row);

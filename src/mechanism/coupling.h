@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {

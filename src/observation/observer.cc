@@ -2,9 +2,11 @@
 #include "observation/observer.h"
 
 #include <algorithm>
+
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
 #include "math/arrays.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 

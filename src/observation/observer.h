@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "assembly/assembly.h"
 #include "equations/equations.h"
 #include "mechanism_codesign/frame.h"
+#include "system/tree_kinematics.h"
 
 namespace codesign {
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "description/study.h"
 #include "text/number_text.h"
 
 namespace codesign {

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "description/study.h"
+#include "description/ensemble.h"
 
 namespace codesign {
+
+struct Study;
+struct OptimizerOptions;
 
 /// The place of the options, for messages; the study's first line if the options do not come from a
 /// file.

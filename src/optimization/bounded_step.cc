@@ -51,18 +51,18 @@ void BoundedStep::hold_null_directions() {
 Eigen::VectorXd BoundedStep::damped(double mu) const {
   const auto size = to_index(gradient_.size());
   Eigen::VectorXd y = Eigen::VectorXd::Zero(gradient_.size());
-  std::vector<Place> places(size, Place::kFree);
+  std::vector<AtBound> places(size, AtBound::kFree);
   for (std::size_t k = 0; k < size; ++k) {
     const auto i = static_cast<Index>(k);
-    if (lower_[i] == 0.0 && gradient_[i] > 0.0) places[k] = Place::kLower;
-    if (upper_[i] == 0.0 && gradient_[i] < 0.0) places[k] = Place::kUpper;
+    if (lower_[i] == 0.0 && gradient_[i] > 0.0) places[k] = AtBound::kLower;
+    if (upper_[i] == 0.0 && gradient_[i] < 0.0) places[k] = AtBound::kUpper;
   }
   // Each set of free components is visited once at most, since the problem is strictly convex;
   // rounding could break that.
   for (std::size_t round = 0; round < 10 * size + 10; ++round) {
     std::vector<Index> free;
     for (std::size_t k = 0; k < size; ++k)
-      if (places[k] == Place::kFree) free.push_back(static_cast<Index>(k));
+      if (places[k] == AtBound::kFree) free.push_back(static_cast<Index>(k));
     Eigen::VectorXd target = y;
     solve_free(mu, free, &target);
     if (move_towards(target, free, &places, &y) && !release(mu, y, &places)) break;
@@ -99,7 +99,7 @@ void BoundedStep::solve_free(double mu, const std::vector<Index>& free, Eigen::V
 /// Moves y to the target, or to the first bound on the way, which then holds that component. True
 /// if the target was reached.
 bool BoundedStep::move_towards(const Eigen::VectorXd& target, const std::vector<Index>& free,
-                               std::vector<Place>* places, Eigen::VectorXd* y) const {
+                               std::vector<AtBound>* places, Eigen::VectorXd* y) const {
   double fraction = 1.0;
   Index blocking = -1;
   for (const Index i : free) {
@@ -117,36 +117,36 @@ bool BoundedStep::move_towards(const Eigen::VectorXd& target, const std::vector<
   const bool down = target[blocking] < (*y)[blocking];
   *y += fraction * (target - *y);
   (*y)[blocking] = down ? lower_[blocking] : upper_[blocking];
-  (*places)[to_index(blocking)] = down ? Place::kLower : Place::kUpper;
+  (*places)[to_index(blocking)] = down ? AtBound::kLower : AtBound::kUpper;
   return false;
 }
 
 /// Frees the component that gains most by leaving its bound. False if none gains.
-bool BoundedStep::release(double mu, const Eigen::VectorXd& y, std::vector<Place>* places) const {
+bool BoundedStep::release(double mu, const Eigen::VectorXd& y, std::vector<AtBound>* places) const {
   const Eigen::VectorXd slope = gradient_ + 2.0 * (root_.transpose() * (root_ * y) + mu * y);
   double most = kRounding * gradient_.cwiseAbs().maxCoeff();
   std::size_t best = places->size();
   for (std::size_t k = 0; k < places->size(); ++k) {
     const double by_inside = slope[static_cast<Index>(k)];
-    const double gain = (*places)[k] == Place::kLower   ? -by_inside
-                        : (*places)[k] == Place::kUpper ? by_inside
-                                                        : 0.0;
+    const double gain = (*places)[k] == AtBound::kLower   ? -by_inside
+                        : (*places)[k] == AtBound::kUpper ? by_inside
+                                                          : 0.0;
     if (gain <= most) continue;
     most = gain;
     best = k;
   }
   if (best == places->size()) return false;
-  (*places)[best] = Place::kFree;
+  (*places)[best] = AtBound::kFree;
   return true;
 }
 
 Eigen::VectorXd BoundedStep::unscaled(const Eigen::VectorXd& y,
-                                      const std::vector<Place>& places) const {
+                                      const std::vector<AtBound>& places) const {
   Eigen::VectorXd p = y.cwiseQuotient(scale_).cwiseMax(step_lower_).cwiseMin(step_upper_);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto i = static_cast<Index>(k);
-    if (places[k] == Place::kLower) p[i] = step_lower_[i];
-    if (places[k] == Place::kUpper) p[i] = step_upper_[i];
+    if (places[k] == AtBound::kLower) p[i] = step_lower_[i];
+    if (places[k] == AtBound::kUpper) p[i] = step_upper_[i];
   }
   return p;
 }
@@ -168,7 +168,7 @@ Eigen::VectorXd BoundedStep::within(double radius) const {
   return p;
 }
 
-double BoundedStep::promise(const Eigen::VectorXd& p) const {
+double BoundedStep::predicted_decrease(const Eigen::VectorXd& p) const {
   const Eigen::VectorXd y = scale_.cwiseProduct(p);
   return -(gradient_.dot(y) + (root_ * y).squaredNorm());
 }

@@ -27,21 +27,21 @@ class BoundedStep {
   /// The minimum of g^T p + |R p|^2 over the bounds and |D p| <= radius, to 10 % of the radius
   /// where that counts.
   Eigen::VectorXd within(double radius) const;
-  /// The decrease that the model promises, -(g^T p + |R p|^2).
-  double promise(const Eigen::VectorXd& p) const;
+  /// The decrease that the model predicts, -(g^T p + |R p|^2).
+  double predicted_decrease(const Eigen::VectorXd& p) const;
   /// g^T p.
   double slope(const Eigen::VectorXd& p) const { return gradient_.dot(scale_.cwiseProduct(p)); }
   /// |D p|.
   double length(const Eigen::VectorXd& p) const { return scale_.cwiseProduct(p).norm(); }
 
  private:
-  enum class Place { kFree, kLower, kUpper };
+  enum class AtBound { kFree, kLower, kUpper };
   void hold_null_directions();
   void solve_free(double mu, const std::vector<Eigen::Index>& free, Eigen::VectorXd* y) const;
   bool move_towards(const Eigen::VectorXd& target, const std::vector<Eigen::Index>& free,
-                    std::vector<Place>* places, Eigen::VectorXd* y) const;
-  bool release(double mu, const Eigen::VectorXd& y, std::vector<Place>* places) const;
-  Eigen::VectorXd unscaled(const Eigen::VectorXd& y, const std::vector<Place>& places) const;
+                    std::vector<AtBound>* places, Eigen::VectorXd* y) const;
+  bool release(double mu, const Eigen::VectorXd& y, std::vector<AtBound>* places) const;
+  Eigen::VectorXd unscaled(const Eigen::VectorXd& y, const std::vector<AtBound>& places) const;
 
   // In y = D p.
   const Eigen::VectorXd scale_;

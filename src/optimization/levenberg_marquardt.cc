@@ -16,7 +16,8 @@ namespace {
 
 using Outcome = LeastSquaresModel::Outcome;
 
-constexpr double kLeastGain = 1e-4;  // of the promise: a step that gains less is rejected
+constexpr double kLeastGain =
+    1e-4;  // of the predicted decrease: a step that gains less is rejected
 constexpr double kPoorGain = 0.25,
                  kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
 constexpr double kUnusable = 0.25;  // factor of the radius after a point without a value
@@ -68,13 +69,13 @@ class SquaresSearch {
       first_value_ = best_.value;
     }
     const Eigen::VectorXd p = step.within(radius_);
-    const double promise = step.promise(p) + best_.owed;
+    const double predicted_decrease = step.predicted_decrease(p) + best_.inner_decrease;
     // A sum of squares that tends to zero has no relative accuracy: below the rounding error of its
     // first value nothing is left to gain.
-    if (!(promise > kEpsilon * std::max(best_.value, first_value_)))
+    if (!(predicted_decrease > kEpsilon * std::max(best_.value, first_value_)))
       return LevenbergMarquardtEnd::kOptimum;
     const bool stays = (p.array().abs() <= kRoundingOfVariables * x_.array().abs()).all();
-    if (stays && best_.owed <= options_.relative_tolerance * best_.value)
+    if (stays && best_.inner_decrease <= options_.relative_tolerance * best_.value)
       return LevenbergMarquardtEnd::kVariableTolerance;
     if (evaluations_ >= options_.max_evaluations) return LevenbergMarquardtEnd::kMaxEvaluations;
     Eigen::VectorXd trial = x_ + p;
@@ -88,24 +89,26 @@ class SquaresSearch {
     const double before = best_.value;
     std::optional<LevenbergMarquardtEnd> end;
     if (outcome == Outcome::kUsable)
-      end = judge(step, p, promise, trial);
+      end = judge(step, p, predicted_decrease, trial);
     else
       radius_ = kUnusable * step.length(p);
-    // A promise of the model's own unknowns that was not kept although x stayed does not count
-    // again.
-    if (stays && !(best_.value < before)) best_.owed = 0.0;
+    // A predicted decrease of the model's own unknowns that was not kept although x stayed does not
+    // count again.
+    if (stays && !(best_.value < before)) best_.inner_decrease = 0.0;
     return end;
   }
 
-  /// Compares the gain of the step with its promise.
+  /// Compares the gain of the step with its predicted decrease.
   std::optional<LevenbergMarquardtEnd> judge(const BoundedStep& step, const Eigen::VectorXd& p,
-                                             double promise, const Eigen::VectorXd& trial) {
-    const double gain = best_.value - tried_.value, ratio = gain / promise, length = step.length(p);
+                                             double predicted_decrease,
+                                             const Eigen::VectorXd& trial) {
+    const double gain = best_.value - tried_.value, ratio = gain / predicted_decrease,
+                 length = step.length(p);
     const double small = options_.relative_tolerance * best_.value;
     const bool is_limited = length >= 0.9 * radius_;
     if (ratio < kPoorGain) {
       // The minimum along p of the parabola through both values and the slope.
-      const double slope = step.slope(p) - 2.0 * best_.owed,
+      const double slope = step.slope(p) - 2.0 * best_.inner_decrease,
                    parabola = slope / (2.0 * (slope + gain));
       radius_ = std::min(0.5, std::max(0.1, slope + gain < 0.0 ? parabola : 0.5)) * length;
     } else if (ratio > kGoodGain) {
@@ -114,7 +117,7 @@ class SquaresSearch {
     // If the model is right and only the radius limits the step, the next step gains more.
     const bool holds_back = is_limited && ratio > kGoodGain;
     const bool has_converged =
-        std::abs(gain) <= small && promise <= small && ratio <= 2.0 && !holds_back;
+        std::abs(gain) <= small && predicted_decrease <= small && ratio <= 2.0 && !holds_back;
     if (ratio > kLeastGain) {
       x_ = trial;
       std::swap(best_, tried_);

@@ -13,9 +13,9 @@ struct LeastSquaresPoint {
   Eigen::VectorXd gradient;  ///< psi_x = 2 J^T r
   Eigen::MatrixXd root;  ///< upper triangular R with R^T R = J^T J; see triangular_root(), RowRoot
   /// For a model with unknowns of its own, which take a step with each step of x: the decrease of
-  /// psi by the step of these unknowns alone, to first order. It is added to the promise of a step
-  /// of x, doc/theory.md (42).
-  double owed = 0.0;
+  /// psi by the step of these unknowns alone, to first order. It is added to the predicted decrease
+  /// of a step of x, doc/theory.md (42).
+  double inner_decrease = 0.0;
 };
 
 /// The sum of squares that minimize_squares() minimizes.
@@ -33,13 +33,13 @@ class LeastSquaresModel {
 
 struct LevenbergMarquardtOptions {
   int max_evaluations = 200;
-  double relative_tolerance =
-      1e-6;  ///< of psi: the search ends when both promise and gain of a step are smaller
-  double largest_first_step = 1.0;  ///< the first step changes no variable by more
+  double relative_tolerance = 1e-6;  ///< of psi: the search ends when both predicted decrease and
+                                     ///< gain of a step are smaller
+  double largest_first_step = 1.0;   ///< the first step changes no variable by more
 };
 
 enum class LevenbergMarquardtEnd {
-  kOptimum,            ///< no step promises more than rounding of psi
+  kOptimum,            ///< no step predicts more than rounding of psi
   kValueTolerance,     ///< relative_tolerance is met
   kVariableTolerance,  ///< steps are below rounding of the variables
   kMaxEvaluations,

@@ -309,8 +309,8 @@ bool has_slack(RobustMeasure measure) {
 }
 
 /// A search from its start to a stop that can be trusted: where an algorithm stops on a slope, it
-/// begins anew from there, with fresh memory and a tighter tolerance; where that gains nothing, the
-/// next algorithm goes on; doc/theory.md (24j).
+/// begins again from there, with fresh memory and a tighter tolerance; where that gains nothing,
+/// the next algorithm goes on; doc/theory.md (24j).
 class Search {
  public:
   Search(const Study& study, const OptimizerOptions& options, const Ensemble& ensemble,

@@ -293,8 +293,9 @@ NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient,
 void NearMultipliers::minimize(const Eigen::MatrixXd& metric) {
   free_.clear();
   factor_.resize(0, 0);
-  settle(metric);
-  for (std::size_t round = 0; round < 3 * near_.size() && add_best(); ++round) settle(metric);
+  move_to_targets(metric);
+  for (std::size_t round = 0; round < 3 * near_.size() && add_best(); ++round)
+    move_to_targets(metric);
 }
 
 Eigen::VectorXd NearMultipliers::solve(const Eigen::VectorXd& x) const {
@@ -332,7 +333,7 @@ bool NearMultipliers::add_best() {
 
 /// Moves the used multipliers towards their least-squares values, dropping those that reach zero on
 /// the way.
-void NearMultipliers::settle(const Eigen::MatrixXd& metric) {
+void NearMultipliers::move_to_targets(const Eigen::MatrixXd& metric) {
   for (std::size_t round = 0; round <= near_.size(); ++round) {
     const Eigen::VectorXd target = this->target(metric);
     double fraction = 1.0;

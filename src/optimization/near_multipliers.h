@@ -107,7 +107,7 @@ class NearMultipliers {
 
  private:
   bool add_best();
-  void settle(const Eigen::MatrixXd& metric);
+  void move_to_targets(const Eigen::MatrixXd& metric);
   void factor(const Eigen::MatrixXd& metric);
   Eigen::VectorXd target(const Eigen::MatrixXd& metric);
   bool may_block(Eigen::Index k) const;

@@ -12,7 +12,7 @@ ProgressMeter::ProgressMeter(std::int64_t most_evaluations, ProgressObserver obs
       observer_(std::move(observer)),
       period_(period),
       began_(Clock::now()),
-      told_(began_) {}
+      notified_(began_) {}
 
 void ProgressMeter::begin(SearchStage stage, std::int64_t of, std::size_t scenarios) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -28,7 +28,7 @@ void ProgressMeter::count_run(bool computed) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++runs_;
   ++(computed ? computed_ : remembered_);
-  tell(false);
+  notify(false);
 }
 
 void ProgressMeter::count_trial() {
@@ -39,14 +39,14 @@ void ProgressMeter::count_trial() {
 void ProgressMeter::count_point() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++done_;
-  tell(done_ == of_);
+  notify(done_ == of_);
 }
 
 void ProgressMeter::end_search(std::int64_t trials) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++done_;
   ended_trials_ += trials;
-  tell(false);
+  notify(false);
 }
 
 Progress ProgressMeter::now() const {
@@ -91,10 +91,10 @@ Progress ProgressMeter::measure() const {
   return progress;
 }
 
-void ProgressMeter::tell(bool at_once) {
-  if (!observer_ || (!at_once && Clock::now() - told_ < period_)) return;
+void ProgressMeter::notify(bool at_once) {
+  if (!observer_ || (!at_once && Clock::now() - notified_ < period_)) return;
   observer_(measure());
-  told_ = Clock::now();
+  notified_ = Clock::now();
 }
 
 }  // namespace codesign

@@ -59,7 +59,7 @@ class ProgressMeter {
  private:
   Progress measure() const;
   std::int64_t runs_left() const;
-  void tell(bool at_once);
+  void notify(bool at_once);
 
   const std::int64_t most_evaluations_;
   const ProgressObserver observer_;
@@ -68,7 +68,7 @@ class ProgressMeter {
   SearchStage stage_ = SearchStage::kSearching;
   std::int64_t scenarios_ = 1, done_ = 0, of_ = 0, runs_ = 0, remembered_ = 0, runs_before_ = 0,
                computed_ = 0, trials_ = 0, ended_trials_ = 0;
-  Clock::time_point began_, told_;
+  Clock::time_point began_, notified_;
 };
 
 }  // namespace codesign

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/study.h"
 #include "math/arrays.h"
 
 namespace codesign {

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "description/study.h"
-
 namespace codesign {
+
+struct Study;
 
 /// Scaled variables of the optimizer, doc/theory.md (24): x = (rho - lower) / (upper - lower), or
 /// rho over the magnitude of its start value where a bound is missing.

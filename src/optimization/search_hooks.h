@@ -51,7 +51,7 @@ class SharedObserver {
 
   /// The observer of one search. @param start number of the search from 1.
   TrialObserver of(int start) {
-    return [this, start](const Trial& trial) { return tell(trial, start); };
+    return [this, start](const Trial& trial) { return notify(trial, start); };
   }
   /// Whether the observer has ended the job; all searches then end at their next trial.
   bool is_stopped() {
@@ -60,7 +60,7 @@ class SharedObserver {
   }
 
  private:
-  bool tell(Trial trial, int start) {
+  bool notify(Trial trial, int start) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (stopped_) return false;
     trial.start = start;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "description/motion_study.h"
 #include "math/arrays.h"
 
 namespace codesign {

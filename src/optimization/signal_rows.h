@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "description/ensemble.h"
+#include "description/motion_study.h"
 #include "integration/watch_layout.h"
 #include "mechanism_codesign/gradient.h"
 

@@ -153,7 +153,7 @@ double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
   return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
 }
 
-SmoothProgram::Value SmoothProgram::signal_value(const Place& place) const {
+SmoothProgram::Value SmoothProgram::signal_value(const WatchedRow& place) const {
   Value result = blank();
   const SignalRows& rows = rows_[place.scenario];
   const Extremes& extremes = all_->extremes[place.scenario];
@@ -167,7 +167,7 @@ SmoothProgram::Value SmoothProgram::signal_value(const Place& place) const {
 // psi_i - t - z_i <= 0 for the robust measure, then the rows of signals.
 SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& slack) const {
   if (row >= slack_.constraints()) {
-    const Place& place = inequality_places_[to_index(row - slack_.constraints())];
+    const WatchedRow& place = inequality_places_[to_index(row - slack_.constraints())];
     Value result = signal_value(place);
     if (place.row->peak < 0) return result;
     const int variable = peak_variable(place.scenario, place.row->peak);

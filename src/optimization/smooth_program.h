@@ -54,13 +54,13 @@ class SmoothProgram {
   double violation(const std::vector<Extremes>& extremes, const Eigen::VectorXd& rho) const;
 
  private:
-  struct Place {
+  struct WatchedRow {
     std::size_t scenario;
     const SignalRow* row;
   };
 
   Value blank() const;
-  Value signal_value(const Place& place) const;
+  Value signal_value(const WatchedRow& place) const;
   /// Number of the slack variable p of a scenario's peak.
   int peak_variable(std::size_t scenario, int peak) const {
     return slack_.variables() + first_peak_[scenario] + peak;
@@ -72,7 +72,7 @@ class SmoothProgram {
   SlackForm slack_;
   std::vector<SignalRows> rows_;  ///< one per scenario
   std::vector<int> first_peak_;   ///< per scenario
-  std::vector<Place> inequality_places_, equality_places_;
+  std::vector<WatchedRow> inequality_places_, equality_places_;
   int peaks_ = 0, inequality_rows_ = 0, equality_rows_ = 0;
   double unit_ = 1.0;
   Eigen::VectorXd peak_units_;

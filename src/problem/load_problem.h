@@ -74,7 +74,7 @@ std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run
 /// variant_of(). The texts alone determine the order.
 std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem);
 
-/// The problem compiled anew with another study of the same model; the texts of `problem` stay.
+/// The problem compiled again with another study of the same model; the texts of `problem` stay.
 /// @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
 

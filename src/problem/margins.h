@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "description/study.h"
+#include "description/signal.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
+
+struct Study;
 
 /// A parameter constraint counts as met if its margin is at least this. It is slightly negative
 /// because NLopt's algorithms end on the boundary of the constraints, where rounding may leave

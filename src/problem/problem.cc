@@ -22,25 +22,32 @@ namespace {
 
 constexpr const char* kSettings = "parameter settings";
 
-Parameter& find_parameter(Study* study, const std::string& name) {
-  for (Parameter& parameter : study->parameters)
-    if (parameter.name == name) return parameter;
+/// The index of a parameter.
+std::size_t find_parameter(const Study& study, const std::string& name) {
+  const std::vector<Parameter>& parameters = study.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (parameters[k].name == name) return k;
   std::vector<std::string> known;
-  for (const Parameter& parameter : study->parameters) known.push_back(parameter.name);
+  for (const Parameter& parameter : parameters) known.push_back(parameter.name);
   throw unknown_name({kSettings, 0}, name, "parameter", name, known);
 }
 
+/// The index of a parameter that may have this value.
+std::size_t find_settable(const Study& study, const std::string& name, double value) {
+  const std::size_t index = find_parameter(study, name);
+  const Parameter& parameter = study.parameters[index];
+  if (!std::isfinite(value) || value < parameter.lower || value > parameter.upper)
+    throw InputError({{kSettings, 0},
+                      name,
+                      "value outside the parameter's bounds",
+                      to_decimal(value),
+                      range_of(parameter)});
+  return index;
+}
+
 void apply_settings(const ParameterSettings& settings, Study* study) {
-  for (const auto& [name, value] : settings) {
-    Parameter& parameter = find_parameter(study, name);
-    if (!std::isfinite(value) || value < parameter.lower || value > parameter.upper)
-      throw InputError({{kSettings, 0},
-                        name,
-                        "value outside the parameter's bounds",
-                        to_decimal(value),
-                        range_of(parameter)});
-    parameter.value = value;
-  }
+  for (const auto& [name, value] : settings)
+    study->parameters[find_settable(*study, name, value)].value = value;
 }
 
 /// Why the value of a saved design is not for this study; empty if it is. Sets the parameter in
@@ -148,6 +155,11 @@ const std::vector<Parameter>& Problem::all_parameters() const { return study().p
 std::vector<double> Problem::parameters() const { return start_parameters(study()); }
 std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const {
   return parameters_at(study(), rho);
+}
+std::vector<double> Problem::parameters(const ParameterSettings& settings) const {
+  std::vector<double> values = parameters();
+  for (const auto& [name, value] : settings) values[find_settable(study(), name, value)] = value;
+  return values;
 }
 std::vector<std::string> Problem::tuned_names() const { return codesign::tuned_names(study()); }
 Eigen::VectorXd Problem::start() const { return start_of(study()); }
@@ -259,8 +271,7 @@ Problem load_portable(const PortableProblem& portable) {
     study.parameters[k].value = portable.values[k];
   study.tuned.clear();
   for (const std::string& name : portable.tuned)
-    study.tuned.push_back(
-        static_cast<int>(&find_parameter(&study, name) - study.parameters.data()));
+    study.tuned.push_back(static_cast<int>(find_parameter(study, name)));
   return compile(robot, std::move(study), {}, {},
                  {portable.urdf,
                   portable.overlays,

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "description/robot.h"
-#include "description/study.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
+
+struct Study;
 
 class CompiledSystem;
 

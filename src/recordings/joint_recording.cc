@@ -299,12 +299,14 @@ const JointSamples* JointRecording::find(const std::string& joint) const {
 }
 
 std::string JointRecording::place_of(std::size_t k) const {
-  return (topic.empty() ? "line " : "message ") + std::to_string(places[k]) +
-         ", t = " + readable(times[k]) + " s";
+  return (is_given        ? "sample "
+          : topic.empty() ? "line "
+                          : "message ") +
+         std::to_string(places[k]) + ", t = " + readable(times[k]) + " s";
 }
 
 SourceLocation JointRecording::location_of(std::size_t k) const {
-  return {file, topic.empty() ? static_cast<int>(places[k]) : 0};
+  return {file, topic.empty() && !is_given ? static_cast<int>(places[k]) : 0};
 }
 
 bool has_same_settings(const JointRecording& one, const JointRecording& other) {
@@ -324,6 +326,7 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
   JointRecording part;
   part.file = recording.file;
   part.topic = recording.topic;
+  part.is_given = recording.is_given;
   part.settings = recording.settings;
   part.element = recording.element;
   part.where = recording.where;

@@ -42,12 +42,14 @@ struct JointRecording {
       places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
   std::vector<JointSamples> joints;
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
-  std::string element;   ///< the entry of the study, for messages: `identify.data[0]`
-  SourceLocation where;  ///< place of this entry, for messages
+  std::string element;    ///< the entry of the study, for messages: `identify.data[0]`
+  SourceLocation where;   ///< place of this entry, for messages
+  bool is_given = false;  ///< by a program as arrays: neither a table nor a bag
 
   /// The samples of a joint; null if it was not recorded.
   const JointSamples* find(const std::string& joint) const;
-  /// The place of sample k in words: `line 812, t = 8.11 s`.
+  /// The place of sample k in words: `line 812, t = 8.11 s`. Places of given arrays are numbers of
+  /// samples, from 1.
   std::string place_of(std::size_t k) const;
   /// The file and, for a table, the line of sample k.
   SourceLocation location_of(std::size_t k) const;

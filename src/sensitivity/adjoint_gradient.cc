@@ -30,7 +30,7 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
   if (!status.ok() || !with_gradient_) return status;
   if (!back_) {
     back_.emplace(system_, integrator_.step().tableau(), most_points_);
-    back_->replay.settle_pivots_as(integrator_.step());
+    back_->replay.keep_pivots_of(integrator_.step());
   }
   back_->path.clear();
   back_->path.append(0.0, integrator_.step().tableau(), integrator_.initial_state());

@@ -51,8 +51,8 @@ IdasTangent::IdasTangent(const CompiledSystem& system)
 void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial,
                         Integrator* integrator, std::vector<State<double>>* sensitivities,
                         std::vector<double>* scales) {
-  matrix_.settle_as(integrator->assembly().rates_matrix());
-  matrix_.forget();
+  matrix_.keep_pivots_of(integrator->assembly().rates_matrix());
+  matrix_.reset_pivots();
   groups_.for_each([&](auto* group) {
     group->range.seed(system_, parameters, &group->parameters);
     group->equations.set_design(group->parameters);

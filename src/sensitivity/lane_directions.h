@@ -10,7 +10,7 @@
 #include "equations/compiled_system.h"
 #include "integration/increment.h"
 #include "math/arrays.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 #include "system/state.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "assembly/assembly.h"
 #include "equations/mass_solution.h"
 #include "math/arrays.h"
 #include "sensitivity/lane_directions.h"

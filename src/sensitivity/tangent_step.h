@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "assembly/assembly.h"
+#include "assembly/loop_jacobian.h"
 #include "equations/equations.h"
 #include "integration/increment.h"
 #include "integration/rosenbrock_step.h"
@@ -12,6 +12,8 @@
 #include "sensitivity/lane_directions.h"
 
 namespace codesign {
+
+class Assembly;
 
 /// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by the
 /// recorded equations. A prime denotes a directional derivative; only derivatives are returned, not
@@ -88,7 +90,7 @@ class TangentStep {
 
   /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q,
   /// v, s)) and of the rates that belong to it. @param assembly that solved for the rates of
-  /// `behind`. @param behind the state after the jump, where the step begins anew.
+  /// `behind`. @param behind the state after the jump, where the step begins again.
   void jump(const std::vector<ControlEvent>& events, const State<double>& before,
             const State<double>& behind, const Assembly& assembly);
 

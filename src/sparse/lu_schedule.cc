@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "math/arrays.h"
-#include "math/lanes.h"
+#include "math/scalar.h"
 
 namespace codesign {
 namespace {

@@ -29,8 +29,8 @@ struct SparseLu::Implementation {
 
   std::vector<int> starts, rows;
   std::vector<Kept>
-      schedules;  ///< the last one is in use; those before the last `chosen` ones were forgotten
-  std::size_t chosen = 0;  ///< since the last forget(), at most kMostSchedules
+      schedules;  ///< the last one is in use; those before the last `chosen` ones were reset
+  std::size_t chosen = 0;  ///< since the last reset_pivots(), at most kMostSchedules
   std::int64_t full_factorizations = 0;
 
   LuSchedule& schedule() { return schedules.back().schedule; }
@@ -56,7 +56,7 @@ struct SparseLu::Implementation {
     return std::isfinite(ratio) && ratio > kSingular;
   }
 
-  /// Brings a schedule for these pivots to the end: a forgotten one or a new one.
+  /// Brings a schedule for these pivots to the end: a earlier one or a new one.
   void add(const LuPattern& pattern) {
     if (chosen == kMostSchedules) --chosen;
     const auto last = schedules.end() - to_signed(chosen);
@@ -73,28 +73,28 @@ struct SparseLu::Implementation {
     ++chosen;
   }
 
-  /// The distance of the settled schedule from the first one; of the end if there is none.
-  std::ptrdiff_t settled() const {
+  /// The distance of the kept schedule from the first one; of the end if there is none.
+  std::ptrdiff_t kept() const {
     return std::find_if(schedules.begin(), schedules.end(),
                         [](const Kept& kept) { return kept.is_settled; }) -
            schedules.begin();
   }
-  bool has_settled() const { return settled() < to_signed(schedules.size()); }
+  bool has_kept() const { return kept() < to_signed(schedules.size()); }
 
-  void forget() {
-    chosen = has_settled() ? 1 : 0;
-    const auto first = schedules.begin() + settled();
+  void reset_pivots() {
+    chosen = has_kept() ? 1 : 0;
+    const auto first = schedules.begin() + kept();
     if (chosen > 0) std::rotate(first, first + 1, schedules.end());
   }
 
-  void settle() {
+  void keep_pivots() {
     for (Kept& kept : schedules) kept.is_settled = false;
     if (chosen > 0) schedules.back().is_settled = true;
   }
 
-  void settle_as(const Implementation& other) {
-    if (has_settled() || !other.has_settled()) return;
-    schedules.assign(1, other.schedules[to_index(other.settled())]);
+  void keep_pivots_of(const Implementation& other) {
+    if (has_kept() || !other.has_kept()) return;
+    schedules.assign(1, other.schedules[to_index(other.kept())]);
     chosen = 1;
   }
 };
@@ -113,12 +113,12 @@ bool SparseLu::factor(In<double> values) {
   return implementation_->refactor(values) || implementation_->factor(values);
 }
 
-void SparseLu::forget() { implementation_->forget(); }
+void SparseLu::reset_pivots() { implementation_->reset_pivots(); }
 
-void SparseLu::settle() { implementation_->settle(); }
+void SparseLu::keep_pivots() { implementation_->keep_pivots(); }
 
-void SparseLu::settle_as(const SparseLu& other) {
-  implementation_->settle_as(*other.implementation_);
+void SparseLu::keep_pivots_of(const SparseLu& other) {
+  implementation_->keep_pivots_of(*other.implementation_);
 }
 
 template <int N>

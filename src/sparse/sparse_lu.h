@@ -13,7 +13,7 @@ namespace codesign {
 /// (choose_pivots()); later matrices are refactored with the same pivots (LuSchedule).
 ///
 /// If an entry of L exceeds 1e6 or the ratio of the smallest to the largest pivot falls to 1e-17,
-/// up to three earlier choices of pivots are tried, then pivots are chosen anew. Not thread-safe.
+/// up to three earlier choices of pivots are tried, then pivots are chosen again. Not thread-safe.
 class SparseLu {
  public:
   /// @param column_start, row_index compressed-column pattern of an n x n matrix.
@@ -26,15 +26,16 @@ class SparseLu {
   /// working precision.
   bool factor(In<double> values);
 
-  /// Makes later factorizations independent of all matrices since settle(): the next one begins
-  /// with the pivots that settle() kept, or chooses pivots anew if settle() was never called. To be
-  /// called at the beginning of a run, so that its last bits do not depend on earlier runs.
-  void forget();
-  /// Keeps the present pivots as the pivots with which forget() begins again.
-  void settle();
-  /// Takes the settled pivots of another factorization of the same pattern as its own, unless it
+  /// Makes later factorizations independent of all matrices since keep_pivots(): the next one
+  /// begins with the pivots that keep_pivots() kept, or chooses pivots again if keep_pivots() was
+  /// never called. To be called at the beginning of a run, so that its last bits do not depend on
+  /// earlier runs.
+  void reset_pivots();
+  /// Keeps the present pivots as the pivots with which reset_pivots() begins again.
+  void keep_pivots();
+  /// Takes the kept pivots of another factorization of the same pattern as its own, unless it
   /// has some already or `other` has none.
-  void settle_as(const SparseLu& other);
+  void keep_pivots_of(const SparseLu& other);
 
   /// Solves A x = b in place, n numbers.
   void solve(Out<double> x) const { solve_rows<1>(x); }

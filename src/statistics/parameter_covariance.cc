@@ -26,15 +26,16 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R,
                                          const Identifiability& identifiability) {
   const Eigen::Index p = R.cols();
   const auto& dependent = identifiability.dependent;
-  std::vector<int> told;
+  std::vector<int> independent;
   for (int k = 0; k < static_cast<int>(p); ++k)
-    if (std::find(dependent.begin(), dependent.end(), k) == dependent.end()) told.push_back(k);
-  const auto rank = to_signed(told.size());
+    if (std::find(dependent.begin(), dependent.end(), k) == dependent.end())
+      independent.push_back(k);
+  const auto rank = to_signed(independent.size());
   Eigen::MatrixXd scaled(R.rows(), rank);
   Eigen::VectorXd lengths(rank);
   for (Eigen::Index k = 0; k < rank; ++k) {
-    lengths[k] = R.col(told[to_index(k)]).norm();
-    scaled.col(k) = R.col(told[to_index(k)]) / lengths[k];
+    lengths[k] = R.col(independent[to_index(k)]).norm();
+    scaled.col(k) = R.col(independent[to_index(k)]) / lengths[k];
   }
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p, p);
   if (rank == 0) return result;
@@ -44,7 +45,7 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R,
   const Eigen::MatrixXd inverse = root * root.transpose();
   for (Eigen::Index i = 0; i < rank; ++i)
     for (Eigen::Index j = 0; j < rank; ++j)
-      result(told[to_index(i)], told[to_index(j)]) = inverse(i, j);
+      result(independent[to_index(i)], independent[to_index(j)]) = inverse(i, j);
   return result;
 }
 

@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-/// The smallest sum of squares of the residuals, all other parameters fitted anew, where one
+/// The smallest sum of squares of the residuals, all other parameters fitted again, where one
 /// parameter has the value x; std::nullopt if this fit fails or is cancelled.
 using ProfiledCost = std::function<std::optional<double>(double x)>;
 

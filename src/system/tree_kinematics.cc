@@ -69,8 +69,8 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
       children[to_index(robot.joints[k].parent)].push_back(static_cast<int>(k));
   // A joint that stands behind its parent's joint in the file is taken in the same pass, else in
   // the next one.
-  using Place = std::pair<int, int>;  // pass, joint
-  std::priority_queue<Place, std::vector<Place>, std::greater<>> next;
+  using Visit = std::pair<int, int>;  // pass, joint
+  std::priority_queue<Visit, std::vector<Visit>, std::greater<>> next;
   for (int k : children[to_index(robot.root)]) next.emplace(0, k);
   while (!next.empty()) {
     const auto [pass, joint] = next.top();

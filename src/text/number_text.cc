@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "text/number_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <locale>
@@ -49,9 +50,13 @@ std::string format_numbers(const std::vector<double>& values) {
 }
 
 std::vector<std::string> split_words(const std::string& text) {
-  std::istringstream stream(text);
+  constexpr const char* kSpace = " \t\n\v\f\r";
   std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
+  for (std::size_t at = text.find_first_not_of(kSpace), end = 0; at != std::string::npos;
+       at = text.find_first_not_of(kSpace, end)) {
+    end = std::min(text.find_first_of(kSpace, at), text.size());
+    words.push_back(text.substr(at, end - at));
+  }
   return words;
 }
 

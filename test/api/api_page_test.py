@@ -76,6 +76,22 @@ class ThePage(unittest.TestCase):
         run("cmake", "--build", self.folder / "build")
         self.expect_what_codesign_says(self.folder / "build/program")
 
+    def expect_python_in(self, prefix):
+        """The Python package of an installation computes what codesign says, and has the messages where there are any."""
+        package = next(prefix.glob("**/mechanism_codesign/__init__.py")).parent
+        if not list(package.glob("_core.*.so")):
+            return
+        case = [str(SOURCE / "urdf/slider_crank_haug.urdf"), str(SOURCE / "config/slider_crank_haug.yaml")]
+        code = ("import sys, mechanism_codesign as codesign; problem = codesign.Problem(*sys.argv[1:3]); assert 'svg' in problem.simulate()._repr_html_(); "
+                + ("from mechanism_codesign.msg import Signals; from mechanism_codesign.srv import Evaluate; " if CATKIN else "") +
+                "print(problem.gradient()[0], codesign.__file__)")
+        environment = dict(os.environ, PYTHONPATH=str(package.parent), PYTHONDONTWRITEBYTECODE="1")
+        done = subprocess.run(["/usr/bin/python3", "-c", code, *case], capture_output=True, text=True, check=False, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        value, file = done.stdout.split()
+        self.assertEqual(float(value), json.loads(run(CODESIGN, "gradient", *case, "--json"))["objective"])
+        self.assertEqual(pathlib.Path(file).resolve().parent, package.resolve())
+
     def test_an_installation_is_found_where_it_is(self):
         """Not where the project was configured to be installed."""
         prefix = self.folder / "elsewhere"
@@ -84,6 +100,7 @@ class ThePage(unittest.TestCase):
         prefix.rename(moved)
         config = next(moved.glob("**/mechanism_codesignConfig.cmake")).parent
         library = next(moved.glob("**/libcodesign_core.*")).parent
+        self.expect_python_in(moved)
         self.configure_plain(config)
         self.expect_libraries_in(library)
         if CATKIN:

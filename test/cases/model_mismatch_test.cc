@@ -40,7 +40,7 @@ TEST(ModelMismatch, GainsTunedWithoutFrictionLeaveALastingOffsetOnTheRoughSurfac
   const Shipped smooth("inverted_pendulum_frictionless"),
       rough("inverted_pendulum", "inverted_pendulum_gonthier");
   ASSERT_EQ(rough.robot.joints[0].friction->model, FrictionModel::kGonthier);
-  // Without friction, the gains tuned without friction settle sooner and need less force.
+  // Without friction, the gains tuned without friction keep_pivots sooner and need less force.
   const Motion smooth_with = run(smooth, kWith), smooth_without = run(smooth, kWithout);
   EXPECT_LT(smooth_without.error[5], 0.2 * smooth_with.error[5]);
   EXPECT_LT(smooth_without.force[0], 0.8 * smooth_with.force[0]);

@@ -1,7 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "codegen/recording.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {
@@ -18,18 +23,6 @@ TEST(SourceId, GivesTheObjectBackAsItsOwnTypeOnly) {
   EXPECT_FALSE(id == SourceId(holder.first)) << "the same address, but another type";
 }
 
-TEST(NodeTable, FindsWhatItHoldsAlsoAfterItHasGrown) {
-  constexpr int kCount = 50000;
-  const auto key = [](int k) {
-    return (static_cast<std::uint64_t>(k % 7 + 2) << 58U) | static_cast<std::uint64_t>(k + 1);
-  };
-  NodeTable table;
-  for (int k = 0; k < kCount; ++k)
-    EXPECT_EQ(table.find_or_add(key(k), 3 * k), std::make_pair(3 * k, true));
-  for (int k = 0; k < kCount; ++k)
-    EXPECT_EQ(table.find_or_add(key(k), -1), std::make_pair(3 * k, false));
-}
-
 TEST(Recording, EveryLeafLiteralAndOperationIsThereOnce) {
   Recording r;
   const int x = r.leaf(0, 3, true), y = r.leaf(1, 3, false);
@@ -43,6 +36,21 @@ TEST(Recording, EveryLeafLiteralAndOperationIsThereOnce) {
   EXPECT_NE(r.operate(Operation::kSubtract, y, x), difference);
   EXPECT_EQ(r.operate(Operation::kSin, sum), r.operate(Operation::kSin, sum));
   EXPECT_NE(r.operate(Operation::kSin, sum), r.operate(Operation::kCos, sum));
+}
+
+TEST(Recording, FindsWhatItHoldsAlsoAfterItHasGrown) {
+  constexpr int kCount = 20000;
+  Recording r;
+  const auto record = [&r](int k) {
+    const int x = r.leaf(k % 3, k, true), number = r.literal(std::ldexp(1.0, k % 64) * k);
+    return std::array<int, 3>{x, number, r.operate(Operation::kMultiply, x, number)};
+  };
+  std::vector<std::array<int, 3>> nodes;
+  for (int k = 0; k < kCount; ++k) nodes.push_back(record(k));
+  const int size = r.size();
+  for (int k = 0; k < kCount; ++k) EXPECT_EQ(record(k), nodes[to_index(k)]);
+  EXPECT_EQ(r.size(), size);
+  EXPECT_GT(size, 2 * kCount);
 }
 
 TEST(Recording, WhatDependsOnAVaryingLeafVaries) {

@@ -12,7 +12,7 @@ namespace {
 
 TEST(RecordPatterns, HaveARowPerEquationAndOneForTheIntegrand) {
   const auto system = servo("{}");
-  const ByVariable<Sparsity> patterns = record_patterns(*system);
+  const ByVariable<Sparsity> patterns = record_patterns(*system, ResidualRecording(*system));
   EXPECT_EQ(patterns.rate.rows, system->layout().columns() + 1);
   EXPECT_EQ(patterns.position.columns, system->layout().positions());
   EXPECT_EQ(patterns.velocity.columns, system->layout().n);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "equations/compiled_system.h"
-#include "identification/driven_motion.h"
+#include "identification/effort/driven_motion.h"
 #include "math/arrays.h"
 
 namespace codesign {

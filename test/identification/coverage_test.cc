@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "identification/fit_variables.h"
+#include "identification/fit/fit_variables.h"
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"
 

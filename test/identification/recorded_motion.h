@@ -12,7 +12,7 @@
 #include "assembly/assembly.h"
 #include "assembly/make_system.h"
 #include "equations/formulas.h"
-#include "identification/effort_model.h"
+#include "identification/effort/effort_model.h"
 #include "integration/rosenbrock_integrator.h"
 #include "math/arrays.h"
 #include "reading/study/study_reader.h"

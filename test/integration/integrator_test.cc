@@ -40,9 +40,9 @@ TEST(Integrator, BothBeginAtTheAssembledStart) {
 
 struct Calls {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
-  SettledStart start;
+  RepeatableStart start;
   std::string seen;  ///< how much the first parameter of each begin exceeds the study's, and "s"
-                     ///< for each settle
+                     ///< for each keep_pivots
   bool fails = false;
 
   Status run(double excess) {
@@ -57,7 +57,7 @@ struct Calls {
   }
 };
 
-TEST(SettledStart, SettlesAtTheOwnStartOnce) {
+TEST(RepeatableStart, SettlesAtTheOwnStartOnce) {
   Calls calls;
   EXPECT_TRUE(calls.run(2.0).ok());
   calls.run(3.0);
@@ -65,14 +65,14 @@ TEST(SettledStart, SettlesAtTheOwnStartOnce) {
   EXPECT_EQ(calls.seen, "0s230");
 }
 
-TEST(SettledStart, BeginsTheOwnStartOnceIfItIsTheFirst) {
+TEST(RepeatableStart, BeginsTheOwnStartOnceIfItIsTheFirst) {
   Calls calls;
   calls.run(0.0);
   calls.run(2.0);
   EXPECT_EQ(calls.seen, "0s2");
 }
 
-TEST(SettledStart, AStartThatFailsSettlesNothing) {
+TEST(RepeatableStart, AStartThatFailsSettlesNothing) {
   Calls calls;
   calls.fails = true;
   EXPECT_EQ(calls.run(2.0).code, StatusCode::kSingularMatrix);

@@ -5,6 +5,7 @@
 
 #include "child_process.h"
 #include "jobs/files.h"
+#include "mechanism_codesign/error.h"
 #include "temporary_directory.h"
 
 namespace codesign {
@@ -42,6 +43,39 @@ TEST(WholeFile, AFullDiskLeavesTheOldFileAndNoPart) {
   EXPECT_THROW(write_whole_file(path, "new"), OutputError);
   EXPECT_EQ(content(path), "old");
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(path + kPartSuffix)));
+}
+
+TEST(MakeFolder, MakesWhatIsMissingAbove) {
+  const TemporaryDirectory directory;
+  const std::string folder = (directory.path() / "new" / "deeper").string();
+  make_folder(folder, "--output");
+  make_folder(folder, "--output");
+  write_whole_file(folder + "/text", "two\nlines\n");
+  EXPECT_EQ(content(folder + "/text"), "two\nlines\n");
+}
+
+TEST(MakeFolder, RefusesAFile) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "file").string();
+  write_whole_file(path, "x");
+  EXPECT_THROW(make_folder(path, "--output"), InputError);
+  EXPECT_THROW(make_folder(path + "/below", "--output"), InputError);
+  EXPECT_THROW(write_whole_file(path + "/below", "x"), OutputError);
+}
+
+TEST(RequireNoInput, RefusesEveryPathToAFileThatIsRead) {
+  const TemporaryDirectory directory;
+  const auto in_folder = [&](const char* name) { return (directory.path() / name).string(); };
+  const std::string input = in_folder("input"), hard = in_folder("hard"), soft = in_folder("soft");
+  write_whole_file(input, "x");
+  std::filesystem::create_hard_link(input, hard);
+  std::filesystem::create_symlink(input, soft);
+  for (const std::string& path : {input, hard, soft})
+    EXPECT_THROW(require_no_input(path, "--csv", "the table", {"", input}), InputError);
+  EXPECT_NO_THROW(
+      require_no_input(in_folder("other"), "--csv", "the table", {"", input, "/dev/null"}));
+  EXPECT_NO_THROW(require_no_input("/dev/null", "--csv", "the table", {"/dev/null"}))
+      << "a device is not replaced";
 }
 
 TEST(GiveFinalName, NeverReplacesAFile) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "joints/pair_constants.h"
 #include "joints/pair_rows.h"
 
 namespace codesign {

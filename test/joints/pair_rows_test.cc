@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "joints/pair_constants.h"
 #include "joints/pair_rows.h"
 #include "joints/two_bodies.h"
 #include "math/differences.h"

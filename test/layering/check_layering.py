@@ -39,19 +39,23 @@ ROWS = [
     ["excitation"],
     ["jobs"],
     ["mpi"],
-    ["cli", "ros"],
+    ["cli", "python", "ros"],
 ]
 ROW_OF = {room: row for row, rooms in enumerate(ROWS) for room in rooms}
-# The same order of the rooms inside ros/; files beside them are front ends and may include all of them.
-ROS_ROWS = [
-    ["scene"],
-    ["bags"],
-    ["common"],
-    ["apply", "simulation"],
-    ["jobs"],
-    ["nodes"],
-]
-ROW_IN_ROS = {room: row for row, rooms in enumerate(ROS_ROWS) for room in rooms}
+# The same order of the rooms inside a room; "" are the files beside them.
+INNER_ROWS = {
+    "reading": [[""], ["xml", "yaml"], ["urdf"], ["study"]],
+    "identification": [["fit"], ["effort"], ["motion"], ["comparison"], [""]],
+    "ros": [["scene"], ["bags"], ["common"], ["apply", "simulation"], ["jobs"], ["nodes"], [""]],
+}
+INNER_ROW_OF = {room: {inner: row for row, rooms in enumerate(rows) for inner in rooms} for room, rows in INNER_ROWS.items()}
+# Features that most users never enter, and the places outside them that know them: all others would build without.
+FEATURES = {
+    "mpi/": ("cli/", "ros/nodes/"),
+    "excitation/": ("jobs/", "cli/", "ros/bags/"),
+    "ros/apply/": ("ros/jobs/", "ros/nodes/"),
+    "jobs/journal": ("cli/", "ros/jobs/"),
+}
 # The room that each public header belongs to; the rooms after it may include it.
 PUBLIC = {
     "counts.h": "assembly",
@@ -113,19 +117,29 @@ def check_include(room, header, in_brackets):
     return None
 
 
-def room_in_ros(parts):
-    """The room inside ros/ of a path below src/; empty for a file beside the rooms, None outside ros/."""
-    if parts[0] != "ros":
+def inner_room(parts):
+    """The room inside the first room of a path below src/; empty for a file beside those rooms, None where there are none."""
+    if parts[0] not in INNER_ROWS:
         return None
     return parts[1] if len(parts) > 2 else ""
 
 
-def check_include_in_ros(inner, header):
-    """Why a file of the room `inner` inside ros/ must not include `header`, or None."""
-    other = room_in_ros(header.split("/"))
-    if not inner or not other or inner == other or ROW_IN_ROS.get(other, len(ROS_ROWS)) < ROW_IN_ROS[inner]:
+def check_inner_include(room, inner, header):
+    """Why a file of the room `inner` inside `room` must not include `header`, or None."""
+    parts = header.split("/")
+    other = inner_room(parts)
+    rows = INNER_ROW_OF.get(room, {})
+    if inner is None or parts[0] != room or inner == other or rows.get(other, len(rows)) < rows[inner]:
         return None
-    return f"ros/{inner}/ includes ros/{other}/, which does not stand before it"
+    return f"{room}/{inner}/ includes {'/'.join(filter(None, (room, other)))}/, which does not stand before it"
+
+
+def check_feature(name, header):
+    """Why the file `name` below src/ must not know the feature that `header` belongs to, or None."""
+    for feature, places in FEATURES.items():
+        if header.startswith(feature) and not name.startswith((feature, *places)):
+            return f"{feature} is a feature that only {', '.join(places)} may include"
+    return None
 
 
 def defining_rooms(sources):
@@ -186,15 +200,17 @@ def check(root):
         room = room_of_file(name)
         lines = text.splitlines()
         lines_of[str(name)] = len(lines)
-        inner = room_in_ros(name.parts[1:]) if room == "ros" else None
-        if room is None or (inner and inner not in ROW_IN_ROS):
+        inner = inner_room(name.parts[1:]) if room else None
+        if room is None or (inner is not None and inner not in INNER_ROW_OF[room]):
             violations.append(f"{name}:1: {name.parent.name}/ has no place in the order of the rooms")
             continue
         for number, line in enumerate(lines, start=1):
             match = INCLUDE.match(line)
             if match:
                 in_brackets = match.group(1) == "<"
-                reason = check_include(room, match.group(2), in_brackets) or (None if in_brackets else check_include_in_ros(inner, match.group(2)))
+                header = match.group(2)
+                reason = check_include(room, header, in_brackets) or (
+                    None if in_brackets else check_inner_include(room, inner, header) or check_feature("/".join(name.parts[1:]), header))
             else:
                 reason = check_declaration(room, line, room_of_class)
             if reason:

@@ -76,6 +76,21 @@ class PlantedViolations(unittest.TestCase):
         self.plant("src/ros/simulation/b.cc", '#include "ros/apply/apply.h"\n')
         self.assert_only("src/ros/simulation/b.cc:1", "ros/simulation/ includes ros/apply/")
 
+    def test_files_beside_the_inner_rooms_have_a_place_in_their_order(self):
+        self.plant("src/identification/fit/b.cc", '#include "identification/identify.h"\n')
+        self.assert_only("src/identification/fit/b.cc:1", "identification/fit/ includes identification/")
+        self.plant("src/identification/fit/b.cc", "\n")
+        self.plant("src/identification/identify.cc", '#include "identification/motion/segments.h"\n')
+        self.plant("src/reading/study/b.cc", '#include "reading/table.h"\n')
+        self.assertEqual(self.violations(), [])
+
+    def test_features_are_known_at_their_doors_only(self):
+        self.plant("src/ros/nodes/b.cc", '#include "ros/apply/plan.h"\n#include "mpi/ranks.h"\n')
+        self.plant("src/jobs/journal.cc", '#include "jobs/journal.h"\n')
+        self.assertEqual(self.violations(), [])
+        self.plant("src/jobs/b.cc", '#include "jobs/files.h"\n#include "jobs/journal.h"\n')
+        self.assert_only("src/jobs/b.cc:2", "jobs/journal is a feature")
+
     def test_unknown_folder_inside_ros(self):
         self.plant("src/ros/misc/b.cc", "\n")
         self.assert_only("src/ros/misc/b.cc:1", "no place")
@@ -124,7 +139,7 @@ class PlantedViolations(unittest.TestCase):
 
     def test_the_room_of_an_object_or_unit(self):
         root = pathlib.Path("/build")
-        self.assertEqual(check_symbols.room_of(root / "math/lanes.cc.o", root), "math")
+        self.assertEqual(check_symbols.room_of(root / "math/scalar.cc.o", root), "math")
         self.assertEqual(check_symbols.room_of(root / "Unity/unity_reading_urdf_cxx.cxx.o", root), "reading")
         self.assertIsNone(check_symbols.room_of(root / "cmake_pch.hxx.o", root))
 

@@ -131,7 +131,7 @@ TEST(RowRoot, IsThatOfAllRows) {
       for (Eigen::Index k = 0; k < count; ++k) root.add(A.row(k).transpose());
       expect_root(root.root(), A);
       root.start(columns);
-      EXPECT_EQ(root.root(), Eigen::MatrixXd::Zero(columns, columns)) << "begins anew";
+      EXPECT_EQ(root.root(), Eigen::MatrixXd::Zero(columns, columns)) << "begins again";
     }
 }
 

@@ -66,7 +66,8 @@ TEST(BoundedStep, WithoutBoundsItIsTheSolutionOfTheNormalEquations) {
   const Eigen::VectorXd p = step.within(kNoBound);
   const Eigen::MatrixXd H = 2.0 * problem.root.transpose() * problem.root;
   EXPECT_LE((H * p + problem.gradient).norm(), 1e-10 * problem.gradient.norm());
-  EXPECT_NEAR(step.promise(p), -0.5 * problem.gradient.dot(p), 1e-10 * step.promise(p));
+  EXPECT_NEAR(step.predicted_decrease(p), -0.5 * problem.gradient.dot(p),
+              1e-10 * step.predicted_decrease(p));
   EXPECT_NEAR(step.slope(p), problem.gradient.dot(p), 1e-12 * std::abs(step.slope(p)));
 }
 
@@ -80,8 +81,8 @@ TEST(BoundedStep, IsNotLongerThanTheRadius) {
       const Eigen::VectorXd p = step.within(fraction * free);
       EXPECT_LE(step.length(p), 1.1 * fraction * free);
       EXPECT_GE(step.length(p), 0.9 * fraction * free);
-      EXPECT_GT(step.promise(p), before) << "a longer step promises more";
-      before = step.promise(p);
+      EXPECT_GT(step.predicted_decrease(p), before) << "a longer step predicted_decreases more";
+      before = step.predicted_decrease(p);
     }
     EXPECT_EQ(step.within(2.0 * free), step.within(kNoBound));
   }

@@ -184,7 +184,7 @@ class OwnUnknown final : public LeastSquaresModel {
     point->value = r * r + own * own + 0.01;
     point->gradient = Eigen::VectorXd::Constant(1, 20.0 * r);
     point->root = Eigen::MatrixXd::Constant(1, 1, 10.0);
-    point->owed = own * own;
+    point->inner_decrease = own * own;
     if (evaluations == 1 || point->value < best_) {
       x_ = x[0];
       y_ = y;

@@ -49,6 +49,15 @@ TEST(Problem, SettingsReplaceStartsAndDefaults) {
   EXPECT_EQ(problem.start(), Eigen::Vector2d(6.0, 1.0));
 }
 
+TEST(Problem, ValuesOfADesignByName) {
+  const Problem problem = load_problem(kPendulum, {}, kStudy);
+  const ParameterSettings settings{{"Kp", 4.0}, {"weight", 5.0}, {"Kp", 6.0}};
+  EXPECT_EQ(problem.parameters(settings), (std::vector<double>{1.0, 5.0, 6.0}));
+  EXPECT_EQ(problem.parameters(ParameterSettings{}), problem.parameters());
+  EXPECT_THROW(problem.parameters({{"Kp", 9.5}}), InputError);
+  EXPECT_THROW(problem.parameters({{"lenght", 1.0}}), InputError);
+}
+
 TEST(Problem, AMechanismAloneTunesNothing) {
   const Problem problem = load_mechanism(kPendulum, {}, {{"length", 1.5}});
   EXPECT_EQ(problem.parameters(), (std::vector<double>{1.5, 3.0}));

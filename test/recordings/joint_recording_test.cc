@@ -17,6 +17,10 @@ TEST(JointRecording, FindsJointsAndPlaces) {
   recording.topic = "/joint_states";
   EXPECT_EQ(recording.place_of(3), "message 5, t = 0.03 s");
   EXPECT_EQ(recording.location_of(3).line, 0);
+  recording.topic.clear();
+  recording.is_given = true;
+  EXPECT_EQ(part_of(recording, 1, 5).place_of(2), "sample 5, t = 0.03 s");
+  EXPECT_EQ(recording.location_of(3).line, 0);
 }
 
 TEST(JointRecording, APartKeepsWhatWasNotMeasuredEmpty) {

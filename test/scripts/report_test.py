@@ -330,7 +330,7 @@ class Report(unittest.TestCase):
                 file.write(whole[name])
 
     def test_every_termination_has_words(self):
-        sources = ("optimization/algorithm.cc", "optimization/levenberg_marquardt.cc", "identification/residual_fit.cc")
+        sources = ("optimization/algorithm.cc", "optimization/levenberg_marquardt.cc", "identification/fit/residual_fit.cc")
         found = set()
         for source in sources:
             with open(os.path.join(ROOT, "src", source), encoding="utf-8") as file:

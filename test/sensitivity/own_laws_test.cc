@@ -5,6 +5,7 @@
 
 #include "codegen/traced.h"
 #include "integration/mechanisms.h"
+#include "joints/pair_constants.h"
 #include "joints/pair_rows.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"

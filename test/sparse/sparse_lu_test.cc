@@ -66,12 +66,12 @@ TEST(SparseLu, AfterForgettingNothingDependsOnEarlierMatrices) {
   EXPECT_EQ(solution(&used, 2.0 * second), 0.5 * expected) << "the same pivots with other scales";
   solution(&used, first);
   for (int k = 0; k < 12; ++k) {
-    used.forget();
+    used.reset_pivots();
     EXPECT_EQ(solution(&used, second), expected) << k;
-    used.forget();
+    used.reset_pivots();
     solution(&used, dense_matrix(1e8 * (k + 1)));
   }
-  EXPECT_GE(used.full_factorizations(), 25) << "chosen anew each time";
+  EXPECT_GE(used.full_factorizations(), 25) << "chosen again each time";
 }
 
 TEST(SparseLu, AfterForgettingSettledPivotsAreUsedAgain) {
@@ -85,25 +85,25 @@ TEST(SparseLu, AfterForgettingSettledPivotsAreUsedAgain) {
   SparseLu fresh(kLuStart, kLuRows), used(kLuStart, kLuRows);
   for (SparseLu* lu : {&fresh, &used}) {
     solution(lu, dense_matrix(4.0));
-    lu->settle();
+    lu->keep_pivots();
   }
   const Eigen::Vector4d expected = solution(&fresh, dense_matrix(0.3));
   for (int k = 0; k < 12; ++k) {
-    used.forget();
+    used.reset_pivots();
     solution(&used, dense_matrix(1e8 * (k + 1)));
-    used.forget();
+    used.reset_pivots();
     EXPECT_EQ(solution(&used, dense_matrix(0.3)), expected) << k;
   }
-  EXPECT_EQ(fresh.full_factorizations(), 1) << "the settled pivots serve";
+  EXPECT_EQ(fresh.full_factorizations(), 1) << "the kept pivots serve";
 }
 
 TEST(SparseLu, TakesTheSettledPivotsOfAnother) {
   const Eigen::Vector4d b(1.0 / 3, 2.0 / 7, 3.0 / 11, 4.0 / 13);
   SparseLu first(kLuStart, kLuRows), other(kLuStart, kLuRows);
   EXPECT_TRUE(first.factor(dense_matrix(4.0)));
-  other.settle_as(first);
-  first.settle();
-  other.settle_as(first);
+  other.keep_pivots_of(first);
+  first.keep_pivots();
+  other.keep_pivots_of(first);
   EXPECT_TRUE(other.factor(dense_matrix(0.3)));
   EXPECT_TRUE(first.factor(dense_matrix(0.3)));
   EXPECT_EQ(other.full_factorizations(), 0);
@@ -112,12 +112,12 @@ TEST(SparseLu, TakesTheSettledPivotsOfAnother) {
   other.solve(y);
   EXPECT_EQ(x, y);
 
-  // Its own settled pivots stay.
+  // Its own kept pivots stay.
   SparseLu third(kLuStart, kLuRows);
   EXPECT_TRUE(third.factor(dense_matrix(1e8)));
-  third.settle();
-  third.settle_as(first);
-  third.forget();
+  third.keep_pivots();
+  third.keep_pivots_of(first);
+  third.reset_pivots();
   EXPECT_TRUE(third.factor(dense_matrix(1e8)));
   EXPECT_EQ(third.full_factorizations(), 1);
 }

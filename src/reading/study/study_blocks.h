@@ -143,12 +143,10 @@ std::vector<RecordingDescription> read_recording_list(const YamlValue& list,
                                                       const Study& study);
 
 /// Reads the map `identify:` of a study whose parameters have been read. The recordings themselves
-/// are not opened.
-/// @param is_planned the study has a block `excite:`, so that there may be no data yet. @throws
-/// InputError
+/// are not opened. There may be none: of a motion that is planned, or in a program that has them as
+/// arrays. @throws InputError
 IdentificationDescription read_identification(const YamlValue& identify,
-                                              const RobotDescription& robot, const Study& study,
-                                              bool is_planned = false);
+                                              const RobotDescription& robot, const Study& study);
 
 /// The duration of a study with `identify:` that has no `duration`: the duration of a segment,
 /// `identify.segment` or its default [s].

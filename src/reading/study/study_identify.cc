@@ -102,12 +102,9 @@ double segment_of(const YamlValue& identify) {
 }
 
 IdentificationDescription read_identification(const YamlValue& identify,
-                                              const RobotDescription& robot, const Study& study,
-                                              bool is_planned) {
-  std::vector<std::string> required;
-  if (!is_planned) required.emplace_back("data");
-  identify.require_keys(required, {"data", "holdout", "residual", "segment", "filter", "joints",
-                                   "loss", "intervals", "prior"});
+                                              const RobotDescription& robot, const Study& study) {
+  identify.require_keys({}, {"data", "holdout", "residual", "segment", "filter", "joints", "loss",
+                             "intervals", "prior"});
   IdentificationDescription description;
   description.where = identify.where();
   if (const auto data = identify.find("data"))

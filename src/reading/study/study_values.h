@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/parameter_table.h"

@@ -129,9 +129,9 @@ const std::vector<ElementRule>& rules() {
 }  // namespace
 
 const ElementRule* find_rule(const std::string& path) {
-  const auto found = std::find_if(rules().begin(), rules().end(),
-                                  [&](const ElementRule& rule) { return rule.path == path; });
-  return found != rules().end() ? &*found : nullptr;
+  static const auto kByPath = by_path(rules());
+  const auto found = kByPath.find(path);
+  return found != kByPath.end() ? found->second : nullptr;
 }
 
 std::vector<std::string> annotation_elements() {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "description/quantity.h"
+#include "description/expression.h"
 #include "description/robot.h"
 #include "mechanism_codesign/parameter.h"
 #include "reading/parameter_table.h"

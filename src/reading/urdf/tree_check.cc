@@ -149,11 +149,11 @@ void check_mimics(RobotDescription* robot) {
     const std::optional<InputError> fault = mimic_fault(joint, targets, names);
     if (!fault) continue;
     if (joint.mimic->where.file != robot->file) throw *fault;
-    InputFault told = fault->fault();
-    told.message +=
+    InputFault warned = fault->fault();
+    warned.message +=
         "; the element is ignored and the joint moves freely. Name the joint that it follows, or "
         "remove the element";
-    robot->warnings.push_back(warn("mimic_ignored", told));
+    robot->warnings.push_back(warn("mimic_ignored", warned));
     joint.mimic.reset();
   }
 }

@@ -51,7 +51,7 @@ const tinyxml2::XMLElement* find_named(const tinyxml2::XMLElement* above,
 }  // namespace
 
 void check_with_urdfdom(const XmlDocument& document) {
-  const std::string text = document.text();
+  const std::string text = document.text(true);
   static std::mutex mutex;  // the output handler is global
   const std::lock_guard<std::mutex> lock(mutex);
   const ErrorCollector collector;

@@ -115,9 +115,9 @@ const Words& all_words() {
 }  // namespace
 
 const Vocabulary* find_vocabulary(const std::string& path) {
-  const auto found = std::find_if(all_words().begin(), all_words().end(),
-                                  [&path](const Vocabulary& words) { return words.path == path; });
-  return found != all_words().end() ? &*found : nullptr;
+  static const auto kByPath = by_path(all_words());
+  const auto found = kByPath.find(path);
+  return found != kByPath.end() ? found->second : nullptr;
 }
 
 std::vector<std::string> elements_with(const std::string& child) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace codesign {
@@ -17,6 +18,14 @@ struct Vocabulary {
   Names other_children;    ///< likewise
   bool repeats_children = true;  ///< false: readers use only the first child with a tag
 };
+
+/// Each row of a table of one of these by its path; every element of a file is looked up.
+template <class Row>
+std::unordered_map<std::string, const Row*> by_path(const std::vector<Row>& rows) {
+  std::unordered_map<std::string, const Row*> result;
+  for (const Row& row : rows) result.emplace(row.path, &row);
+  return result;
+}
 
 /// The vocabulary of a path such as `robot/joint/limit`; null for elements that are not URDF's,
 /// which may contain anything.

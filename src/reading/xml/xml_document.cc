@@ -88,8 +88,8 @@ XmlDocument::XmlDocument(const SourceText& source)
                       std::string("<") + robot()->Name() + ">", "<robot>"});
 }
 
-std::string XmlDocument::text() const {
-  tinyxml2::XMLPrinter printer;
+std::string XmlDocument::text(bool compact) const {
+  tinyxml2::XMLPrinter printer(nullptr, compact);
   dom_->Print(&printer);
   return printer.CStr();
 }

@@ -25,8 +25,8 @@ class XmlDocument {
   const std::string& file() const { return file_; }
   tinyxml2::XMLElement* robot() { return dom_->RootElement(); }
   const tinyxml2::XMLElement* robot() const { return dom_->RootElement(); }
-  /// The document as XML.
-  std::string text() const;
+  /// The document as XML. @param compact without line breaks and indentation, for programs
+  std::string text(bool compact = false) const;
 
   /// Warnings from reading and merging the files.
   const Warnings& warnings() const { return warnings_; }

@@ -54,15 +54,16 @@ std::vector<XmlElement> XmlElement::children() const {
 
 std::vector<XmlElement> XmlElement::children(const std::string& tag) const {
   std::vector<XmlElement> result;
-  for (const XmlElement& child : children())
-    if (child.tag() == tag) result.push_back(child);
+  for (const tinyxml2::XMLElement* child = node_->FirstChildElement(tag.c_str()); child != nullptr;
+       child = child->NextSiblingElement(tag.c_str()))
+    result.emplace_back(child, document_);
   return result;
 }
 
 std::optional<XmlElement> XmlElement::child(const std::string& tag) const {
-  const std::vector<XmlElement> found = children(tag);
-  if (found.empty()) return std::nullopt;
-  return found.front();
+  const tinyxml2::XMLElement* const found = node_->FirstChildElement(tag.c_str());
+  if (found == nullptr) return std::nullopt;
+  return XmlElement(found, document_);
 }
 
 XmlElement XmlElement::only(const std::string& tag) const {

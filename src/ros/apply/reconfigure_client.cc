@@ -140,7 +140,7 @@ void ReconfigureClient::serve() {
   }
 }
 
-/// Uses one connection, which is made anew if the server was started again.
+/// Uses one connection, which is made again if the server was started again.
 ReconfigureClient::Answer ReconfigureClient::ask(const GainValues& values) {
   ros::ServiceClient service;
   {

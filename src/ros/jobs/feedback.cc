@@ -42,14 +42,14 @@ JobFeedback::JobFeedback(std::string job, std::vector<std::string> parameters,
   last_.job = job_;
 }
 
-void JobFeedback::tell(const Trial& trial, const Progress& progress) {
+void JobFeedback::publish(const Trial& trial, const Progress& progress) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = optimization_progress(trial, job_, parameters_);
   send(progress);
   log_.add({trial, latest_});
 }
 
-void JobFeedback::tell(const Progress& progress) {
+void JobFeedback::publish(const Progress& progress) {
   const std::lock_guard<std::mutex> lock(mutex_);
   send(progress);
 }
@@ -64,7 +64,7 @@ void JobFeedback::send(const Progress& progress) {
 void JobFeedback::finish(Progress progress) {
   progress.seconds_left = 0.0;
   progress.is_bound = false;
-  tell(progress);
+  publish(progress);
 }
 
 std::vector<LoggedTrial> JobFeedback::take() {
@@ -98,7 +98,7 @@ void IdentificationFeedback::begin(const std::string& stage) {
   send();
 }
 
-void IdentificationFeedback::tell(const FitTrial& trial) {
+void IdentificationFeedback::publish(const FitTrial& trial) {
   const bool is_fit = trial.profile == 0;
   set_stage(is_fit ? "fitting" : "profiling");
   const int done = is_fit ? trial.evaluation : trial.profile - 1,

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/residual_fit.h"
+#include "identification/fit/residual_fit.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/progress_meter.h"
 #include "ros/bags/job_bag.h"
@@ -53,8 +53,8 @@ class JobFeedback {
   /// call, since the meter itself calls the function below. Workers that finish runs at the same
   /// time may call in another order than their runs were counted; a message never goes back to an
   /// earlier count of runs.
-  void tell(const Trial& trial, const Progress& progress);
-  void tell(const Progress& progress);
+  void publish(const Trial& trial, const Progress& progress);
+  void publish(const Progress& progress);
   /// Sends the last message, with no time left.
   void finish(Progress progress);
 
@@ -88,7 +88,7 @@ class IdentificationFeedback {
 
   /// Begins a stage without evaluations: `reading` or `recording`.
   void begin(const std::string& stage);
-  void tell(const FitTrial& trial);
+  void publish(const FitTrial& trial);
   /// Sends the last message, with no time left.
   void finish();
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "identification/fit_variables.h"
+#include "identification/fit/fit_variables.h"
 #include "identification/identify.h"
 #include "jobs/files.h"
 #include "jobs/identification_records.h"
@@ -42,7 +42,7 @@ class IdentificationJob {
     const auto observe = [&](const FitTrial& trial) {
       const std::string line = lines.line(trial);
       if (!line.empty()) ROS_INFO_STREAM(line);
-      feedback_.tell(trial);
+      feedback_.publish(trial);
       return !cancel;
     };
     result_ = identify(problem_, recordings_, observe, &cancel);
@@ -104,7 +104,7 @@ class IdentificationJob {
 
   void write_texts(const std::string& json) {
     mechanism_codesign::IdentifyResult& result = outcome_->result;
-    const std::pair<const char*, std::string*> told[] = {
+    const std::pair<const char*, std::string*> texts[] = {
         {"identification.json", &result.report},
         {"identified_overlay.urdf", &result.overlay},
         {"identified.urdf", &result.urdf},
@@ -112,7 +112,7 @@ class IdentificationJob {
     for (const IdentificationFile& file : identification_files(problem_, result_, json)) {
       const std::string path = files_.stem() + "." + file.name;
       const std::string written = try_to([&] { write_whole_file(path, file.text()); }, path);
-      for (const auto& [name, place] : told)
+      for (const auto& [name, place] : texts)
         if (file.name == name) *place = written;
     }
   }

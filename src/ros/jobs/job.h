@@ -88,8 +88,9 @@ class Patience {
   }
 
  private:
-  static bool is_over(bool told, double seconds, const ros::WallTime& now, ros::WallTime* since) {
-    if (!told) return false;
+  static bool is_over(bool has_left, double seconds, const ros::WallTime& now,
+                      ros::WallTime* since) {
+    if (!has_left) return false;
     if (since->isZero()) *since = now;
     return now - *since > ros::WallDuration(seconds);
   }

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "identification/identification_result.h"
+#include "identification/fit/identification_result.h"
 #include "mechanism_codesign/optimization.h"
 #include "problem/load_problem.h"
 

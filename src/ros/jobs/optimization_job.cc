@@ -78,13 +78,13 @@ class Job {
   void optimize(const FeedbackObserver& observer, const std::atomic<bool>& cancel) {
     JobFeedback feedback(files_.name(), problem_.tuned_names(), observer);
     ProgressMeter meter(optimizer_options_.max_evaluations,
-                        [&](const Progress& progress) { feedback.tell(progress); });
+                        [&](const Progress& progress) { feedback.publish(progress); });
     TrialLines lines(problem_.study());
     const auto observe = [&](const Trial& trial) {
       const Progress now = meter.now();
       best_.note(trial);
       ROS_INFO_STREAM(lines.line(trial, now));
-      feedback.tell(trial, now);
+      feedback.publish(trial, now);
       return true;
     };
     result_ = run_search(problem_, optimizer_options_,

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "math/scalar.h"
+
 namespace codesign {
 namespace {
 

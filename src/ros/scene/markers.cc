@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "identification/comparison/compared_motion.h"
 #include "text/number_text.h"
 
 namespace codesign {

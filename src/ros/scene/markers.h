@@ -7,11 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "identification/compared_motion.h"
 #include "mechanism_codesign/frame.h"
 #include "reading/urdf/pictures.h"
 
 namespace codesign {
+
+struct ComparedMotion;
 
 /// Stamp of a message and the TF frame of the root link.
 struct MessageContext {

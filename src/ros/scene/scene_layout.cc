@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "description/expression.h"
 #include "math/arrays.h"
 #include "text/number_text.h"
 

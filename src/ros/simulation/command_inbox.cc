@@ -80,10 +80,10 @@ void CommandInbox::refuse(const std::string& topic, const ros::Time& stamp,
   note_answer(stamp);
   state_->show("refused commands", std::to_string(++refused_));
   const ros::WallTime now = ros::WallTime::now();
-  if (const auto told = told_.find(topic);
-      told != told_.end() && now - told->second < ros::WallDuration(1.0))
+  if (const auto warned = warned_.find(topic);
+      warned != warned_.end() && now - warned->second < ros::WallDuration(1.0))
     return;
-  told_[topic] = now;
+  warned_[topic] = now;
   state_->warn("command " + topic, {{"command_refused", sentence, {}}});
 }
 
@@ -97,8 +97,8 @@ std::vector<Command> CommandInbox::take() {
 void CommandInbox::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
   commands_.clear();
-  for (const auto& [topic, time] : told_) state_->warn("command " + topic, {});
-  told_.clear();
+  for (const auto& [topic, time] : warned_) state_->warn("command " + topic, {});
+  warned_.clear();
 }
 
 void CommandInbox::await_answer(const ros::Time& stamp) {

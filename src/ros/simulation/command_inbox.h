@@ -53,8 +53,8 @@ class CommandInbox {
   std::vector<Command> commands_;
   ros::Time awaited_;
   bool answered_ = false;
-  std::map<std::string, ros::WallTime>
-      told_;  ///< per topic: time of the last warning of a refused message, at most one per second
+  std::map<std::string, ros::WallTime> warned_;  ///< per topic: time of the last warning of a
+                                                 ///< refused message, at most one per second
   std::size_t refused_ = 0;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -88,7 +88,7 @@ bool RunControl::wants_restart() const {
 }
 
 std_srvs::TriggerResponse RunControl::refusal() const {
-  return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins anew");
+  return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins again");
 }
 
 // Answered when the run stands: the frame that is computed meanwhile is still published.

@@ -132,6 +132,8 @@ TEST(StudyIdentify, RefusesCalibrationsThatCannotBe) {
 }
 
 TEST(StudyIdentify, NeedsSomethingToIdentify) {
+  EXPECT_TRUE(read_text(kStudyToIdentify + "identify: {}\n").identification->data.empty())
+      << "a program may have them as arrays";
   expect_fault("duration: 1\nidentify: {" + kSomeData + "}\n", "identify", "nothing to identify",
                2);
   EXPECT_TRUE(

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "codegen/traced.h"
+#include "description/robot.h"
 #include "observation/observer.h"
 #include "ros/sample_frame.h"
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "identification/comparison/compared_motion.h"
 #include "ros/sample_frame.h"
 
 namespace codesign {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/expression.h"
 #include "ros/sample_frame.h"
 
 namespace codesign {

@@ -1,0 +1,17 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+# An image with the packages of tools/package, without compiler and sources:
+#   docker build -t mechanism_codesign .
+#   docker run --rm -v "$PWD:/work" mechanism_codesign codesign optimize model.urdf study.yaml --output job
+ARG RELEASE=bookworm
+FROM debian:${RELEASE} AS build
+COPY . /src/mechanism_codesign
+WORKDIR /src/mechanism_codesign
+RUN tools/package
+
+FROM debian:${RELEASE}-slim
+ARG PACKAGES="mechanism-codesign python3-mechanism-codesign ros-mechanism-codesign"
+RUN --mount=type=bind,from=build,source=/src/mechanism_codesign/build/package,target=/packages \
+    apt-get update && cd /packages && for package in $PACKAGES; do set -- "$@" ./"${package}"_*.deb; done && \
+    DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" && rm -rf /var/lib/apt/lists/*
+WORKDIR /work
+CMD ["codesign", "help"]

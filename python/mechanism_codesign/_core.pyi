@@ -1,0 +1,58 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""The extension, src/python/module.cc: numbers, names and records for the Python code of this package."""
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+Source = Tuple[str, Optional[str]]
+Tell = Optional[Callable[[str, Dict[str, Any]], object]]
+
+def version() -> str:
+    """The version of the package, such as "0.1.0"."""
+
+class Optimized:
+    record: Dict[str, Any]
+    status: Dict[str, Any]
+    warnings: List[Dict[str, Any]]
+    has_point: bool
+    best_objectives: Array
+    rho: Array
+    initial_rho: Array
+    gradient: Array
+    def write(self, folder: str) -> None: ...
+
+class Identified:
+    record: Dict[str, Any]
+    status: Dict[str, Any]
+    warnings: List[Dict[str, Any]]
+    has_point: bool
+    covariance: Array
+    time: Array
+    recorded: Array
+    computed: Array
+    def write(self, folder: str) -> None: ...
+
+class RunNotes:
+    def record(self) -> Dict[str, Any]: ...
+
+class Session:
+    parameters: List[Tuple[str, float, float, float, str, bool]]
+    joints: List[str]
+    name: str
+    duration: float
+    start: Array
+    signals: List[str]
+    warnings: List[Dict[str, Any]]
+    def __init__(self, model: Source, study: Optional[Source], overlays: List[Source], settings: Dict[str, float],
+                 design: Optional[Source]) -> None: ...
+    def evaluate(self, rho: Optional[npt.ArrayLike], settings: Mapping[str, float], derivatives: int,
+                 by_adjoint: bool) -> Tuple[Optional[Dict[str, Any]], float, Array, Array, Optional[List[Dict[str, Any]]]]: ...
+    def simulate(self, rho: Optional[npt.ArrayLike], settings: Mapping[str, float], signals: List[str],
+                 samples: int) -> Tuple[Optional[Dict[str, Any]], Array, List[str], RunNotes]: ...
+    def details(self, rho: Optional[npt.ArrayLike], settings: Mapping[str, float]) -> Dict[str, Any]: ...
+    def urdf(self, rho: Optional[npt.ArrayLike], settings: Mapping[str, float]) -> str: ...
+    def optimize(self, progress: Tell, cancel: Optional[Any]) -> Optimized: ...
+    def identify(self, time: Optional[npt.ArrayLike], columns: Sequence[Tuple[Any, ...]], progress: Tell,
+                 cancel: Optional[Any]) -> Identified: ...

@@ -1,0 +1,257 @@
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""A mechanism and a study, and what can be computed with them."""
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core, _notebook
+from ._errors import ComputationError, Status, Warning
+from ._results import Fit, FitTrial, Result, Run, Stage, Trial
+
+Array = npt.NDArray[np.float64]
+Source = Union[str, "os.PathLike[str]"]
+Columns = Union[npt.ArrayLike, Mapping[str, npt.ArrayLike]]
+
+
+class Event(Protocol):
+    """threading.Event, or anything else that can be asked."""
+
+    def is_set(self) -> bool: ...
+
+
+class Parameter(NamedTuple):
+    """A named number on which model or study depend."""
+
+    name: str
+    value: float  #: start value, in SI units
+    lower: float  #: -inf: no bound
+    upper: float  #: inf: no bound
+    unit: str
+    tuned: bool  #: whether the study tunes it
+
+
+def _source(value: Source, name: str) -> Tuple[str, Optional[str]]:
+    """(path, None), or (name, text)."""
+    path = os.fspath(value)
+    if path is value and ("\n" in path or path.lstrip().startswith("<")):
+        return name, path
+    return path, None
+
+
+class Problem:
+    """A mechanism and a study, read and compiled: `codesign ... MODEL [STUDY]` as an object.
+
+    Parameters
+    ----------
+    model, study:
+        Paths, or texts: a string with a line end or one that begins with `<` is a text. Without a
+        study the mechanism is at rest for 0 s and nothing is tuned.
+    overlays:
+        Paths or texts of overlays, in the order of their application.
+    set:
+        Values of parameters by name, as `--set NAME=VALUE`: of a tuned one its start, of any other
+        one its value in every design. The equations are compiled with them.
+    result:
+        Path of a result.json whose design counts before `set`, as `--result`.
+
+    Raises InputError with file and line. Long calls release Python's lock, and Ctrl-C ends them; a
+    problem may be used by several threads, side by side.
+
+    In all methods, keyword arguments are values of parameters by name, within their bounds [SI
+    units]; the others keep their start values. `rho` is an array of the p tuned parameters in the
+    order of `names`, which need not lie within bounds.
+    """
+
+    def __init__(self, model: Source, study: Optional[Source] = None, *, overlays: Iterable[Source] = (),
+                 set: Optional[Mapping[str, float]] = None, result: Optional[Source] = None):  # pylint: disable=redefined-builtin
+        self._core = _core.Session(
+            _source(model, "model text"), None if study is None else _source(study, "study text"),
+            [_source(overlay, f"text of overlay {k}") for k, overlay in enumerate(overlays, 1)], dict(set or {}),
+            None if result is None else _source(result, "result text"))
+        #: Names of the tuned parameters, the order of rho and of every gradient.
+        self.names: List[str] = [p[0] for p in self._core.parameters if p[5]]
+        self._last: Tuple[Any, Any] = (None, None)
+        for warning in self.warnings:
+            warnings.warn(warning, stacklevel=2)
+
+    @property
+    def parameters(self) -> List[Parameter]:
+        """Every named parameter, those of the model first."""
+        return [Parameter(*p) for p in self._core.parameters]
+
+    @property
+    def start(self) -> Array:
+        """The start of rho, shape (p,)."""
+        return self._core.start
+
+    @property
+    def bounds(self) -> List[Tuple[float, float]]:
+        """(lower, upper) of each tuned parameter, infinite without a bound: as scipy.optimize takes them."""
+        return [(p[2], p[3]) for p in self._core.parameters if p[5]]
+
+    @property
+    def duration(self) -> float:
+        """Of the study [s]."""
+        return self._core.duration
+
+    @property
+    def joints(self) -> List[str]:
+        """The joints and loops with one coordinate, in the order of the model."""
+        return self._core.joints
+
+    @property
+    def signals(self) -> List[str]:
+        """The signals that simulate() records by default."""
+        return self._core.signals
+
+    @property
+    def warnings(self) -> List[Warning]:
+        """About the files and the mechanism at its start."""
+        return [Warning(**w) for w in self._core.warnings]
+
+    def urdf(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> str:
+        """The model at a design as URDF, with all overlays applied: `codesign urdf`."""
+        return self._core.urdf(rho, parameters)
+
+    def simulate(self, rho: Optional[npt.ArrayLike] = None, /, *, signals: Optional[Sequence[str]] = None, samples: int = 101,
+                 **parameters: float) -> Run:
+        """Runs the study at one design, from 0 s to its duration.
+
+        signals: what to record, spelled as in a study: "slider_joint/friction", "a/position/x - b/position/x"; `Problem.signals`
+        without it. samples: number of equally spaced instants, both ends included.
+
+        Raises ComputationError, with the run as far as it came, if the run fails.
+        """
+        if isinstance(signals, str):
+            signals = [signals]
+        failure, table, names, notes = self._core.simulate(rho, parameters, list(signals or ()), samples)
+        run = Run(self, (rho, parameters), failure, table, names, notes)
+        if failure is not None:
+            raise ComputationError(run.status, run)
+        return run
+
+    def _evaluate(self, rho: Optional[npt.ArrayLike], parameters: Mapping[str, float], derivatives: int,
+                  by_adjoint: bool = False) -> Tuple[float, Array, Array]:
+        failure, value, gradient, root, doubts = self._core.evaluate(rho, parameters, derivatives, by_adjoint)
+        if failure is not None:
+            raise ComputationError(Status(**failure))
+        for warning in doubts or ():
+            warnings.warn(Warning(**warning), stacklevel=3)
+        return value, gradient, root
+
+    def objective(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> float:
+        """psi, the objective of the study over all its runs and samples, in the unit of its terms."""
+        return self._evaluate(rho, parameters, 0)[0]
+
+    def gradient(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> Tuple[float, Array]:
+        """(psi, d psi / d rho), the gradient of shape (p,) by the study's method; doc/theory.md (22)."""
+        return self._evaluate(rho, parameters, 1)[:2]
+
+    def adjoint(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> Tuple[float, Array]:
+        """gradient() by the adjoint, whatever `solver.gradient` says: about four simulations for any number of parameters.
+
+        `solver.sensitivity_tolerance` does not hold, since there are no sensitivities. Raises InputError for a study without adjoint
+        (integrator idas, bounds on signals, peaks, sampled controllers).
+        """
+        return self._evaluate(rho, parameters, 1, True)[:2]
+
+    def __call__(self, rho: npt.ArrayLike) -> Tuple[float, Array]:
+        """gradient(rho): scipy.optimize.minimize(problem, problem.start, jac=True, bounds=problem.bounds)."""
+        return self._evaluate(rho, {}, 1)[:2]
+
+    def residuals(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> Array:
+        """Residuals r of the objective as a sum of squares, shape (p + 1,): r @ r is psi and 2 jacobian().T @ r its gradient.
+
+        psi is an integral over all times, so there are infinitely many residuals. These are their p components in the space of the
+        Jacobian's columns and the length of the rest: a Gauss-Newton or Levenberg-Marquardt method takes the same steps with them. For
+        scipy.optimize.least_squares(problem.residuals, problem.start, problem.jacobian). Raises InputError for an objective with a
+        peak, negative weights, or another measure than the mean.
+        """
+        return self._squares(rho, parameters)[0]
+
+    def jacobian(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> Array:
+        """The Jacobian of residuals(), shape (p + 1, p): the triangular root R of J.T J, and a row of zeros; doc/theory.md (22a)."""
+        return self._squares(rho, parameters)[1]
+
+    def _squares(self, rho: Optional[npt.ArrayLike], parameters: Mapping[str, float]) -> Tuple[Array, Array]:
+        key = (None if rho is None else np.asarray(rho, float).tobytes(), tuple(parameters.items()))
+        known, squares = self._last
+        if known != key:  # both are asked for at the same point
+            value, gradient, root = self._evaluate(rho, parameters, 2)
+            inside = np.linalg.lstsq(root.T, 0.5 * gradient, rcond=None)[0]
+            rest = np.sqrt(max(0.0, value - inside @ inside))
+            squares = np.append(inside, rest), np.vstack([root, np.zeros(len(gradient))])
+            self._last = key, squares
+        return squares[0].copy(), squares[1].copy()
+
+    def optimize(self, progress: Optional[Callable[[Union[Trial, Stage]], object]] = None, cancel: Optional[Event] = None) -> Result:
+        """The best design within bounds and constraints: `codesign optimize`.
+
+        progress: called with each trial point (Trial) and about once a second (Stage), from any thread; `print` prints the lines of the
+        command line. Its exception ends the search and is raised. cancel: an event of `threading`; soon after it is set, the search
+        ends with the status "cancelled" and the best point so far.
+
+        The status of the result says whether there is a better design; only bad input raises.
+        """
+        def tell(line: str, fields: Dict[str, Any]) -> None:
+            assert progress is not None
+            progress(Stage(line, **fields) if "stage" in fields else Trial(line, **fields))
+
+        return Result(self._core.optimize(progress and tell, _event(cancel)), self)
+
+    def identify(self, time: Optional[npt.ArrayLike] = None, position: Optional[Columns] = None, effort: Optional[Columns] = None, *,
+                 velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None,
+                 progress: Optional[Callable[[FitTrial], object]] = None, cancel: Optional[Event] = None) -> Fit:
+        """Fits the tuned parameters to a recorded motion: `codesign identify` with arrays in place of files.
+
+        time: shape (n,), ascending [s]. position, velocity, effort: {joint: array of shape (n,)}, or one array of shape (n,) or (n, k) for
+        the k `joints` (by default all joints with one coordinate) [rad or m, per s, N m or N]; at least positions or velocities. The
+        block `identify:` of the study, which may be missing, says how; the recordings that it names are not read. Without arrays they
+        are.
+
+        progress, cancel: as in optimize().
+        """
+        if time is None and not (position is None and velocity is None and effort is None):
+            raise TypeError("identify() with arrays needs their times")
+        names = list(joints if joints is not None else self.joints)
+        sides = [_columns(values, names, what) for values, what in ((position, "position"), (velocity, "velocity"), (effort, "effort"))]
+        measured = [joint for joint in {**sides[0], **sides[1], **sides[2]}]
+        table = [(joint, *(side.get(joint) for side in sides)) for joint in measured]
+
+        def tell(line: str, fields: Dict[str, Any]) -> None:
+            assert progress is not None
+            progress(FitTrial(line, **fields))
+
+        return Fit(self._core.identify(time, table, progress and tell, _event(cancel)))
+
+    def __repr__(self) -> str:
+        return f"<Problem {self._core.name}: {self.duration:g} s, {len(self.names)} tuned parameters>"
+
+    def _repr_html_(self) -> str:
+        return _notebook.problem(self._core.name, self)
+
+
+def _event(cancel: Optional[Event]) -> Optional[Event]:
+    if cancel is not None and not callable(getattr(cancel, "is_set", None)):
+        raise TypeError(f"cancel needs is_set(), as threading.Event has it, not {cancel!r}")
+    return cancel
+
+
+def _columns(values: Optional[Columns], joints: Sequence[str], what: str) -> Mapping[str, npt.ArrayLike]:
+    """An array for each joint."""
+    if values is None:
+        return {}
+    if isinstance(values, Mapping):
+        return values
+    array = np.asarray(values, float)
+    if array.ndim == 1:
+        array = array[:, np.newaxis]
+    if array.ndim != 2 or array.shape[1] != len(joints):
+        raise ValueError(f"{what} has the shape {np.shape(values)}: (n, {len(joints)}) is needed for the joints {', '.join(joints)}; "
+                         f"joints= chooses others, and a dictionary names them")
+    return dict(zip(joints, np.ascontiguousarray(array.T)))

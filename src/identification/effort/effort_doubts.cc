@@ -1,0 +1,262 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/effort/effort_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "identification/effort/effort_residuals.h"
+#include "math/arrays.h"
+#include "math/dense.h"
+#include "problem/load_problem.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+constexpr int kSamples = 400;     // per recording
+constexpr double kClearly = 0.2;  // by which a mended mistake must explain more
+// A model as it stands may be wrong by this factor without a doubt about units.
+constexpr double kUsualScale = 4.0;
+// Variation below this share of the root mean square counts as this much.
+constexpr double kSmallestMean = 0.1;
+
+/// Efforts of all joints as recorded and as the model as it stands needs them, with the motion;
+/// rows x joints.
+struct EffortEvidence {
+  std::vector<std::string> joints;
+  Eigen::MatrixXd recorded, computed, velocity, acceleration;
+};
+
+double reference_of(const Eigen::VectorXd& recorded) {
+  const double all = recorded.squaredNorm(),
+               about_mean = (recorded.array() - recorded.mean()).matrix().squaredNorm();
+  return std::max(about_mean, kSmallestMean * kSmallestMean * all);
+}
+
+/// Unfiltered efforts at few samples.
+std::vector<MeasuredMotion> thinned_motions(const std::vector<JointRecording>& recordings,
+                                            FilterOptions filter) {
+  Warnings known_warnings;
+  filter.residual_cutoff = 0.0;
+  filter.decimate = 1;
+  std::vector<MeasuredMotion> motions;
+  for (const JointRecording& recording : recordings) {
+    motions.push_back(measured_motion(recording, filter, &known_warnings));
+    motions.back().every = std::max<Eigen::Index>(1, motions.back().fitted() / kSamples);
+  }
+  return motions;
+}
+
+std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVariables& variables,
+                                          const std::vector<JointRecording>& recordings) {
+  const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
+  FilterOptions filter = problem.study().identification->filter;
+  std::vector<MeasuredMotion> motions = thinned_motions(recordings, filter);
+  filter.residual_cutoff = 0.0;
+  EffortResiduals residuals(*problem.system(), variables, joints, std::move(motions), filter, 1);
+  EffortEvidence evidence;
+  const Eigen::VectorXd& x = variables.start();
+  if (!residuals.begin(x).ok() || !residuals.evaluate(x, &evidence.computed, nullptr).ok())
+    return std::nullopt;
+  evidence.joints = residuals.outputs();
+  evidence.recorded = residuals.recorded();
+  evidence.computed += evidence.recorded;
+  residuals.motion_of_outputs(&evidence.velocity, &evidence.acceleration);
+  return evidence;
+}
+
+DriveLineFit fit_of(const EffortEvidence& evidence, std::size_t joint,
+                    const Eigen::VectorXd& recorded) {
+  const auto k = to_signed(joint);
+  return fit_drive_line(evidence.computed.col(k), evidence.velocity.col(k),
+                        evidence.acceleration.col(k), recorded);
+}
+
+double mean_share(const EffortEvidence& evidence) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < evidence.joints.size(); ++k)
+    sum += fit_of(evidence, k, evidence.recorded.col(to_signed(k))).share;
+  return sum / static_cast<double>(evidence.joints.size());
+}
+
+void take_if_better(double share, const std::string& mistake, EffortDoubt* doubt) {
+  if (share < kExplainedHalf ||
+      share < std::max(doubt->share, doubt->mended) + (doubt->mistake.empty() ? kClearly : 0.0))
+    return;
+  doubt->mended = share;
+  doubt->mistake = mistake;
+}
+
+/// Another sign, unit or column of the efforts.
+EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool is_scale_known) {
+  const auto own = to_signed(joint);
+  const DriveLineFit as_recorded = fit_of(evidence, joint, evidence.recorded.col(own));
+  EffortDoubt doubt{evidence.joints[joint], as_recorded.share, "", 0.0};
+  const double scale = as_recorded.scale;
+  if (as_recorded.share >= kExplainedHalf) {
+    if (is_scale_known && scale > 0.0 && (scale > kUsualScale || scale < 1.0 / kUsualScale)) {
+      doubt.mistake = "divided by about " + readable(scale, 4);
+      doubt.mended = as_recorded.share;
+      // As recorded, without a free scale.
+      doubt.share = explained_share(evidence.recorded.col(own),
+                                    evidence.computed.col(own) - evidence.recorded.col(own));
+    }
+    return doubt;
+  }
+  for (Eigen::Index k = 0; k < evidence.recorded.cols(); ++k)
+    for (const double sign : {1.0, -1.0}) {
+      if (k == own && sign > 0.0) continue;
+      const std::string other =
+          k == own ? "" : "with the column of " + evidence.joints[to_index(k)];
+      const std::string minus = sign > 0.0 ? ""
+                                : k == own ? "with the other sign"
+                                           : " and the other sign";
+      take_if_better(fit_of(evidence, joint, sign * evidence.recorded.col(k)).share, other + minus,
+                     &doubt);
+    }
+  return doubt;
+}
+
+using Order = std::vector<std::size_t>;
+
+/// Recordings in which joint k bears the name of joint order[k].
+std::vector<JointRecording> renamed(std::vector<JointRecording> recordings,
+                                    const std::vector<std::string>& joints, const Order& order) {
+  for (JointRecording& recording : recordings)
+    for (JointSamples& samples : recording.joints) {
+      const auto found = std::find(joints.begin(), joints.end(), samples.joint);
+      if (found != joints.end()) samples.joint = joints[order[to_index(found - joints.begin())]];
+    }
+  return recordings;
+}
+
+/// The reversed order, and the exchanges of a doubted joint with another one; with their names.
+std::vector<std::pair<Order, std::string>> orders_of(const std::vector<EffortDoubt>& doubts,
+                                                     const std::vector<std::string>& joints) {
+  Order usual;
+  for (std::size_t k = 0; k < joints.size(); ++k) usual.push_back(k);
+  std::vector<std::pair<Order, std::string>> orders{
+      {Order(usual.rbegin(), usual.rend()), "with the joints in reversed order"}};
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    for (std::size_t j = i + 1; j < joints.size(); ++j) {
+      const auto names = [&](const EffortDoubt& doubt) {
+        return doubt.joint == joints[i] || doubt.joint == joints[j];
+      };
+      if (joints.size() == 2 || std::none_of(doubts.begin(), doubts.end(), names)) continue;
+      orders.emplace_back(usual,
+                          "with all columns of " + joints[i] + " and " + joints[j] + " exchanged");
+      std::swap(orders.back().first[i], orders.back().first[j]);
+    }
+  return orders;
+}
+
+/// Whole joints under other names, which is judged by the efforts of all joints together.
+void doubt_order(const Problem& problem, const FitVariables& variables,
+                 const std::vector<JointRecording>& recordings, const EffortEvidence& as_recorded,
+                 std::vector<EffortDoubt>* doubts) {
+  const double usual = mean_share(as_recorded);
+  EffortDoubt best{"", usual, "", 0.0};
+  for (const auto& [order, name] : orders_of(*doubts, as_recorded.joints)) {
+    const std::optional<EffortEvidence> evidence =
+        evidence_of(problem, variables, renamed(recordings, as_recorded.joints, order));
+    if (evidence && evidence->joints == as_recorded.joints)
+      take_if_better(mean_share(*evidence), name, &best);
+  }
+  for (EffortDoubt& doubt : *doubts) {
+    if (best.mistake.empty() || !doubt.mistake.empty()) continue;
+    doubt.mistake = best.mistake;
+    doubt.mended = best.mended;
+  }
+}
+
+}  // namespace
+
+double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& residuals) {
+  const double reference = reference_of(recorded);
+  return reference > 0.0 ? 1.0 - residuals.squaredNorm() / reference : 1.0;
+}
+
+// Least squares of the recorded column by a constant of any sign and four columns with factors that
+// cannot be negative: their signs are known whatever the values are. The best of all subsets of the
+// four with positive factors is the solution.
+DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::VectorXd& velocity,
+                            const Eigen::VectorXd& acceleration, const Eigen::VectorXd& recorded) {
+  constexpr int kColumns = 4;
+  constexpr double kSlow = 0.1, kLeastPart = 0.1;
+  Eigen::MatrixXd columns(computed.size(), kColumns);
+  const double slow = std::max(
+      kSlow * std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size())), 1e-300);
+  columns << computed, velocity, (velocity.array() / slow).tanh().matrix(), acceleration;
+  columns.rowwise() -= columns.colwise().mean().eval();
+  const Eigen::VectorXd lengths = columns.colwise().norm().cwiseMax(1e-300);
+  columns = columns * lengths.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd about_mean = recorded.array() - recorded.mean();
+  const Eigen::MatrixXd squares = transposed_product(columns, columns);
+  const Eigen::VectorXd products = columns.transpose() * about_mean;
+  DriveLineFit best;
+  double most = 0.0;
+  for (int subset = 1; subset < 1 << kColumns; ++subset) {
+    std::vector<int> chosen;
+    for (int k = 0; k < kColumns; ++k)
+      if ((subset >> k) % 2 == 1) chosen.push_back(k);
+    const Eigen::VectorXd factors = least_norm(squares(chosen, chosen)).solve(products(chosen));
+    const double explained = factors.dot(Eigen::VectorXd(products(chosen)));
+    if (!(factors.minCoeff() > 0.0) || !(explained > most)) continue;
+    most = explained;
+    // Beside friction and rotor that explain nearly all, the scale of the computed effort is not
+    // known.
+    const bool has_part = chosen.front() == 0 && factors[0] * products[0] >= kLeastPart * explained;
+    best.scale = has_part ? factors[0] / lengths[0] : 0.0;
+  }
+  const double reference = reference_of(recorded);
+  best.share =
+      reference > 0.0 ? 1.0 - std::max(0.0, about_mean.squaredNorm() - most) / reference : 1.0;
+  return best;
+}
+
+std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
+                                            const std::vector<JointRecording>& recordings) {
+  if (recordings.empty()) return {};
+  const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
+  if (std::none_of(joints.begin(), joints.end(),
+                   [](const MeasuredJoint& joint) { return joint.with_effort; }))
+    return {};
+  const FitVariables variables(problem.study(), &problem.robot());
+  const std::optional<EffortEvidence> evidence = evidence_of(problem, variables, recordings);
+  std::vector<EffortDoubt> doubts;
+  for (std::size_t k = 0; evidence && k < evidence->joints.size(); ++k) {
+    const bool is_scale_known = variables.columns(evidence->joints[k]).scale < 0;
+    EffortDoubt doubt = doubt_column(*evidence, k, is_scale_known);
+    if (doubt.share < kExplainedHalf || !doubt.mistake.empty()) doubts.push_back(std::move(doubt));
+  }
+  if (std::any_of(doubts.begin(), doubts.end(),
+                  [](const EffortDoubt& doubt) { return doubt.mistake.empty(); }))
+    doubt_order(problem, variables, recordings, *evidence, &doubts);
+  return doubts;
+}
+
+Warnings warnings_of(const IdentificationDescription& options,
+                     const std::vector<EffortDoubt>& doubts) {
+  Warnings warnings;
+  for (const EffortDoubt& doubt : doubts)
+    if (!doubt.mistake.empty())
+      warnings.push_back(warn(
+          "recording_effort",
+          {options.where, "identify.data",
+           "the recorded effort of " + doubt.joint +
+               " contradicts inverse dynamics of the model as it stands: " + sentence_of(doubt),
+           "",
+           "efforts on the child along the axis of its joint, in N m or N; `scale` of a column "
+           "converts"}));
+  return warnings;
+}
+
+std::string sentence_of(const EffortDoubt& doubt) {
+  if (doubt.mistake.empty()) return "";
+  return doubt.mistake + ", the model as it stands would explain " +
+         readable(100.0 * doubt.mended, 3) + " % of it";
+}
+
+}  // namespace codesign

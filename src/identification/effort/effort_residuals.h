@@ -1,0 +1,101 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identification/effort/effort_model.h"
+#include "identification/fit/fit_variables.h"
+#include "identification/fit/residual_source.h"
+#include "recordings/measured_motion.h"
+#include "recordings/zero_phase_filter.h"
+#include "statistics/time_series.h"
+
+namespace codesign {
+
+/// The joints that all recordings measured, and whether their efforts were measured. Efforts that
+/// are zero throughout count as not measured.
+/// @throws InputError if a recording lacks a joint of another recording, or has neither position
+/// nor start of a joint.
+std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
+/// @throws InputError if none of these joints has efforts.
+void require_efforts(const std::vector<MeasuredJoint>& joints,
+                     const std::vector<JointRecording>& recordings);
+
+/// Residuals of several recordings of one robot as functions of x: computed minus recorded efforts,
+/// doc/theory.md (28c), at the samples to fit, and their exact derivatives. If
+/// FilterOptions::residual_cutoff is set, both efforts pass the same zero-phase filter.
+class EffortResiduals final : public RecordingResiduals {
+ public:
+  /// @param system, variables must outlive this. @param recordings all with the same joints.
+  /// @param joints the joints of the recordings whose motion counts, as require_same_joints()
+  /// returns them. @throws InputError as make_driven_system().
+  EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
+                  std::vector<MeasuredJoint> joints, std::vector<MeasuredMotion> recordings,
+                  const FilterOptions& filter, int threads);
+
+  /// The joints with a residual, one column each.
+  const std::vector<std::string>& outputs() const override { return outputs_; }
+  /// Number of fitted samples of each recording.
+  const SeriesLengths& lengths() const override { return lengths_; }
+  Eigen::Index rows() const override { return rows_; }
+  /// Fitted efforts as recorded, filtered like the residuals, times the scale at the start [N m or
+  /// N]; rows() x outputs.
+  std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
+  const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  /// Times of the rows [s], each from the clock of its recording.
+  std::vector<double> times() const override;
+
+  /// Follows the motion at a design. Call it first.
+  Status begin(const Eigen::VectorXd& x) override;
+  /// @param residuals resized to rows() x outputs [N m or N]. @param jacobian may be null; else
+  /// resized to (rows() outputs) x variables, the rows of output 0 first.
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                  Eigen::MatrixXd* jacobian) override;
+  /// Velocities and accelerations of the joints of the outputs at the rows, not filtered like
+  /// residuals; rows() x outputs. Without a residual_cutoff only.
+  void motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::MatrixXd* acceleration) const;
+  /// Once set, evaluations end soon with kCancelled; nullptr: never.
+  void obey(const std::atomic<bool>* cancel) override { model_->obey(cancel); }
+
+ private:
+  MotionSamples samples_of_all(const std::vector<std::string>& joints);
+  /// The shift of each joint whose start is fitted: its start in x minus the start from which its
+  /// positions were integrated; shifted joints x recordings [rad or m].
+  Eigen::MatrixXd shifts(const Eigen::VectorXd& x) const;
+  /// Shifts these joints to their starts in x. If that is far from the motion that begin()
+  /// followed, calls begin() again.
+  Status place(const Eigen::VectorXd& x);
+  double time(std::size_t recording, Eigen::Index sample) const;
+  /// Sets the first column of `columns` to the residual of an output, the other columns to its
+  /// derivatives; one row per sample of the model.
+  void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes,
+            Eigen::MatrixXd* columns) const;
+  /// Sets columns of starts to zero that hold only rounding errors, so that they do not seem
+  /// independent of all others.
+  void clear_starts_without_effect(Eigen::MatrixXd* jacobian) const;
+  /// Filters the columns and keeps the rows to fit.
+  Eigen::MatrixXd fitted(std::size_t recording, Eigen::MatrixXd* columns) const;
+  void record();
+
+  const FitVariables& variables_;
+  const std::vector<MeasuredMotion> recordings_;
+  const FilterOptions filter_;
+  std::vector<std::string> outputs_;
+  std::vector<int> drives_;  ///< per output: its row in the model's efforts
+  std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
+  std::vector<Eigen::Index>
+      begins_;  ///< the first sample of each recording in the model; then the number of samples
+  std::unique_ptr<EffortModel> model_;
+  std::vector<std::vector<int>> start_columns_;  ///< [recording][shifted joint of the model]: index
+                                                 ///< of its start in x; -1: known
+  Eigen::VectorXd begun_;                        ///< the x given to begin()
+  SeriesLengths lengths_;
+  Eigen::Index rows_ = 0;
+  Eigen::MatrixXd recorded_, model_efforts_;
+  RowJacobian model_jacobian_;
+};
+
+}  // namespace codesign

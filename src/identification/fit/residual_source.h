@@ -1,0 +1,139 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "description/identification.h"
+#include "identification/fit/fit_variables.h"
+#include "mechanism_codesign/status.h"
+#include "statistics/time_series.h"
+
+namespace codesign {
+
+/// The contribution of a residual to the cost, and its weight in the normal equations.
+struct LossValue {
+  double value = 0.0;   ///< rho(u)
+  double weight = 1.0;  ///< rho'(u) / (2 u), 1 for a sum of squares
+};
+
+/// With c = LossOptions::scale: u^2; Huber: u^2 up to |u| = c and c (2 |u| - c) beyond; soft_l1: 2
+/// c^2 (sqrt(1 + (u/c)^2) - 1).
+/// @param u a residual divided by the spread of its output's residuals
+inline LossValue loss_of(const LossOptions& options, double u) {
+  const double c = options.scale;
+  switch (options.kind) {
+    case LossKind::kNone:
+      break;
+    case LossKind::kHuber:
+      if (std::abs(u) <= c) break;
+      return {c * (2.0 * std::abs(u) - c), c / std::abs(u)};
+    case LossKind::kSoftL1: {
+      const double root = std::sqrt(1.0 + u * u / (c * c));
+      return {2.0 * u * u / (1.0 + root), 1.0 / root};
+    }
+  }
+  return {u * u, 1.0};
+}
+
+/// Residuals of a fit and their derivatives.
+class ResidualSource {
+ public:
+  virtual ~ResidualSource() = default;
+  /// Names of the columns of the residuals.
+  virtual const std::vector<std::string>& outputs() const = 0;
+  /// Number of residuals of each recording; the sum is the number of rows.
+  virtual const SeriesLengths& lengths() const = 0;
+  /// @param residuals resized to rows x outputs. @param jacobian may be null; else resized to (rows
+  /// outputs) x size of x, the rows of output 0 first. @return a failure at this point, kCancelled,
+  /// or ok
+  virtual Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                          Eigen::MatrixXd* jacobian) = 0;
+
+  /// Sets spreads and loss with which the fit counts residuals from now on. Only a source that fits
+  /// unknowns of its own uses them, doc/theory.md (42). Without a Jacobian, such a source evaluates
+  /// residuals at its best unknowns for x. With a Jacobian, its unknowns take one step, from the
+  /// best point since the last call of count_by() towards x, and the Jacobian includes that the
+  /// unknowns follow x.
+  /// @param spreads positive, one per output
+  virtual void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss);
+  /// Number of unknowns of its own; they take degrees of freedom from the residuals.
+  virtual Eigen::Index own_unknowns() const { return 0; }
+  /// Decrease of the sum of rho(r / s) by the best unknowns at the last point evaluated with a
+  /// Jacobian, to first order.
+  virtual double inner_decrease() const { return 0.0; }
+};
+
+inline void ResidualSource::count_by(const Eigen::VectorXd& /*spreads*/,
+                                     const LossOptions& /*loss*/) {}
+
+/// The share of signal in the slope of a recorded effort, for a fitted delay whose derivative is
+/// this slope.
+struct DelaySignal {
+  std::string joint;
+  Eigen::Index column = 0;  ///< index of the delay in x
+  Eigen::Index output = 0;  ///< index of the output
+  double share = 1.0;       ///< in (0, 1], doc/theory.md (33a)
+  Eigen::VectorXd slopes;   ///< rows of the output in the delay's column of the Jacobian, without
+                            ///< the recorded effort's noise; empty: not known
+};
+
+/// Residuals of recordings, as an identification needs them.
+class RecordingResiduals : public ResidualSource {
+ public:
+  /// Prepares for the neighbourhood of a design. Call it first.
+  virtual Status begin(const Eigen::VectorXd& x) = 0;
+  /// Once set, evaluations end soon with kCancelled; nullptr: never.
+  virtual void obey(const std::atomic<bool>* cancel) = 0;
+  virtual Eigen::Index rows() const = 0;
+  /// Times of the rows [s], each from the clock of its recording.
+  virtual std::vector<double> times() const = 0;
+  /// The recorded outputs; rows() x outputs. Residuals are computed minus recorded.
+  virtual const Eigen::MatrixXd& recorded() const = 0;
+  /// Returns one entry per fitted delay whose column of the Jacobian is the slope of a recorded
+  /// effort. @param x a point at which residuals can be computed
+  virtual std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x);
+};
+
+inline std::vector<DelaySignal> RecordingResiduals::delay_signals(const Eigen::VectorXd& /*x*/) {
+  return {};
+}
+
+/// The residuals of recordings with different values of some parameters, one part for each set of
+/// values: rows of the first part first, with the same outputs and the same x.
+class StackedResiduals final : public RecordingResiduals {
+ public:
+  struct Part {
+    std::unique_ptr<const FitVariables> variables;  ///< of the residuals
+    std::unique_ptr<RecordingResiduals> residuals;
+  };
+  /// @param parts at least one, all with the same outputs
+  explicit StackedResiduals(std::vector<Part> parts);
+
+  const std::vector<std::string>& outputs() const override {
+    return parts_.front().residuals->outputs();
+  }
+  const SeriesLengths& lengths() const override { return lengths_; }
+  Eigen::Index rows() const override { return recorded_.rows(); }
+  std::vector<double> times() const override;
+  const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  Status begin(const Eigen::VectorXd& x) override;
+  Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
+                  Eigen::MatrixXd* jacobian) override;
+  void obey(const std::atomic<bool>* cancel) override;
+  void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
+  Eigen::Index own_unknowns() const override;
+  double inner_decrease() const override;
+  std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
+
+ private:
+  std::vector<Part> parts_;
+  SeriesLengths lengths_;
+  Eigen::MatrixXd recorded_;
+};
+
+}  // namespace codesign

@@ -1,0 +1,53 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <mutex>
+#include <optional>
+
+#include "python/conversions.h"
+#include "python/interruption.h"
+#include "python/jobs.h"
+
+namespace codesign::python {
+
+/// Hands the progress of a job, which runs without Python's lock, to a function of Python. An
+/// exception of that function ends the job, and is raised behind it.
+class Told {
+ public:
+  /// @param progress function(line, fields); None: nothing is told. Must outlive this.
+  Told(pybind11::handle progress, Interruption* interruption)
+      : progress_(progress), interruption_(interruption) {}
+
+  Tell tell();
+  /// Raises what the function has raised, if it has. With Python's lock.
+  void check();
+
+ private:
+  bool call(const std::string& line, const Json& fields);
+
+  const pybind11::handle progress_;
+  Interruption* const interruption_;
+  std::mutex mutex_;  ///< guards error_: trials and stages may be told by several threads
+  std::optional<pybind11::error_already_set> error_;
+};
+
+/// work(tell, cancel) without Python's lock, told to `progress`, ended early by Ctrl-C, by `cancel`
+/// (an event of `threading`, or None), and by an exception of `progress`. @throws
+/// pybind11::error_already_set for Ctrl-C and for this exception
+template <class Work>
+auto job(pybind11::handle progress, pybind11::handle cancel, const Work& work) {
+  Interruption interruption;
+  Told told(progress, &interruption);
+  auto result = [&] {
+    const pybind11::gil_scoped_release release;
+    const EventWatch watch(cancel, &interruption);
+    return work(told.tell(), interruption.flag());
+  }();
+  told.check();
+  interruption.check();
+  return result;
+}
+
+}  // namespace codesign::python

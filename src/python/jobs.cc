@@ -1,0 +1,184 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "python/jobs.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "description/study.h"
+#include "description/tuned_parameters.h"
+#include "engine/evaluation_engine.h"
+#include "jobs/bag_files.h"
+#include "jobs/identification_records.h"
+#include "jobs/job_files.h"
+#include "jobs/json_records.h"
+#include "jobs/optimization_records.h"
+#include "jobs/result_folder.h"
+#include "jobs/trial_lines.h"
+#include "math/arrays.h"
+#include "mechanism_codesign/error.h"
+#include "optimization/search_hooks.h"
+
+namespace codesign::python {
+namespace {
+
+constexpr const char* kConvergence = "convergence.csv";
+constexpr const char* kFolder = "folder";
+
+Json fields_of(const Problem& problem, const Trial& trial) {
+  return {{"evaluation", trial.evaluation},
+          {"iteration", trial.iteration},
+          {"start", trial.start},
+          {"status", to_json(trial.status)},
+          {"objective", trial.objective},
+          {"gradient_norm", trial.gradient_norm},
+          {"best_objective", trial.best_objective},
+          {"best_violation", trial.best_violation},
+          {"parameters", by_name(problem.tuned_names(), trial.rho)}};
+}
+
+Json fields_of(const Progress& progress) {
+  constexpr std::array<const char*, 3> kStages{"screening", "searching", "validating"};
+  Json fields = {{"stage", kStages[to_index(progress.stage)]},
+                 {"done", progress.done},
+                 {"of", progress.of},
+                 {"runs", progress.runs}};
+  fields["seconds_left"] = progress.seconds_left ? Json(*progress.seconds_left) : Json();
+  return fields;
+}
+
+Json fields_of(const FitTrial& trial) {
+  return {{"evaluation", trial.evaluation},
+          {"iteration", trial.iteration},
+          {"profile", trial.profile},
+          {"status", to_json(trial.status)},
+          {"cost", trial.cost},
+          {"rms", by_name(trial.outputs, trial.rms)}};
+}
+
+void write_file(const std::string& folder, const std::string& name,
+                const std::function<std::string()>& text, std::vector<Failure>* failures) {
+  try {
+    write_whole_file((std::filesystem::path(folder) / name).string(), text());
+  } catch (const std::exception& error) {
+    failures->push_back({"output_failed", error.what()});
+  }
+}
+
+/// The arrays as the one recording of a study.
+StudyRecordings recordings_of(const Problem& problem, const std::optional<RecordedArrays>& arrays,
+                              Warnings* warnings) {
+  const IdentificationDescription& identification = *problem.study().identification;
+  if (!arrays) {
+    const std::string folder =
+        std::filesystem::absolute(problem.study_text().name).parent_path().string();
+    return load_recordings(identification, problem.robot(), folder, bag_files().read, warnings);
+  }
+  IdentificationDescription given = identification;
+  RecordingDescription description;
+  description.file = "arrays";
+  description.is_bag = true;  // read by the function below, from memory
+  description.element = "arrays";
+  description.where = {"arrays", 0};
+  given.data = {description};
+  given.holdout.clear();
+  const auto reader = [&arrays](const RecordingDescription& of, const std::string& /*path*/,
+                                const std::vector<std::string>& /*joints*/,
+                                Warnings* /*warnings*/) {
+    JointRecording recording;
+    recording.file = of.file;
+    recording.is_given = true;
+    recording.times = arrays->times;
+    for (std::size_t k = 0; k < arrays->times.size(); ++k) recording.places.push_back(k + 1);
+    recording.joints = arrays->joints;
+    recording.element = of.element;
+    recording.where = of.where;
+    return recording;
+  };
+  return load_recordings(given, problem.robot(), "/", reader, warnings);
+}
+
+/// A study without `identify:` has its defaults.
+Problem identifiable(const Problem& problem, bool has_arrays) {
+  if (problem.study().identification || !has_arrays) return problem;
+  require_tuned(problem.study());
+  Study study = problem.study();
+  study.identification.emplace().where = {study.file, 1};
+  return with_study(problem, std::move(study));
+}
+
+}  // namespace
+
+Optimized optimize(const Problem& problem, const Tell& tell, const std::atomic<bool>* cancel) {
+  require_objective(problem);
+  require_tuned(problem.study());
+  require_engine(problem.study().ensemble.engine, nullptr);
+  Optimized optimized{problem, {}, {}, {}};
+  const auto progress = [&tell](const Progress& so_far) {
+    if (tell) tell(progress_line(so_far), fields_of(so_far));
+  };
+  ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
+  TrialLines lines(problem.study());
+  const auto observer = [&](const Trial& trial) {
+    optimized.trials.push_back(trial);
+    return !tell || tell(lines.line(trial, meter.now()), fields_of(problem, trial));
+  };
+  const SearchHooks hooks{observer, nullptr, nullptr, nullptr, &meter};
+  optimized.result = run_search(problem, problem.optimizer_options(), hooks, cancel);
+  optimized.json = optimization_report(problem, optimized.result, optimized.result.warnings);
+  return optimized;
+}
+
+std::vector<Failure> write_folder(const Optimized& optimized, const std::string& folder,
+                                  const std::atomic<bool>* cancel) {
+  const Problem& problem = optimized.problem;
+  std::vector<std::string> names = ResultFolder::file_names();
+  names.emplace_back(kConvergence);
+  make_folder(folder, kFolder);
+  require_other_files(folder, names, kFolder, problem);
+  const ResultFolder files(folder, problem);
+  std::vector<Failure> failures = files.write_design(optimized.json, optimized.result);
+  write_file(
+      folder, kConvergence,
+      [&] {
+        std::vector<std::vector<std::string>> rows;
+        for (const Trial& trial : optimized.trials) rows.push_back(convergence_row(trial));
+        return csv_text(convergence_columns(problem.tuned_names()), rows, kConvergence);
+      },
+      &failures);
+  const std::vector<Failure> of_runs = files.write_runs(optimized.result, cancel);
+  failures.insert(failures.end(), of_runs.begin(), of_runs.end());
+  return failures;
+}
+
+Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,
+                    const Tell& tell, const std::atomic<bool>* cancel) {
+  Identified identified{identifiable(problem, arrays.has_value()), {}, {}};
+  require_identification(identified.problem);
+  Warnings warnings;
+  const StudyRecordings recordings = recordings_of(identified.problem, arrays, &warnings);
+  FitLines lines(problem.optimizer_options().max_evaluations);
+  const auto observer = [&](const FitTrial& trial) {
+    if (!tell) return true;
+    const std::string line = lines.line(trial);
+    return line.empty() || tell(line, fields_of(trial));
+  };
+  identified.result = codesign::identify(identified.problem, recordings, observer, cancel);
+  append(warnings, &identified.result.warnings);
+  identified.json =
+      identification_report(identified.problem, identified.result, identified.result.warnings);
+  return identified;
+}
+
+std::vector<Failure> write_folder(const Identified& identified, const std::string& folder) {
+  std::vector<Failure> failures;
+  const std::vector<IdentificationFile> files =
+      identification_files(identified.problem, identified.result, identified.json);
+  std::vector<std::string> names;
+  for (const IdentificationFile& file : files) names.push_back(file.name);
+  make_folder(folder, kFolder);
+  require_other_files(folder, names, kFolder, identified.problem);
+  for (const IdentificationFile& file : files) write_file(folder, file.name, file.text, &failures);
+  return failures;
+}
+
+}  // namespace codesign::python

@@ -1,0 +1,59 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/identify.h"
+#include "jobs/files.h"
+#include "jobs/json.h"
+#include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
+
+namespace codesign::python {
+
+/// Called with each trial point, and about once a second with the progress of a stage: the line
+/// that the command line prints, and the numbers in it. False ends the job.
+using Tell = std::function<bool(const std::string& line, const Json& fields)>;
+
+/// A finished optimization.
+struct Optimized {
+  Problem problem;
+  OptimizationResult result;
+  std::string json;  ///< the text of result.json
+  std::vector<Trial> trials;
+};
+
+/// `codesign optimize`. @param tell may be empty. @throws InputError as the command line
+Optimized optimize(const Problem& problem, const Tell& tell, const std::atomic<bool>* cancel);
+
+/// Writes what `codesign optimize --output` leaves, but its journal, into a folder that is made if
+/// it is not there. @throws InputError if a file would replace one from which the problem was read
+std::vector<Failure> write_folder(const Optimized& optimized, const std::string& folder,
+                                  const std::atomic<bool>* cancel);
+
+/// A recording as a program has it.
+struct RecordedArrays {
+  std::vector<double> times;
+  std::vector<JointSamples> joints;
+};
+
+/// A finished identification.
+struct Identified {
+  Problem problem;
+  IdentificationResult result;
+  std::string json;  ///< the text of identification.json
+};
+
+/// `codesign identify`. @param arrays in place of the recordings that the study names; the study
+/// may then be without `identify:`. @throws InputError as the command line
+Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,
+                    const Tell& tell, const std::atomic<bool>* cancel);
+
+/// Writes the text files that `codesign identify --output` leaves. @throws as above
+std::vector<Failure> write_folder(const Identified& identified, const std::string& folder);
+
+}  // namespace codesign::python

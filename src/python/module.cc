@@ -1,0 +1,275 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The extension `mechanism_codesign._core`: what the Python code of the package calls. It has
+// numbers, names and records alone; names, documentation and types of the interface are in
+// python/mechanism_codesign/.
+#include <pybind11/pybind11.h>
+
+#include "jobs/job_files.h"
+#include "jobs/json_records.h"
+#include "jobs/optimization_records.h"
+#include "jobs/saved_result.h"
+#include "math/arrays.h"
+#include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/version.h"
+#include "python/callbacks.h"
+#include "python/conversions.h"
+#include "python/interruption.h"
+#include "python/jobs.h"
+#include "python/session.h"
+#include "reading/urdf/urdf_reader.h"
+
+namespace codesign::python {
+namespace {
+
+namespace py = pybind11;
+
+std::unique_ptr<Session> open(const py::tuple& model, const py::object& study,
+                              const py::list& overlays, const py::dict& settings,
+                              const py::object& design) {
+  Inputs inputs;
+  inputs.urdf = to_source(model);
+  for (const py::handle overlay : overlays)
+    inputs.overlays.push_back(to_source(overlay.cast<py::tuple>()));
+  if (!study.is_none()) inputs.study = to_source(study.cast<py::tuple>());
+  if (!design.is_none()) inputs.design = read_design(to_source(design.cast<py::tuple>()));
+  inputs.settings = to_settings(settings);
+  const py::gil_scoped_release release;
+  return std::make_unique<Session>(load(inputs));
+}
+
+/// [(name, value, lower, upper, unit, tuned)]
+py::list parameters(const Session& session) {
+  const Problem& problem = session.problem();
+  std::vector<bool> tuned(problem.all_parameters().size(), false);
+  for (const int index : problem.study().tuned) tuned[to_index(index)] = true;
+  py::list list;
+  for (std::size_t k = 0; k < tuned.size(); ++k) {
+    const Parameter& parameter = problem.all_parameters()[k];
+    list.append(py::make_tuple(parameter.name, parameter.value, parameter.lower, parameter.upper,
+                               parameter.unit, bool{tuned[k]}));
+  }
+  return list;
+}
+
+py::list joints(const Session& session) {
+  std::vector<std::string> names;
+  for (const JointDescription& joint : session.problem().robot().joints)
+    if (has_one_coordinate(joint.type)) names.push_back(joint.name);
+  return to_list(names);
+}
+
+std::vector<double> design_of(const Session& session, const py::object& rho,
+                              const py::dict& settings) {
+  return session.design(rho.is_none() ? std::nullopt : std::optional(to_numbers(rho, "rho")),
+                        to_settings(settings));
+}
+
+std::vector<std::string> strings_of(const py::list& list) {
+  std::vector<std::string> strings;
+  for (const py::handle item : list) strings.push_back(item.cast<std::string>());
+  return strings;
+}
+
+/// (failure or None, objective, gradient, R, [warning])
+py::tuple evaluate(Session* session, const py::object& rho, const py::dict& settings,
+                   int derivatives, bool by_adjoint) {
+  if (by_adjoint) session = &session->adjoint();
+  const std::vector<double> design = design_of(*session, rho, settings);
+  const Evaluation evaluation = interruptible([&](const std::atomic<bool>* cancel) {
+    return session->evaluate(design, static_cast<Derivatives>(derivatives), cancel);
+  });
+  const auto failure = evaluation.status.ok() ? py::none() : to_python(to_json(evaluation.status));
+  const auto warnings =
+      evaluation.warnings.empty() ? py::none() : to_python(to_json(evaluation.warnings));
+  return py::make_tuple(failure, evaluation.objective, to_array(evaluation.gradient),
+                        to_array(evaluation.jacobian_root), warnings);
+}
+
+Json methods_json(const RunSummary& summary) {
+  Json methods = Json::array();
+  for (const MethodChange& change : summary.methods)
+    methods.push_back({{"from", change.time}, {"method", change.method}});
+  return methods;
+}
+
+/// What is told of a run besides its table, converted when it is asked for: most runs of a loop are
+/// read for their numbers alone.
+struct RunNotes {
+  Problem problem;
+  std::vector<double> design;
+  RunSummary summary;
+
+  py::object record() const {
+    Json record = {{"objective", summary.objective ? Json(*summary.objective) : Json()},
+                   {"parameters", parameters_json(problem, design)}};
+    add_statistics(summary.statistics, &record);
+    record["methods"] = methods_json(summary);
+    record["limits_exceeded"] = to_json(summary.crossings);
+    record["warnings"] = to_json(summary.warnings);
+    return to_python(record);
+  }
+};
+
+/// (failure or None, table of columns x instants, names of the columns, notes)
+py::tuple simulate(const Session& session, const py::object& rho, const py::dict& settings,
+                   const py::list& signals, int samples) {
+  std::vector<double> design = design_of(session, rho, settings);
+  const std::vector<std::string> asked = strings_of(signals);
+  RunTable run = interruptible(
+      [&](const std::atomic<bool>* cancel) { return session.run(design, asked, samples, cancel); });
+  const Status& status = run.summary.status;
+  const py::object failure = status.ok() ? py::none() : to_python(to_json(status));
+  return py::make_tuple(failure, keep_as_array(std::move(run.values), run.room, run.rows),
+                        to_list(run.names),
+                        RunNotes{session.problem(), std::move(design), std::move(run.summary)});
+}
+
+/// The summary of record_design(): ranges and units of signals, energies, poses of all links.
+py::object details(const Session& session, const py::object& rho, const py::dict& settings) {
+  const std::vector<double> design = design_of(session, rho, settings);
+  return to_python(interruptible([&](const std::atomic<bool>* cancel) {
+                     return record_design(session.problem(), design, cancel);
+                   }).summary);
+}
+
+std::string urdf(const Session& session, const py::object& rho, const py::dict& settings) {
+  const Problem& problem = session.problem();
+  return write_tuned_urdf(problem.urdf(), problem.overlays(), design_of(session, rho, settings),
+                          std::nullopt, problem.robot().laws);
+}
+
+std::optional<RecordedArrays> arrays_of(const py::object& time, const py::list& joints) {
+  if (time.is_none()) return std::nullopt;
+  RecordedArrays arrays;
+  arrays.times = to_numbers(time, "time");
+  for (const py::handle entry : joints) {
+    const auto columns = entry.cast<py::tuple>();
+    JointSamples samples;
+    samples.joint = columns[0].cast<std::string>();
+    for (std::size_t q = 0; q < kMeasuredQuantityNames.size(); ++q) {
+      const py::object values = columns[q + 1];
+      if (values.is_none()) continue;
+      const std::string name = samples.joint + "/" + kMeasuredQuantityNames[q];
+      std::vector<double> numbers = to_numbers(values, name);
+      if (numbers.size() != arrays.times.size())
+        throw InputError({{"arrays", 0},
+                          name,
+                          "there is not one number for each time",
+                          std::to_string(numbers.size()),
+                          std::to_string(arrays.times.size())});
+      samples.of(static_cast<MeasuredQuantity>(q)) = std::move(numbers);
+    }
+    arrays.joints.push_back(std::move(samples));
+  }
+  return arrays;
+}
+
+template <class Finished>
+py::object record_of(const Finished& finished) {
+  return to_python(Json::parse(finished.json));
+}
+
+/// @throws OutputError naming the files that are missing.
+void require_written(const std::vector<Failure>& failures, const std::string& folder) {
+  if (failures.empty()) return;
+  std::string causes;
+  for (const Failure& failure : failures) causes += (causes.empty() ? "" : "; ") + failure.message;
+  throw OutputError(folder, causes);
+}
+
+void add_jobs(py::module_* module) {
+  py::class_<Optimized>(*module, "Optimized")
+      .def_property_readonly("record", &record_of<Optimized>)
+      .def_property_readonly(
+          "status", [](const Optimized& of) { return to_python(to_json(of.result.status)); })
+      .def_property_readonly(
+          "warnings", [](const Optimized& of) { return to_python(to_json(of.result.warnings)); })
+      .def_property_readonly("has_point",
+                             [](const Optimized& of) { return has_design(of.problem, of.result); })
+      .def_property_readonly("best_objectives",
+                             [](const Optimized& of) {
+                               Eigen::VectorXd best(to_signed(of.trials.size()));
+                               for (std::size_t k = 0; k < of.trials.size(); ++k)
+                                 best[to_signed(k)] = of.trials[k].best_objective;
+                               return to_array(best);
+                             })
+      .def_property_readonly("rho", [](const Optimized& of) { return to_array(of.result.rho); })
+      .def_property_readonly("initial_rho",
+                             [](const Optimized& of) { return to_array(of.result.initial_rho); })
+      .def_property_readonly("gradient",
+                             [](const Optimized& of) { return to_array(of.result.gradient); })
+      .def("write", [](const Optimized& of, const std::string& folder) {
+        require_written(interruptible([&](const std::atomic<bool>* cancel) {
+                          return write_folder(of, folder, cancel);
+                        }),
+                        folder);
+      });
+  py::class_<Identified>(*module, "Identified")
+      .def_property_readonly("record", &record_of<Identified>)
+      .def_property_readonly(
+          "status", [](const Identified& of) { return to_python(to_json(of.result.status)); })
+      .def_property_readonly(
+          "warnings", [](const Identified& of) { return to_python(to_json(of.result.warnings)); })
+      .def_property_readonly("has_point",
+                             [](const Identified& of) { return !of.result.numbers.empty(); })
+      .def_property_readonly("covariance",
+                             [](const Identified& of) { return to_array(of.result.covariance); })
+      .def_property_readonly("time",
+                             [](const Identified& of) {
+                               const std::vector<double>& times = of.result.data_series.times;
+                               return py::array_t<double>(times.size(), times.data());
+                             })
+      .def_property_readonly(
+          "recorded", [](const Identified& of) { return to_array(of.result.data_series.recorded); })
+      .def_property_readonly(
+          "computed", [](const Identified& of) { return to_array(of.result.data_series.computed); })
+      .def("write", [](const Identified& of, const std::string& folder) {
+        require_written(write_folder(of, folder), folder);
+      });
+}
+
+void add_session(py::module_* module) {
+  py::class_<RunNotes>(*module, "RunNotes").def("record", &RunNotes::record);
+  py::class_<Session>(*module, "Session")
+      .def(py::init(&open))
+      .def_property_readonly("parameters", &parameters)
+      .def_property_readonly("joints", &joints)
+      .def_property_readonly("name", [](const Session& of) { return of.problem().robot().name; })
+      .def_property_readonly("duration", [](const Session& of) { return of.problem().duration(); })
+      .def_property_readonly("start",
+                             [](const Session& of) { return to_array(of.problem().start()); })
+      .def_property_readonly(
+          "warnings", [](const Session& of) { return to_python(to_json(of.problem().warnings())); })
+      .def_property_readonly(
+          "signals",
+          [](const Session& of) {
+            return to_list(default_signals(of.problem().robot(), of.problem().study().controllers));
+          })
+      .def("evaluate", &evaluate)
+      .def("simulate", &simulate)
+      .def("details", &details)
+      .def("urdf", &urdf)
+      .def("optimize",
+           [](const Session& of, const py::object& progress, const py::object& cancel) {
+             return job(progress, cancel, [&of](const Tell& tell, const std::atomic<bool>* stop) {
+               return optimize(of.problem(), tell, stop);
+             });
+           })
+      .def("identify", [](const Session& of, const py::object& time, const py::list& columns,
+                          const py::object& progress, const py::object& cancel) {
+        const std::optional<RecordedArrays> arrays = arrays_of(time, columns);
+        return job(progress, cancel, [&](const Tell& tell, const std::atomic<bool>* stop) {
+          return identify(of.problem(), arrays, tell, stop);
+        });
+      });
+}
+
+}  // namespace
+}  // namespace codesign::python
+
+PYBIND11_MODULE(_core, module) {
+  codesign::python::translate_exceptions();
+  module.def("version", &codesign::version);
+  codesign::python::add_session(&module);
+  codesign::python::add_jobs(&module);
+}

@@ -1,0 +1,196 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "python/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "description/tuned_parameters.h"
+#include "equations/compiled_system.h"
+#include "math/arrays.h"
+#include "mechanism/signal_catalog.h"
+#include "mechanism_codesign/error.h"
+#include "optimization/algorithm.h"
+#include "sensitivity/gradient_engine.h"
+#include "text/number_text.h"
+
+namespace codesign::python {
+namespace {
+
+constexpr const char* kCall = "arguments";
+
+/// Residuals stand for an objective that is a sum of squares and nothing else.
+void require_squares(const Study& study) {
+  const bool has_peak = std::any_of(
+      study.watched.begin(), study.watched.end(),
+      [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; });
+  if (!has_peak && is_sum_of_squares(study) &&
+      study.ensemble.robust_options().measure == RobustMeasure::kMean)
+    return;
+  throw InputError({{study.file, 1},
+                    "objective",
+                    "residuals belong to a sum of squares, which this objective is not",
+                    "",
+                    "integral and terminal terms with weights of at least 0, no peak, and "
+                    "robust.measure mean"});
+}
+
+void use_adjoint(MotionStudy* study) {
+  study->solver.gradient = GradientMethod::kAdjoint;
+  study->solver.sensitivity_tolerance = 0.0;
+}
+
+Study with_adjoint(Study study) {
+  use_adjoint(&study);
+  for (RunDescription& run : study.ensemble.runs) {
+    if (!run.study) continue;
+    Study changed = *run.study;
+    use_adjoint(&changed);
+    run.study = std::make_shared<const Study>(std::move(changed));
+  }
+  return study;
+}
+
+void require_adjoint(const Problem& problem) {
+  for (const auto& system : distinct_systems(problem))
+    if (!prefers_adjoint(*system))
+      throw InputError({{problem.study().file, 1},
+                        "adjoint",
+                        "this study has no adjoint",
+                        "",
+                        "the integrator rosenbrock, without path, final, peaks, and controllers "
+                        "with sample_time"});
+}
+
+}  // namespace
+
+Session::Session(Problem problem)
+    : problem_(std::move(problem)),
+      start_(problem_.parameters()),
+      scenarios_(make_scenarios(problem_)),
+      default_signals_(
+          checked(codesign::default_signals(problem_.robot(), problem_.study().controllers))) {}
+
+std::vector<SignalDescription> Session::checked(const std::vector<std::string>& signals) const {
+  std::vector<SignalDescription> parsed;
+  for (const std::string& text : signals) {
+    parsed.push_back(parse_signal(text, {kCall, 0}, "signals"));
+    check_signal(parsed.back(), problem_.robot(), problem_.study().controllers, "signals");
+  }
+  return parsed;
+}
+
+std::vector<double> Session::design(const std::optional<std::vector<double>>& rho,
+                                    const ParameterSettings& settings) const {
+  std::vector<double> values = start_;
+  if (rho) {
+    const std::vector<int>& tuned = problem_.study().tuned;
+    if (rho->size() != tuned.size())
+      throw InputError({{kCall, 0},
+                        "rho",
+                        "one number for each tuned parameter is needed",
+                        std::to_string(rho->size()),
+                        std::to_string(tuned.size())});
+    for (std::size_t k = 0; k < tuned.size(); ++k) {
+      if (!std::isfinite((*rho)[k]))
+        throw InputError({{kCall, 0},
+                          "rho[" + std::to_string(k) + "]",
+                          "the number is not finite",
+                          to_decimal((*rho)[k]),
+                          ""});
+      values[to_index(tuned[k])] = (*rho)[k];
+    }
+  }
+  if (settings.empty()) return values;
+  const std::vector<double> set = problem_.parameters(settings);
+  const std::vector<Parameter>& parameters = problem_.all_parameters();
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (const auto& setting : settings)
+      if (setting.first == parameters[k].name) values[k] = set[k];
+  return values;
+}
+
+std::vector<Scenario> Session::scenarios_at(const std::vector<double>& parameters) const {
+  std::vector<Scenario> scenarios = scenarios_;
+  const std::vector<int>& tuned = problem_.study().tuned;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const int index = static_cast<int>(k);
+    if (parameters[k] == start_[k] || std::find(tuned.begin(), tuned.end(), index) != tuned.end())
+      continue;
+    // In front, so that the values of a run or a sample replace it.
+    for (Scenario& scenario : scenarios)
+      scenario.values.emplace(scenario.values.begin(), index, parameters[k]);
+  }
+  return scenarios;
+}
+
+std::shared_ptr<EvaluationEngine> Session::take_engine() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (engines_.empty())
+    engines_.emplace_back(make_engine(problem_, to_signed(scenarios_.size()), nullptr));
+  std::shared_ptr<EvaluationEngine> engine = engines_.back();
+  if (is_serial()) engines_.pop_back();
+  return engine;
+}
+
+void Session::give_back(const std::shared_ptr<EvaluationEngine>& engine) {
+  if (!is_serial()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  engines_.push_back(engine);
+}
+
+Evaluation Session::evaluate(const std::vector<double>& parameters, Derivatives derivatives,
+                             const std::atomic<bool>* cancel) {
+  const Study& study = problem_.study();
+  require_objective(problem_);
+  if (derivatives != Derivatives::kNone) require_tuned(study);
+  if (derivatives == Derivatives::kGaussNewton) require_squares(study);
+  Eigen::VectorXd rho(to_signed(study.tuned.size()));
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    rho[to_signed(k)] = parameters[to_index(study.tuned[k])];
+  const std::shared_ptr<EvaluationEngine> engine = take_engine();
+  const Ensemble ensemble(scenarios_at(parameters), study.ensemble.robust_options(), engine);
+  Evaluation evaluation = ensemble.evaluate(rho, derivatives, cancel).total;
+  give_back(engine);
+  return evaluation;
+}
+
+Session& Session::adjoint() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!adjoint_) {
+    auto session = std::make_unique<Session>(with_study(problem_, with_adjoint(problem_.study())));
+    require_adjoint(session->problem());
+    adjoint_ = std::move(session);
+  }
+  return *adjoint_;
+}
+
+RunTable Session::run(const std::vector<double>& parameters,
+                      const std::vector<std::string>& signals, int samples,
+                      const std::atomic<bool>* cancel) const {
+  if (samples < 2)
+    throw InputError(
+        {{kCall, 0}, "samples", "a run has both its ends", std::to_string(samples), "at least 2"});
+  const std::vector<SignalDescription> recorded =
+      signals.empty() ? default_signals_ : checked(signals);
+  RunTable table;
+  table.names = column_names(recorded);
+  table.room = to_index(samples);
+  table.values.resize(table.names.size() * table.room);
+  const auto sink = [&table](const std::vector<double>& row) {
+    for (std::size_t k = 0; k < row.size(); ++k) table.values[k * table.room + table.rows] = row[k];
+    ++table.rows;
+  };
+  table.summary = record_run(problem_, parameters, recorded, samples, sink, cancel);
+  RunSummary& summary = table.summary;
+  // A peak needs a run of its own that follows it.
+  if (summary.status.ok() && has_objective(problem_.study()) && !summary.objective) {
+    const Evaluation evaluation =
+        Evaluator(problem_.system()).evaluate_design(parameters, Derivatives::kNone, cancel);
+    summary.status = evaluation.status;
+    if (evaluation.status.ok()) summary.objective = evaluation.objective;
+  }
+  return table;
+}
+
+}  // namespace codesign::python

@@ -1,0 +1,165 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "identification/effort/effort_doubts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/identify.h"
+#include "identification/motion_rig.h"
+#include "identification/swinging_arm.h"
+
+namespace codesign {
+namespace {
+
+/// Two pendulums on one stand, of different mass and length, one joint each.
+constexpr const char* kTwo = R"(<robot name="two" xmlns:codesign="https://mechanism-codesign.org">
+  <codesign:parameter name="long_mass" value="4" lower="1" upper="10"/>
+  <codesign:parameter name="short_mass" value="1" lower="0.2" upper="3"/>
+  <link name="base"/>
+  <link name="long"><inertial><origin xyz="0.5 0 0"/><mass value="4" codesign:value="${long_mass}"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="short"><inertial><origin xyz="0.2 0 0"/><mass value="1" codesign:value="${short_mass}"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="a" type="continuous"><parent link="base"/><child link="long"/><axis xyz="0 -1 0"/></joint>
+  <joint name="b" type="continuous"><parent link="base"/><child link="short"/><axis xyz="0 -1 0"/></joint>
+</robot>)";
+
+Problem two_pendulums() {
+  return load_problem({"two.urdf", kTwo}, {},
+                      {"study.yaml",
+                       "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: "
+                       "20.0}\nparameters: {long_mass: {}, short_mass: {}}\n"
+                       "optimizer: {algorithm: levenberg_marquardt}\n"});
+}
+
+/// Both swing, with masses of 5 kg and 1.2 kg.
+JointRecording both_swing() {
+  JointRecording recording;
+  recording.file = "data.csv";
+  recording.element = "identify.data[0]";
+  recording.where = {"study.yaml", 2};
+  JointSamples a{"a", {}, {}, {}}, b{"b", {}, {}, {}};
+  const auto add = [](JointSamples* joint, double t, double w, double amplitude, double mass,
+                      double length) {
+    const double position = amplitude * std::sin(w * t), acceleration = -w * w * position;
+    joint->position.push_back(position);
+    joint->velocity.push_back(amplitude * w * std::cos(w * t));
+    joint->effort.push_back((mass * length * length + 0.01) * acceleration +
+                            mass * 9.81 * length * std::cos(position));
+  };
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 0.005 * k;
+    recording.times.push_back(t);
+    recording.places.push_back(static_cast<std::size_t>(k) + 2);
+    add(&a, t, 3.0, 0.8, 5.0, 0.5);
+    add(&b, t, 4.1, 1.1, 1.2, 0.2);
+  }
+  recording.joints = {a, b};
+  return recording;
+}
+
+IdentificationResult fit(const Problem& problem, const JointRecording& recording) {
+  StudyRecordings recordings;
+  recordings.data = {recording};
+  return identify(problem, recordings, {}, nullptr);
+}
+
+/// The fit is a failure, and one of its warnings has these words; so has one of `codesign check`.
+void expect_named(const Problem& problem, const JointRecording& recording,
+                  const std::string& words) {
+  const IdentificationResult result = fit(problem, recording);
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable) << words;
+  const auto has = [&words](const Warning& warning) {
+    return warning.code == "effort_not_explained" &&
+           warning.message.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), has))
+      << words << ": " << result.status.cause;
+  const Warnings checked =
+      warnings_of(*problem.study().identification, find_effort_doubts(problem, {recording}));
+  ASSERT_FALSE(checked.empty()) << words;
+  EXPECT_EQ(checked[0].code, "recording_effort");
+  EXPECT_NE(checked[0].message.find(words), std::string::npos) << checked[0].message;
+}
+
+TEST(EffortDoubts, NothingIsSaidOfARightRecording) {
+  const IdentificationResult result = fit(two_pendulums(), both_swing());
+  EXPECT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_GT(result.data[0].explained, 0.999);
+  EXPECT_NEAR(result.numbers[0].value, 5.0, 1e-3);
+  EXPECT_TRUE(find_effort_doubts(two_pendulums(), {both_swing()}).empty());
+}
+
+TEST(EffortDoubts, TheOtherSignIsNamed) {
+  JointRecording recording = both_swing();
+  for (double& effort : recording.joints[0].effort) effort = -effort;
+  expect_named(two_pendulums(), recording, "with the other sign");
+}
+
+TEST(EffortDoubts, AnotherUnitIsNamed) {
+  JointRecording recording = both_swing();
+  for (double& effort : recording.joints[1].effort) effort *= 1000.0;
+  expect_named(two_pendulums(), recording, "divided by about 1");
+}
+
+TEST(EffortDoubts, ExchangedEffortsAreNamed) {
+  JointRecording recording = both_swing();
+  std::swap(recording.joints[0].effort, recording.joints[1].effort);
+  expect_named(two_pendulums(), recording, "with the column of b");
+}
+
+TEST(EffortDoubts, JointsInReversedOrderAreNamed) {
+  JointRecording recording = both_swing();
+  std::swap(recording.joints[0].joint, recording.joints[1].joint);
+  for (double& effort : recording.joints[0].effort) effort = -effort;
+  const Problem problem = two_pendulums();
+  EXPECT_EQ(fit(problem, recording).status.code, StatusCode::kNotIdentifiable);
+}
+
+TEST(EffortDoubts, ADriveLineIsFittedWithoutNegativeFactors) {
+  Eigen::VectorXd computed(400), velocity(400), acceleration(400);
+  for (int k = 0; k < 400; ++k) {
+    velocity[k] = std::cos(0.1 * k);
+    acceleration[k] = -std::sin(0.1 * k);
+    computed[k] = std::sin(0.037 * k);
+  }
+  const Eigen::VectorXd recorded = 2.0 * computed + 3.0 * velocity;
+  const DriveLineFit right = fit_drive_line(computed, velocity, acceleration, recorded);
+  EXPECT_GT(right.share, 0.9999);
+  EXPECT_NEAR(right.scale, 2.0, 0.01);
+  EXPECT_LT(fit_drive_line(computed, velocity, acceleration, -recorded).share, 0.1);
+}
+
+TEST(EffortDoubts, TheShareIsCountedAboutTheMean) {
+  const Eigen::Vector4d recorded(1.0, -1.0, 1.0, -1.0);
+  EXPECT_DOUBLE_EQ(explained_share(recorded, Eigen::Vector4d::Zero()), 1.0);
+  EXPECT_DOUBLE_EQ(explained_share(recorded, recorded), 0.0);
+  EXPECT_DOUBLE_EQ(explained_share(recorded.array() + 1.0, recorded), 0.0);
+  EXPECT_NEAR(explained_share(Eigen::Vector4d::Constant(100.0), Eigen::Vector4d::Constant(1.0)),
+              0.99, 1e-12);
+}
+
+TEST(EffortDoubts, InMotionTheMistakeOfTheRecordedEffortIsNamed) {
+  MotionRig rig;
+  rig.duration = 3.0;
+  StudyRecordings recordings;
+  recordings.data = {record_pendulum(rig)};
+  for (double& effort : recordings.data[0].joints[0].effort) effort = -effort;
+  const Problem problem =
+      motion_problem("", "  segment: 3.0\n  filter: {cutoff: 20.0}\n", "inertia: {}");
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable) << result.status.cause;
+  const auto found =
+      std::find_if(result.warnings.begin(), result.warnings.end(),
+                   [](const Warning& warning) { return warning.code == "motion_not_explained"; });
+  ASSERT_NE(found, result.warnings.end());
+  const std::string words =
+      " % of hinge/position: sign, unit, order? the recorded effort of hinge: with the other sign";
+  EXPECT_NE(found->message.find(words), std::string::npos) << found->message;
+}
+
+}  // namespace
+}  // namespace codesign

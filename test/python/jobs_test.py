@@ -1,0 +1,297 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Optimizations and identifications from Python: the results of the command line, progress, cancelling, threads, files."""
+import concurrent.futures
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+from fixture import PENDULUM, SWING, command_line
+
+import mechanism_codesign as codesign
+
+# A mass with viscous and dry friction and a torque on its joint, to be identified from its motion.
+ARM = """<robot name="arm" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="mass" value="1" lower="0.1" upper="10" unit="kg"/>
+  <codesign:parameter name="viscous" value="0.1" lower="0" upper="5"/>
+  <link name="ground"/>
+  <link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1" codesign:value="${mass}"/>
+    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="shoulder" type="continuous"><parent link="ground"/><child link="rod"/><axis xyz="0 1 0"/>
+    <dynamics damping="0.1" codesign:damping="${viscous}"/></joint>
+</robot>
+"""
+FIT = "duration: 4.0\nparameters: {mass: {}, viscous: {}}\n"
+# A pendulum that turns without friction for some minutes of computing.
+FREE = re.sub("<codesign:friction[^>]*>", "", PENDULUM)
+LONG = SWING.replace("duration: 2.0", "duration: 1.0e+6").replace("position: 1.0", "velocity: 20.0") + (
+    "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11, maximum_steps: 1000000000}\n")
+
+
+def recorded():
+    """A motion of the arm, with the torque that its equation needs: (time, position, effort), for a mass of 2 kg and a damping of 0.7."""
+    t = np.linspace(0.0, 4.0, 401)
+    q, v, a = np.sin(2.0 * t) + 0.3 * np.sin(5.0 * t), 2.0 * np.cos(2.0 * t) + 1.5 * np.cos(5.0 * t), -4.0 * np.sin(2.0 * t) - 7.5 * np.sin(5.0 * t)
+    return t, q, (0.01 + 2.0 * 0.25) * a + 2.0 * 9.81 * 0.5 * np.sin(q) + 0.7 * v
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.model, self.study = self.written("model.urdf", PENDULUM), self.written("study.yaml", SWING)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def written(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+
+class Optimization(Files):
+    def test_it_is_that_of_the_command_line(self):
+        trials, line = [], command_line("optimize", self.model, self.study, "--output", self.path("line"))
+        result = codesign.Problem(self.model, self.study).optimize(progress=trials.append)
+        self.assertTrue(result.status.ok)
+        same = set(line) - {"cpu_seconds", "setup_seconds"}
+        self.assertEqual({key: result.record[key] for key in same}, {key: line[key] for key in same})
+        self.assertEqual((result.rho.tolist(), result.objective), ([line["parameters"]["length"]], line["objective"]))
+        searched = [trial for trial in trials if isinstance(trial, codesign.Trial)]
+        self.assertEqual([trial.evaluation for trial in searched], list(range(1, line["evaluations"] + 1)))
+        self.assertEqual(str(searched[0])[:18], "trial 1: objective")
+        self.assertEqual(searched[0].parameters, {"length": 0.5})
+        self.assertEqual(result.best_objectives.tolist(), [trial.best_objective for trial in searched])
+
+    def test_it_writes_the_files_of_the_command_line(self):
+        command_line("optimize", self.model, self.study, "--output", self.path("line"))
+        result = codesign.Problem(self.model, self.study).optimize()
+        result.write(self.path("new/job"))
+        names = set(os.listdir(self.path("line"))) - {"journal.jsonl"}
+        self.assertEqual(set(os.listdir(self.path("new/job"))), names)
+        for name in names - {"result.json", "details.json"}:
+            self.assertEqual(self.text(f"new/job/{name}"), self.text(f"line/{name}"), name)
+        again = command_line("gradient", self.path("new/job/tuned.urdf"), self.path("new/job/job_study.yaml"), "--result", self.path("new/job/result.json"))
+        self.assertAlmostEqual(again["objective"], result.objective, delta=1e-12)
+        page = result.report(self.path("page.html"))
+        self.assertIn("pendulum", page)
+        self.assertEqual(self.text("page.html"), page)
+        self.assertIn("<svg", codesign.Problem(PENDULUM, SWING).optimize().report())
+
+    def text(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def test_it_replaces_no_file_that_is_read(self):
+        self.model = self.written("tuned.urdf", PENDULUM)
+        result = codesign.Problem(self.model, self.study).optimize()
+        with self.assertRaisesRegex(codesign.InputError, "would replace this file"):
+            result.write(self.folder)
+        self.assertEqual(self.text("tuned.urdf"), PENDULUM)
+        with self.assertRaises(codesign.InputError):
+            result.write(self.model)
+        with self.assertRaisesRegex(codesign.OutputError, "cannot be written"):
+            result.report(self.path("nowhere/page.html"))
+
+    def test_a_start_that_cannot_be_evaluated_is_a_status(self):
+        result = codesign.Problem(PENDULUM, SWING + "solver: {maximum_steps: 20}\n").optimize()
+        self.assertEqual(result.status.code, "too_many_steps")
+        self.assertIsNone(result.objective)
+        with self.assertRaises(codesign.ComputationError):
+            result.write(self.path("job"))
+        self.assertFalse(os.path.exists(self.path("job")))
+
+    def test_an_event_ends_it_with_the_best_point(self):
+        event = threading.Event()
+
+        def progress(trial):
+            if isinstance(trial, codesign.Trial) and trial.evaluation == 3:
+                event.set()
+                time.sleep(0.2)  # the event is asked every 50 ms
+
+        result = codesign.Problem(PENDULUM, SWING).optimize(progress, event)
+        self.assertEqual((result.status.code, result.termination), ("cancelled", "cancelled"))
+        self.assertLess(result.objective, result.initial_objective)
+        with self.assertRaisesRegex(TypeError, "is_set"):
+            codesign.Problem(PENDULUM, SWING).optimize(cancel=True)
+
+    def test_an_event_ends_a_long_evaluation(self):
+        event = threading.Event()
+        timer = threading.Timer(0.3, event.set)
+        timer.start()
+        self.addCleanup(timer.join)
+        self.assertEqual(codesign.Problem(FREE, LONG).optimize(cancel=event).status.code, "cancelled")
+
+    def test_an_exception_of_progress_ends_it(self):
+        for study in (SWING, SWING + "multistart: {starts: 4}\nengine: {type: threads, workers: 2}\n"):
+            calls = []
+
+            def progress(trial, calls=calls):
+                calls.append(trial)
+                raise ZeroDivisionError("mine")
+
+            with self.assertRaisesRegex(ZeroDivisionError, "mine"):
+                codesign.Problem(PENDULUM, study).optimize(progress)
+            self.assertGreater(len(calls), 0)
+
+    def test_nothing_to_tune(self):
+        with self.assertRaisesRegex(codesign.InputError, "tune"):
+            codesign.Problem(PENDULUM, SWING.replace("parameters: {length: {}}\n", "")).optimize()
+
+
+class Interrupts(unittest.TestCase):
+    """Ctrl-C while the library computes."""
+
+    CALLS = {
+        "simulate": "problem.simulate()",
+        "gradient": "problem.gradient()",
+        "adjoint": "problem.adjoint()",
+        "optimize": "problem.optimize()",
+        "optimize with progress": "problem.optimize(progress=print, cancel=threading.Event())",
+        "in a thread": "thread = threading.Thread(target=problem.gradient, daemon=True); thread.start(); thread.join()",
+    }
+    PROGRAM = """
+import os, sys, threading
+import mechanism_codesign as codesign
+problem = codesign.Problem({model!r}, {study!r})
+print("ready", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+    os._exit(0)
+print("ended", flush=True)
+"""
+
+    def test_each_call_ends(self):
+        for name, call in self.CALLS.items():
+            with self.subTest(name):
+                program = self.PROGRAM.format(model=FREE, study=LONG, call=call)
+                with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
+                    self.assertEqual(child.stdout.readline(), "ready\n")
+                    time.sleep(0.5)
+                    child.send_signal(signal.SIGINT)
+                    self.assertIn("interrupted\n", child.communicate(timeout=60)[0])
+
+    def test_a_handler_that_raises_nothing_ends_the_call_as_cancelled(self):
+        seen = []
+        before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        problem = codesign.Problem(FREE, LONG)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        self.assertEqual(problem.optimize().status.code, "cancelled")
+        timer.join()
+        self.assertEqual(seen, [signal.SIGINT])
+        self.assertIsNotNone(codesign.Problem(PENDULUM, SWING).gradient(), "the next call begins anew")
+        os.kill(os.getpid(), signal.SIGINT)
+        self.assertEqual(len(seen), 2, "Python's own handler is back")
+
+
+class Threads(unittest.TestCase):
+    def test_problems_and_one_problem_in_threads(self):
+        designs = np.linspace(0.35, 0.75, 24)
+        problem = codesign.Problem(PENDULUM, SWING)
+        expected = [(value, gradient.tolist()) for value, gradient in (problem.gradient([x]) for x in designs)]
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            shared = list(pool.map(lambda x: problem.gradient([x]), designs))
+            own = list(pool.map(lambda x: codesign.Problem(PENDULUM, SWING).gradient([x]), designs[:8]))
+        self.assertEqual([(value, gradient.tolist()) for value, gradient in shared], expected)
+        self.assertEqual([(value, gradient.tolist()) for value, gradient in own], expected[:8])
+
+    def test_other_threads_go_on(self):
+        """The lock of Python is free while the library computes."""
+        event, counted = threading.Event(), []
+
+        def count():
+            while not event.is_set():
+                counted.append(len(counted))
+                if len(counted) == 1000:
+                    event.set()  # which ends the search
+                time.sleep(0)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        self.assertEqual(codesign.Problem(FREE, LONG).optimize(cancel=event).status.code, "cancelled")
+        thread.join()
+
+
+class Identification(Files):
+    def test_arrays_give_the_numbers_of_the_equation(self):
+        t, q, effort = recorded()
+        trials = []
+        fit = codesign.Problem(ARM, FIT).identify(t, q, effort, progress=trials.append)
+        self.assertTrue(fit.status.ok, fit.status)
+        self.assertAlmostEqual(fit.numbers["mass"].value, 2.0, delta=1e-3)
+        self.assertAlmostEqual(fit.numbers["viscous"].value, 0.7, delta=1e-3)
+        self.assertEqual(fit.parameters["mass"], fit.numbers["mass"].value)
+        self.assertTrue(fit.numbers["mass"].determined)
+        low, high = fit.numbers["mass"].interval
+        self.assertLess(low, high)
+        self.assertEqual(fit.covariance.shape, (2, 2))
+        self.assertAlmostEqual(fit.covariance[0, 0], fit.numbers["mass"].deviation ** 2, delta=1e-12)
+        self.assertEqual(fit.recorded["shoulder"].shape, fit.time.shape)
+        self.assertGreater(len(trials), 1)
+        self.assertIn("cost", str(trials[0]))
+        self.assertGreater(trials[0].rms["shoulder"], trials[-1].rms["shoulder"])
+
+    def test_arrays_give_what_a_file_gives(self):
+        t, q, effort = recorded()
+        keys = "filter: {cutoff: 20}, joints: {shoulder: {offset: {}}}"
+        table = np.column_stack([t, q, effort])
+        np.savetxt(self.path("run.csv"), table, delimiter=",", header="time,shoulder/position,shoulder/effort", comments="", fmt="%.17g")
+        model, study = self.written("arm.urdf", ARM), self.written("fit.yaml", FIT + f"identify: {{data: [{{csv: run.csv}}], {keys}}}\n")
+        line = command_line("identify", model, study, "--output", self.path("line"))
+        from_file = codesign.Problem(model, study).identify()
+        for given in ((q, effort), (q[:, np.newaxis], effort[:, np.newaxis]), ({"shoulder": q}, {"shoulder": list(effort)})):
+            fit = codesign.Problem(ARM, FIT + f"identify: {{{keys}}}\n").identify(t, *given)
+            for found in (fit, from_file):
+                self.assertEqual({name: number.value for name, number in found.numbers.items()},
+                                 {name: number["value"] for name, number in line["identified"].items()})
+        from_file.write(self.path("job"))
+        self.assertEqual(set(os.listdir(self.path("job"))), {n for n in os.listdir(self.path("line")) if not n.endswith(".bag")})
+        self.assertIn("mass", from_file.report())
+
+    def test_bad_arrays(self):
+        problem = codesign.Problem(ARM, FIT)
+        t, q, effort = recorded()
+        with self.assertRaisesRegex(codesign.InputError, r"arrays: shoulder/position: .*value: 400, allowed: 401"):
+            problem.identify(t, q[1:], effort)
+        with self.assertRaisesRegex(ValueError, r"position has the shape \(401, 2\): \(n, 1\).*shoulder"):
+            problem.identify(t, np.column_stack([q, q]), effort)
+        with self.assertRaisesRegex(codesign.InputError, r"jumps back .*sample 101"):
+            problem.identify(np.concatenate([t[:100], t[:301]]), q, effort)
+        bad = q.copy()
+        bad[7] = np.nan
+        with self.assertRaisesRegex(codesign.InputError, r"position of shoulder is not a finite number \(sample 8"):
+            problem.identify(t, bad, effort)
+        with self.assertRaisesRegex(codesign.InputError, "shoulde"):
+            problem.identify(t, {"shoulde": q}, {"shoulde": effort})
+        with self.assertRaisesRegex(TypeError, "times"):
+            problem.identify(position=q, effort=effort)
+        with self.assertRaisesRegex(codesign.InputError, "no recordings"):
+            problem.identify()
+        with self.assertRaisesRegex(codesign.InputError, "tune"):
+            codesign.Problem(ARM, "duration: 1.0\n").identify(t, q, effort)
+
+    def test_what_is_not_determined_is_a_status(self):
+        t, q, effort = recorded()
+        model = ARM.replace('damping="0.1" codesign:damping="${viscous}"', 'damping="0.2" codesign:damping="${viscous + other}"')
+        model = model.replace('<link name="ground"/>', '<codesign:parameter name="other" value="0.1" lower="0" upper="5"/><link name="ground"/>')
+        fit = codesign.Problem(model, "duration: 4.0\nparameters: {mass: {}, viscous: {}, other: {}}\n").identify(t, q, effort)
+        self.assertEqual(fit.status.code, "not_identifiable")
+        self.assertFalse(fit.numbers["other"].determined)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,280 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Simulations and gradients from Python: the bits of the command line, numpy without copies, errors, scipy."""
+import copy
+import math
+import os
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+import scipy.optimize
+
+from fixture import PENDULUM, ROOT, SWING, case, command_line
+
+import mechanism_codesign as codesign
+
+
+def pendulum(study=SWING, **options):
+    return codesign.Problem(PENDULUM, study, **options)
+
+
+def shipped(name, **options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", codesign.Warning)
+        return codesign.Problem(*case(name), **options)
+
+
+class Package(unittest.TestCase):
+    def test_its_names_are_there(self):
+        self.assertEqual(codesign.version(), command_line("gradient", *case("inverted_pendulum"))["version"])
+        self.assertLessEqual(set(codesign.__all__), set(dir(codesign)))
+        for name in codesign.__all__:
+            self.assertTrue(getattr(codesign, name).__doc__, name)
+        with self.assertRaises(AttributeError):
+            codesign.problem
+
+    def test_it_loads_nothing_before_it_is_used(self):
+        """Scripts that read messages import the same package."""
+        code = "import mechanism_codesign, sys; assert not {'numpy', 'mechanism_codesign._core'} & set(sys.modules)"
+        subprocess.run([sys.executable, "-c", code], check=True)
+
+    def test_a_python_without_the_extension_is_told_so(self):
+        code = "import mechanism_codesign as m; m.__path__[:] = [p for p in m.__path__ if not p.endswith('build/python')]; m.Problem"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+        self.assertIn("ImportError: mechanism_codesign has no extension for Python 3", done.stderr)
+        self.assertIn("pybind11-dev", done.stderr)
+
+    def test_the_stub_of_the_extension_has_what_is_there(self):
+        import ast
+        from mechanism_codesign import _core
+        with open(os.path.join(ROOT, "python/mechanism_codesign/_core.pyi"), encoding="utf-8") as file:
+            stub = {node.name: node for node in ast.parse(file.read()).body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        self.assertEqual(set(stub), {name for name in dir(_core) if not name.startswith("_")})
+        for name, node in stub.items():
+            if isinstance(node, ast.ClassDef):
+                members = {part.name if isinstance(part, ast.FunctionDef) else part.target.id for part in node.body}
+                there = {member for member in vars(getattr(_core, name)) if not member.startswith("_") or member == "__init__"}
+                self.assertEqual(members | {"__init__"}, there | {"__init__"}, name)
+
+
+class Bits(unittest.TestCase):
+    """Python computes the numbers of the command line, to the last bit."""
+
+    def test_of_a_run(self):
+        for name in ("slider_crank", "inverted_pendulum", "governor", "two_link_arm"):
+            with self.subTest(name):
+                run, line = shipped(name).simulate(), command_line("simulate", *case(name))
+                self.assertEqual(run.time.tolist(), line["series"]["time"])
+                self.assertEqual(list(run), [signal for signal in line["series"] if signal != "time"])
+                for signal, values in run.items():
+                    self.assertEqual(values.tolist(), line["series"][signal], signal)
+                self.assertEqual(run.objective, line["objective"])
+                self.assertEqual(run.statistics["steps"], line["steps"])
+                self.assertEqual(run.parameters, line["parameters"])
+
+    def test_of_a_run_with_a_set_value(self):
+        problem, line = shipped("slider_crank", set={"crank_length": 0.07}), command_line("simulate", *case("slider_crank"), "--set", "crank_length=0.07")
+        self.assertEqual(problem.simulate()["slider_joint/friction"].tolist(), line["series"]["slider_joint/friction"])
+
+    def test_of_gradients(self):
+        for name in ("slider_crank_haug", "inverted_pendulum", "pendulum_robust", "arm_limits"):
+            with self.subTest(name):
+                problem, line = shipped(name), command_line("gradient", *case(name))
+                value, gradient = problem.gradient()
+                self.assertEqual(value, line["objective"])
+                self.assertEqual(dict(zip(problem.names, gradient.tolist())), line["gradient"])
+
+    def test_of_a_result(self):
+        """From the values of a result.json."""
+        with tempfile.TemporaryDirectory() as folder:
+            result = pathlib.Path(folder) / "result.json"
+            result.write_text('{"parameters": {"length": 0.35}}', encoding="utf-8")
+            model, study = pathlib.Path(folder) / "pendulum.urdf", pathlib.Path(folder) / "swing.yaml"
+            model.write_text(PENDULUM, encoding="utf-8")
+            study.write_text(SWING, encoding="utf-8")
+            line = command_line("gradient", model, study, "--result", result)
+            self.assertEqual(codesign.Problem(model, study, result=result).gradient()[0], line["objective"])
+
+
+class Values(unittest.TestCase):
+    def test_paths_and_texts_and_overlays(self):
+        overlay = '<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign"><codesign:parameter name="payload" value="0.1" lower="0" upper="2"/></robot>'
+        problem = pendulum(overlays=[overlay])
+        self.assertEqual({p.name: p.upper for p in problem.parameters}, {"length": 0.8, "payload": 2.0})
+        self.assertIn('value="1.1"', problem.urdf())
+        self.assertIn('value="2.5"', problem.urdf(payload=1.5))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "overlay.urdf"
+            path.write_text(overlay, encoding="utf-8")
+            for given in (path, str(path)):
+                self.assertEqual(pendulum(overlays=[given]).gradient(payload=1.5)[0], problem.gradient(payload=1.5)[0])
+
+    def test_a_model_alone(self):
+        self.assertEqual(codesign.Problem(PENDULUM).duration, 0.0)
+        self.assertEqual(codesign.Problem(PENDULUM).names, [])
+
+    def test_what_a_problem_tells(self):
+        problem = pendulum()
+        self.assertEqual(problem.names, ["length"])
+        self.assertEqual(problem.start.tolist(), [0.5])
+        self.assertEqual(problem.bounds, [(0.3, 0.8)])
+        self.assertEqual(problem.joints, ["pivot"])
+        self.assertEqual(problem.parameters[0], codesign.Parameter("length", 0.5, 0.3, 0.8, "m", True))
+        self.assertIn("pivot/friction", problem.signals)
+
+    def test_a_run_is_numpy_without_copies(self):
+        run = pendulum().simulate(samples=51)
+        table = run.time.base
+        self.assertIsNotNone(table)
+        for values in run.values():
+            self.assertEqual(values.shape, (51,))
+            self.assertIs(values.base, table)
+            self.assertFalse(values.flags.writeable)
+        friction = run["pivot/friction"].copy()
+        kept, expected = run["pivot/friction"], friction.tolist()
+        del run, table
+        self.assertEqual(kept.tolist(), expected, "an array keeps its memory alive")
+
+    def test_signals_are_those_asked_for(self):
+        run = pendulum().simulate(signals=["pivot/position", "rod/position/x"], samples=3)
+        self.assertEqual(list(run), ["pivot/position", "rod/position/x"])
+        self.assertEqual(run.time.tolist(), [0.0, 1.0, 2.0])
+        self.assertEqual(list(pendulum().simulate(signals="pivot/velocity")), ["pivot/velocity"])
+        with self.assertRaisesRegex(KeyError, "pivot/friction.*recorded are pivot/position"):
+            run["pivot/friction"]
+
+    def test_values_by_name_and_by_array_are_the_same_design(self):
+        problem = pendulum()
+        value, gradient = problem.gradient(length=0.4)
+        self.assertEqual(problem.gradient([0.4])[0], value)
+        self.assertEqual(problem.gradient(np.array([0.6]), length=0.4)[1].tolist(), gradient.tolist())
+        self.assertEqual(problem([0.4])[0], value)
+        self.assertEqual(problem.objective(length=0.4), value)
+        self.assertNotEqual(problem.objective(), value)
+        heavy = problem.objective(payload=0.7)
+        self.assertNotEqual(heavy, problem.objective())
+        self.assertAlmostEqual(pendulum(set={"payload": 0.7}).objective(), heavy, delta=1e-9)
+        self.assertEqual(problem.simulate(payload=0.7).objective, heavy)
+
+    def test_an_untuned_value_holds_in_all_samples_but_those_of_its_own(self):
+        problem = shipped("pendulum_robust")
+        tuned = set(problem.names)
+        free = next(p for p in problem.parameters if p.name not in tuned)
+        at = 0.5 * (free.lower + free.upper) if math.isfinite(free.lower + free.upper) else 1.01 * free.value
+        by_name = problem.objective(**{free.name: at})
+        self.assertAlmostEqual(by_name, shipped("pendulum_robust", set={free.name: at}).objective(), delta=1e-9 * abs(by_name))
+
+
+class Derivatives(unittest.TestCase):
+    def test_the_adjoint_is_another_way_to_the_gradient(self):
+        problem = shipped("governor")
+        value, gradient = problem.gradient()
+        other, adjoint = problem.adjoint()
+        self.assertAlmostEqual(other, value, delta=1e-6 * abs(value))
+        np.testing.assert_allclose(adjoint, gradient, rtol=1e-4, atol=1e-6 * np.abs(gradient).max())
+        with self.assertRaisesRegex(codesign.InputError, "no adjoint"):
+            shipped("arm_limits").adjoint()
+
+    def test_residuals_are_those_of_the_objective(self):
+        for problem in (pendulum(), shipped("governor")):
+            value, gradient = problem.gradient()
+            r, jacobian = problem.residuals(), problem.jacobian()
+            count = len(problem.names)
+            self.assertEqual((r.shape, jacobian.shape), ((count + 1,), (count + 1, count)))
+            self.assertAlmostEqual(r @ r, value, delta=1e-9 * value)
+            np.testing.assert_allclose(2.0 * jacobian.T @ r, gradient, rtol=1e-3, atol=1e-6 * np.abs(gradient).max())
+
+    def test_residuals_need_a_sum_of_squares(self):
+        with self.assertRaisesRegex(codesign.InputError, "sum of squares"):
+            pendulum(SWING.replace("weight: 0.1", "weight: -0.1")).residuals()
+
+    def test_scipy_minimizes(self):
+        problem = pendulum()
+        found = scipy.optimize.minimize(problem, problem.start, jac=True, bounds=problem.bounds)
+        self.assertTrue(found.success, found.message)
+        self.assertAlmostEqual(found.fun, problem.optimize().objective, delta=1e-5)
+        squares = scipy.optimize.least_squares(problem.residuals, problem.start, problem.jacobian, bounds=list(zip(*problem.bounds)))
+        self.assertAlmostEqual(2.0 * squares.cost, found.fun, delta=1e-5)
+
+
+class Errors(unittest.TestCase):
+    def test_bad_input_names_file_and_line(self):
+        model, study = case("slider_crank")
+        with tempfile.TemporaryDirectory() as folder:
+            bad = os.path.join(folder, "bad.yaml")
+            with open(study, encoding="utf-8") as file, open(bad, "w", encoding="utf-8") as copied:
+                copied.write(file.read().replace("duration: 2.0", "duration: -2.0"))
+            with self.assertRaises(codesign.InputError) as caught:
+                codesign.Problem(model, bad)
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.element, error.value), (bad, 3, "duration", "-2.0"))
+        self.assertTrue(str(error).startswith(f"{bad}:3: duration: the duration must be positive"), error)
+        self.assertIsInstance(error, ValueError)
+        self.assertEqual(str(pickle.loads(pickle.dumps(error))), str(error))
+
+    def test_texts_have_a_name(self):
+        with self.assertRaisesRegex(codesign.InputError, r"^study text:4: optimizer.algorithm: "):
+            pendulum(SWING.replace("lbfgs", "lbfgz"))
+        with self.assertRaisesRegex(codesign.InputError, "^nowhere.urdf: "):
+            codesign.Problem("nowhere.urdf")
+
+    def test_bad_values(self):
+        problem = pendulum()
+        for bad, words in (({"lenght": 0.4}, 'did you mean "length"'), ({"length": 7.0}, r"bounds .*7.*\[0.3, 0.8\]"), ({"length": math.nan}, "bounds")):
+            for call in (problem.simulate, problem.gradient, problem.objective, problem.urdf):
+                with self.subTest(bad, call=call), self.assertRaisesRegex(codesign.InputError, words):
+                    call(**bad)
+        for bad in ([0.4, 0.5], [], [math.inf]):
+            with self.assertRaises(codesign.InputError):
+                problem.gradient(bad)
+        for bad in ([[0.4]], "a", object()):
+            with self.assertRaises((TypeError, ValueError)):
+                problem.gradient(bad)
+        with self.assertRaisesRegex(TypeError, "length needs a number, not 'long'"):
+            problem.gradient(length="long")
+        with self.assertRaisesRegex(codesign.InputError, "samples"):
+            problem.simulate(samples=1)
+        with self.assertRaisesRegex(codesign.InputError, 'did you mean "pivot"'):
+            problem.simulate(signals=["pivt/position"])
+        with self.assertRaises(TypeError):
+            codesign.Problem(7)
+
+    def test_nothing_to_differentiate(self):
+        with self.assertRaisesRegex(codesign.InputError, "objective"):
+            pendulum("duration: 1.0\n").objective()
+        with self.assertRaisesRegex(codesign.InputError, "tune"):
+            pendulum(SWING.replace("parameters: {length: {}}\n", "")).gradient()
+        self.assertIsNone(pendulum("duration: 1.0\n").simulate().objective)
+
+    def test_a_failed_run_is_told_and_kept(self):
+        problem = pendulum(SWING + "solver: {maximum_steps: 20}\n")
+        with self.assertRaises(codesign.ComputationError) as caught:
+            problem.simulate()
+        error = caught.exception
+        self.assertEqual(error.status.code, "too_many_steps")
+        self.assertGreater(error.status.time, 0.0)
+        self.assertGreater(len(error.run.time), 0)
+        self.assertLess(len(error.run["pivot/position"]), 101)
+        with self.assertRaises(codesign.ComputationError):
+            problem.gradient()
+        self.assertEqual(pickle.loads(pickle.dumps(codesign.ComputationError(error.status))).status, error.status)
+
+    def test_warnings_are_pythons(self):
+        model = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/>')
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            problem = codesign.Problem(model, SWING)
+        self.assertEqual([str(w.message) for w in caught], [str(w) for w in problem.warnings])
+        self.assertEqual([(w.code, w.file, w.line) for w in problem.warnings], [("limit_ignored", "model text", 9)])
+        self.assertEqual((caught[0].category, caught[0].filename), (codesign.Warning, __file__))
+        self.assertEqual(copy.copy(codesign.Warning("code", "text", "file", 3)).line, 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

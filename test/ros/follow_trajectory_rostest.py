@@ -1,0 +1,43 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""The client of doc/ros_api.md that stands in for FollowJointTrajectory drives the arm to its last point, and says so if it does not get there."""
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+import rospy
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from node_process import SHARE, TIMEOUT  # noqa: E402
+from robot_node import Robot  # noqa: E402
+
+
+class FollowTrajectoryTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.robot = Robot()
+        with open(f"{SHARE}/doc/ros_api.md", encoding="utf-8") as page:
+            section = page.read().partition("#### What stands in for ros_control")[2]
+        cls.client = re.search(r"```python\n(.*?)```", section, re.DOTALL).group(1)
+
+    def run_client(self, text):
+        done = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True, timeout=TIMEOUT, env={**os.environ, "ROS_NAMESPACE": "/robot"})
+        return done.stdout
+
+    def test_it_reaches_the_last_point(self):
+        self.assertRegex(self.run_client(self.client), "^succeeded 0.0")
+        state = self.robot.joints.last()
+        for joint, position in (("shoulder", 1.0), ("elbow", 0.4)):
+            self.assertAlmostEqual(state.position[state.name.index(joint)], position, delta=0.1)
+
+    def test_a_joint_that_does_not_get_there_is_told(self):
+        self.assertEqual(self.client.count("(2.0, [1.0, 0.4])"), 1)
+        self.assertRegex(self.run_client(self.client.replace("(2.0, [1.0, 0.4])", "(1.1, [1.0, 90.0])")), "^goal tolerance violated")
+
+
+if __name__ == "__main__":
+    rospy.init_node("follow_trajectory_test")
+    rostest.rosrun("mechanism_codesign", "follow_trajectory", FollowTrajectoryTest)

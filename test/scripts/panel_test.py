@@ -1,0 +1,179 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""The panel without ROS: its curves, what it answers and what it refuses."""
+import http.client
+import json
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from panel_fixture import PANEL, SCRIPT, PanelTestCase  # noqa: E402
+
+
+class CurvesTest(unittest.TestCase):
+    def setUp(self):
+        self.curves = SCRIPT.Curves()
+
+    def add(self, stamp, *positions, names=("elbow", "wrist")):
+        self.curves.add("joint_states", stamp, names, ("position", "velocity"), [positions, [0.5] * len(positions)])
+
+    def test_every_point_comes_once_with_the_time_since_the_first_frame(self):
+        self.add(100.0, 1.0, 2.0)
+        self.add(100.5, 3.0, math.nan)
+        points, cursor = self.curves.since(["elbow/position", "wrist/position"], None)
+        self.assertEqual(points, {"elbow/position": [[0.0, 1.0], [0.5, 3.0]], "wrist/position": [[0.0, 2.0], [0.5, None]]})
+        self.assertEqual(self.curves.since(["elbow/position", "wrist/position"], cursor)[0], {})
+        self.add(101.0, 4.0, 5.0)
+        self.assertEqual(self.curves.since(["wrist/position"], cursor)[0], {"wrist/position": [[1.0, 5.0]]})
+        self.assertEqual(self.curves.names(), ["elbow/position", "elbow/velocity", "wrist/position", "wrist/velocity"])
+
+    def test_a_clock_that_was_set_back_and_other_names_begin_anew(self):
+        self.add(100.0, 1.0, 2.0)
+        _, cursor = self.curves.since(["elbow/position"], None)
+        self.add(1.0, 7.0, 8.0)
+        points, then = self.curves.since(["elbow/position"], cursor)
+        self.assertEqual(points, {"elbow/position": [[0.0, 7.0]]})
+        self.assertNotEqual(then[0], cursor[0])
+        self.add(1.1, 9.0, names=("finger",))
+        self.assertEqual(self.curves.names(), ["finger/position", "finger/velocity"])
+
+    def test_memory_is_bounded_and_a_late_reader_gets_what_is_kept(self):
+        for k in range(SCRIPT.MOST_FRAMES + 100):
+            self.add(float(k), float(k), 0.0)
+        points, _ = self.curves.since(["elbow/position"], (0, {"elbow/position": 50}))
+        self.assertEqual(len(points["elbow/position"]), SCRIPT.MOST_FRAMES)
+        self.assertEqual(points["elbow/position"][-1][1], SCRIPT.MOST_FRAMES + 99)
+
+    def test_a_signal_that_two_topics_have_is_one(self):
+        self.add(0.0, 1.0, 2.0)
+        self.curves.add("signals", 0.0, ["elbow/position", "gravity/energy"], ("",), [[1.0, 3.0]])
+        self.assertEqual(self.curves.names(), ["elbow/position", "elbow/velocity", "gravity/energy", "wrist/position", "wrist/velocity"])
+        self.assertEqual(self.curves.since(["gravity/energy", "unknown"], None)[0], {"gravity/energy": [[0.0, 3.0]]})
+
+
+class RequestsTest(PanelTestCase):
+    def test_the_page_loads_nothing_from_elsewhere_and_nobody_frames_it(self):
+        code, headers, page = self.ask("GET", "/")
+        self.assertEqual(code, 200)
+        self.assertNotIn("http", page)
+        self.assertNotIn("unsafe", headers["Content-Security-Policy"])
+        for part in ("default-src 'none'", "connect-src 'self'", "frame-ancestors 'none'"):
+            self.assertIn(part, headers["Content-Security-Policy"])
+
+    def test_only_this_machine_can_read_it(self):
+        self.assertEqual(self.server.server_address[0], "127.0.0.1")
+
+    def test_other_hosts_are_refused(self):
+        for hosts in (["evil.example"], [f"evil.example:{self.port}"], [f"localhost.evil.example:{self.port}"], [], ["localhost", "localhost"], ["[::1]:80"], [""]):
+            for method, path, body in (("GET", "/", None), ("GET", "/events", None), ("GET", "/report.html", None), ("POST", "/do", b'{"do": "pause"}')):
+                code, _, _ = self.ask(method, path, body, hosts, Content_Type="application/json")
+                self.assertEqual(code, 403, f"{method} {path} {hosts}")
+        self.assertEqual(self.nodes.asked, [])
+
+    def test_both_names_of_this_machine_and_the_port_of_a_tunnel_are_answered(self):
+        for host in (f"localhost:{self.port}", f"127.0.0.1:{self.port}", "localhost", "LocalHost:9000"):
+            code, _, _ = self.ask("POST", "/do", b'{"do": "pause"}', [host], Content_Type="application/json", Origin=f"http://{host}")
+            self.assertEqual(code, 200, host)
+        self.assertEqual(self.nodes.asked, [("pause", {})] * 4)
+
+    def test_foreign_origins_are_refused(self):
+        for origin in ("http://evil.example", "null", f"https://localhost:{self.port}", f"http://localhost:{self.port + 1}", f"http://127.0.0.1:{self.port}", ""):
+            self.assertEqual(self.post({"do": "pause"}, Origin=origin)[0], 403, origin)
+            self.assertEqual(self.ask("GET", "/events", Origin=origin)[0], 403, origin)
+        for site in ("cross-site", "same-site"):
+            self.assertEqual(self.post({"do": "pause"}, Sec_Fetch_Site=site)[0], 403)
+            self.assertEqual(self.ask("GET", "/events", Sec_Fetch_Site=site)[0], 403)
+        self.assertEqual(self.ask("GET", "/", Sec_Fetch_Site="cross-site")[0], 200, "a link to the page does nothing")
+        self.assertEqual(self.nodes.asked, [])
+
+    def test_what_a_form_can_send_is_refused(self):
+        for kind in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""):
+            code, _, _ = self.ask("POST", "/do", b'{"do": "pause"}', Content_Type=kind)
+            self.assertEqual(code, 415, kind)
+        for length in (str(SCRIPT.MOST_BYTES + 1), "-1", "1e3", ""):
+            self.assertEqual(self.ask("POST", "/do", b"", Content_Type="application/json", Content_Length=length)[0], 413, length)
+        for method in ("PUT", "OPTIONS", "DELETE"):
+            self.assertEqual(self.ask(method, "/do")[0], 501)
+        self.assertEqual(self.nodes.asked, [])
+
+    def test_a_bad_request_is_answered_with_a_sentence(self):
+        for body, sentence in ((b"{", "not JSON"), (b"[" * 60000, "not JSON"), (b"\xff", "not JSON"), (b"[]", "allowed: cancel, effort"), (b'{"do": ["pause"]}', "do: unknown"),
+                               (b'{"do": "shutdown"}', "do: unknown"), (b'{"do": "pause", "x": 1}', "pause: wrong fields (value: x, needed: none)"),
+                               (b'{"do": "effort", "name": "elbow"}', "needed: name, value"), (b'{"do": "effort", "name": "elbow", "value": NaN}', "finite"),
+                               (b'{"do": "effort", "name": "elbow", "value": true}', "finite"), (b'{"do": "effort", "name": 3, "value": 1}', "a name needs"),
+                               (b'{"do": "effort", "name": ["x"], "value": 1}', "a name needs"), (b'{"do": "effort", "name": "\\ud800", "value": 1}', "a name needs"),
+                               (b'{"do": "effort", "name": "elbow", "value": 1' + 400 * b"0" + b"}", "finite"), (b'{"do": "effort", "name": "elbow", "value": 1e999}', "finite"),
+                               (b'{"do": "parameters", "values": [1]}', "finite"), (b'{"do": "parameters", "values": {"length": "1"}}', "finite")):
+            code, _, text = self.ask("POST", "/do", body, Content_Type="application/json")
+            self.assertEqual(code, 400, body[:80])
+            self.assertIn(sentence, json.loads(text)["message"])
+        self.assertEqual(self.nodes.asked, [])
+
+    def test_commands_reach_the_nodes_and_their_refusals_the_page(self):
+        code, _, text = self.post({"do": "effort", "name": "elbow", "value": 2}, Origin=f"http://localhost:{self.port}", Sec_Fetch_Site="same-origin")
+        self.assertEqual((code, json.loads(text)), (200, {"success": True, "message": "effort is done"}))
+        _, _, text = self.post({"do": "setpoint", "name": "refused", "value": 0.5})
+        self.assertEqual(json.loads(text), {"success": False, "message": "refused: no such joint"})
+        self.post({"do": "parameters", "values": {"length": 0.75}})
+        self.assertEqual(self.nodes.asked, [("effort", {"name": "elbow", "value": 2}), ("setpoint", {"name": "refused", "value": 0.5}),
+                                            ("parameters", {"values": {"length": 0.75}})])
+
+    def test_events_have_the_state_at_each_change_and_the_new_points(self):
+        self.frame(0)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/events?signal=elbow/friction")
+        answer = connection.getresponse()
+        self.addCleanup(answer.close)
+        self.assertEqual(answer.headers["Content-Type"], "text/event-stream")
+
+        def event():
+            lines = []
+            while not lines or lines[-1]:
+                lines.append(answer.readline().decode().strip())
+            return lines[0].partition(": ")[2], json.loads(lines[1].partition(": ")[2]) if len(lines) > 2 else None
+
+        kind, state = event()
+        self.assertEqual((kind, state["commands"]["setpoints"], state["simulation"]["answers"]), ("state", {"servo": 0.25}, True))
+        self.assertEqual(event(), ("curves", {"generation": 0, "points": {"elbow/friction": [[0.0, -1.0]]}}))
+        self.frame(1)
+        self.assertEqual(event()[1]["points"]["elbow/friction"][0][0], 0.1)
+        self.board.tell("simulation", seen=-math.inf)
+        self.assertFalse(event()[1]["simulation"]["answers"])
+
+    def test_more_signals_than_a_page_has_curves_and_other_addresses_are_refused(self):
+        self.assertEqual(self.ask("GET", "/events?" + "signal=x&" * (SCRIPT.MOST_CURVES + 1))[0], 400)
+        for path in ("/other", "/../panel", "/do"):
+            self.assertEqual(self.ask("GET", path)[0], 404)
+        self.assertEqual(self.ask("POST", "/", b"{}", Content_Type="application/json")[0], 404)
+
+    def test_a_report_that_is_not_there_is_a_sentence(self):
+        code, _, text = self.ask("GET", "/report.html")
+        self.assertEqual(code, 404)
+        self.assertIn("no optimization has ended", text)
+        self.board.bag = "/nowhere/job.bag"
+        code, _, text = self.ask("GET", "/report.html")
+        self.assertEqual(code, 404)
+        self.assertIn("/nowhere/job.bag: neither a folder nor a bag", text)
+
+
+class CommandLineTest(unittest.TestCase):
+    def refusal(self, *arguments):
+        done = subprocess.run([PANEL, *arguments], stderr=subprocess.PIPE, text=True, check=False, timeout=60,
+                              env={"PATH": "/usr/bin:/bin", "ROS_MASTER_URI": "http://localhost:1", "ROS_ROOT": "/usr/share/ros"})
+        self.assertNotEqual(done.returncode, 0)
+        return done.stderr
+
+    def test_sentences_for_what_is_wrong(self):
+        self.assertIn("value: 70000, allowed: 0 to 65535", self.refusal("--port", "70000"))
+        self.assertIn("not a name of a node (value: my node)", self.refusal("--simulation", "my node"))
+        self.assertRegex(self.refusal("--port", "0"), "no ROS master is running|it needs ROS")
+        with SCRIPT.make_server(0, None, None) as taken:
+            self.assertIn(f"(value: {taken.server_address[1]}, allowed: a free port", self.refusal("--port", str(taken.server_address[1])))
+
+
+if __name__ == "__main__":
+    unittest.main()
