@@ -4,7 +4,7 @@ from .charts import Series, line_chart
 
 GROUPS = (
     ("Objective and controllers", "errors, efforts and whatever else the study reads"),
-    ("Friction", "friction, normal force, sliding velocity and power of each joint with friction"),
+    ("Friction", "friction, normal force, sliding velocity and power of each joint with friction; loss and torque of gears"),
     ("Motion", "positions and velocities"),
     ("Powers of the mechanism", "negative where energy leaves the mechanism"),
     ("Further signals", ""),
@@ -17,7 +17,7 @@ def group_of(name, used):
     quantity = name.rsplit("/", 1)[-1]
     if name.startswith("mechanism/"):
         return 3
-    if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power"):
+    if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss"):
         return 1
     if name in used or quantity in ("error", "output", "effort", "integral"):
         return 0

@@ -208,7 +208,9 @@ class Analysis {
       // All rows of a joint enter its normal force (12); of a plane only the first row does, and a
       // ball has no others.
       const bool plane = topology.pairs[k].kind->is_plane();
-      if (joint < 0 || (plane && !moves(layout_.pair_row[k], layout_.pair_row[k] + 1))) continue;
+      if (joint < 0 || topology.pairs[k].friction_is_direct ||
+          (plane && !moves(layout_.pair_row[k], layout_.pair_row[k] + 1)))
+        continue;
       result->friction_chosen.push_back(topology.pairs[k].name);
       result->chosen_joints.push_back(joint);
     }

@@ -26,6 +26,8 @@ const std::map<std::string, SignalKind>& joint_kinds() {
       {"effort", SignalKind::kJointEffort},
       {"effort_rate", SignalKind::kJointEffortRate},
       {"friction", SignalKind::kJointFriction},
+      {"gear_torque", SignalKind::kGearTorque},
+      {"gear_loss", SignalKind::kGearLoss},
       {"normal_force", SignalKind::kJointNormalForce},
       {"sliding_velocity", SignalKind::kJointSlidingVelocity},
       {"friction_power", SignalKind::kFrictionPower},

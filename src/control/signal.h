@@ -20,6 +20,8 @@ enum class SignalKind {
   kJointEffort,
   kJointEffortRate,  ///< theory (54)
   kJointFriction,
+  kGearTorque,  ///< torque that the gear of a joint transmits; theory (9b)
+  kGearLoss,    ///< what gear and motor lose, on the child
   kJointNormalForce,
   kJointSlidingVelocity,
   kContactFriction,  ///< friction of a pair that slips isotropically; theory (13a)

@@ -49,8 +49,10 @@ struct FrictionDescription : FrictionNumbers<Quantity> {
   }
 
   FrictionModel model = FrictionModel::kBrownMcPhee;
+  bool is_direct = false;  ///< in N m or N, theory (10a); else coefficients over a normal force
   bool is_directional =
       false;  ///< a number for motion against the axis is given; else they are unused
+  bool has_exponent = false;                             ///< viscous_exponent is given
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };
@@ -115,12 +117,22 @@ struct TorsionSpringDescription {
       free_position;  ///< [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
 };
 
+/// The losses of an actuator's gear and motor, theory (9b).
+struct GearDescription {
+  std::optional<Quantity> efficiency;  ///< eta, 0 ... 1; none: no loss by torque
+  std::optional<Quantity>
+      backdrive_efficiency;   ///< eta_b, at most 1; none: as many losses per torque
+  Quantity coulomb, viscous;  ///< T_c [N m] and b [N m s/rad] at the motor's shaft
+  FrictionDescription slip;   ///< law of the flanks, direct, with T_s = T_c = 1 [rad/s or m/s]
+};
+
 /// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint; theory
 /// (9a). The rotor is carried by the parent link and turns about the joint's axis.
 struct ActuatorDescription {
   Quantity gear_ratio{1.0};  ///< n, rotor rate per joint rate [-, or rad/m on a prismatic joint]
   Quantity
       rotor_inertia;  ///< J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
+  std::optional<GearDescription> gear;
   SourceLocation where;
 };
 
@@ -149,6 +161,9 @@ struct JointDescription {
   /// [rad]; taken from the study's initial state.
   QuantityVector start_rotation;
   SourceLocation where;
+
+  /// Whether the actuator's gear loses in proportion to the torque that it transmits; theory (9b).
+  bool has_lossy_gear() const { return actuator && actuator->gear && actuator->gear->efficiency; }
 
   /// The element for messages: `<joint name="crank_joint">` or `<loop name="close">`.
   std::string element() const {

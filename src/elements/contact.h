@@ -82,8 +82,16 @@ ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T
 // slip coordinate, then sigma - s_dw' = 0 if the law has a dwell state. A BristleContact with
 // element -1 slips isotropically; else it belongs to one joint coordinate.
 
+/// The numbers of the friction law of a contact.
+template <class T>
+const FrictionConstants<T>& bristle_numbers(const StateView<T>& view,
+                                            const BristleContact& contact) {
+  return contact.gear ? view.dynamics(contact.pair, contact.element).gear.slip
+                      : view.constants(contact.pair).friction;
+}
+
 /// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the
-/// pin radius for a turn, 1 for a slide).
+/// pin radius for a turn, 1 for a slide and for the flanks of a gear).
 template <class T>
 ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact) {
   const auto p = to_index(contact.pair);
@@ -95,7 +103,7 @@ ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& cont
                        CoordinateConstants<T>::Kind::kTurn;
   ContactSlip<T> slip;
   slip.motion[0] = view.coordinate(contact.pair, contact.element, CoordinateDetail::kRate);
-  slip.arm[0] = turning ? view.design.constants.pairs[p].friction.pin_radius : T(1.0);
+  slip.arm[0] = turning && !contact.gear ? bristle_numbers(view, contact).pin_radius : T(1.0);
   slip.u[0] = slip.arm[0] * slip.motion[0].rate;
   return slip;
 }
@@ -125,7 +133,7 @@ template <class T>
 void bristle_residual(const StateView<T>& view, const BristleContact& contact, VectorX<T>* G) {
   const ContactSlip<T> slip = bristle_slip(view, contact);
   const Bristle<T> law =
-      bristle_law<T>(contact, slip.u, view.state->s, view.constants(contact.pair).friction);
+      bristle_law<T>(contact, slip.u, view.state->s, bristle_numbers(view, contact));
   const Vector3<T> rate = law.rate + bristle_turn(view, contact);
   const auto set = [&](int s, const T& value) {
     (*G)[view.layout.state_column(s)] = view.state->z[view.layout.state_column(s)] - value;

@@ -15,7 +15,7 @@ namespace codesign {
 /// mechanical energy. Gravity, springs and the elastic part of stops are not among them, since
 /// their work is in the potential energy.
 enum class PowerKind {
-  kFriction,  ///< `<codesign:friction>` with its viscous part, and `<dynamics friction>`
+  kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
   kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the
               ///< dissipation of stops
   kActuator,  ///< controllers, as applied within the effort limits
@@ -30,7 +30,7 @@ template <class T>
 T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, const T& rate) {
   switch (kind) {
     case PowerKind::kFriction:
-      return joint_load(view, friction_part(load), rate);
+      return friction_load(view, load, rate);
     case PowerKind::kDamping: {
       JointLoad part;
       part.pair = load.pair;
@@ -50,8 +50,8 @@ T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, 
 /// The power of one kind along one joint coordinate; zero if no load of that kind acts there.
 template <class T>
 T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
-  const bool acts = kind == PowerKind::kFriction  ? load.reaction_friction || load.constant_friction
-                    : kind == PowerKind::kDamping ? load.passive || load.stop
+  const bool acts = kind == PowerKind::kFriction   ? load.has_friction()
+                    : kind == PowerKind::kDamping  ? load.passive || load.stop
                     : kind == PowerKind::kActuator ? !load.controllers.empty()
                                                    : !load.constant.empty();
   if (!acts) return T(0.0);

@@ -35,7 +35,10 @@ void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* 
   for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k)
     coupling_residual(view, workspace, k, G);
   for (const JointLoad& load : system.loads())
-    if (view.layout.is_cut(load.pair)) load_residual(view, workspace, load, G);
+    if (view.layout.is_cut(load.pair)) {
+      load_residual(view, workspace, load, G);
+      gear_residual(view, load, G);
+    }
   for (int pair : system.contacts())
     if (view.layout.is_cut(pair)) contact_residual(view, workspace, pair, G);
 }

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "elements/body.h"
 #include "elements/contact.h"
 #include "elements/controllers.h"
 #include "elements/loads.h"
@@ -9,6 +10,7 @@
 #include "forces/compliance.h"
 #include "forces/control_law.h"
 #include "forces/friction_curves.h"
+#include "forces/gear.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -17,25 +19,35 @@ namespace codesign {
 template <class T>
 T sliding_friction(const FrictionLaw& law, bool directional, const T& u,
                    const FrictionConstants<T>& c) {
-  const auto S = [&law](const T& v, const T& mu_s, const T& mu_d, const T& v_t) {
-    return law.curve.of<T>(v, mu_s, mu_d, v_t);
+  const auto S = [&](const T& v, const T& mu_s, const T& mu_d) {
+    return law.curve.of<T>(v, mu_s, mu_d, c);
   };
   if (directional && law.directional) return directional_friction<T>(S, u, c);
-  return S(u, c.mu_static, c.mu_dynamic, c.transition_velocity);
+  return S(u, c.mu_static, c.mu_dynamic);
 }
 
-/// The load L of friction that depends on the reaction, along one joint coordinate [N or N m];
-/// positive against the coordinate; theory (13) with S from (10) or (48), or mu of (13e), (13f) in
-/// its place.
+/// The viscous part of annotated friction [N or N m], theory (13), (10a), (48).
+/// @param rate of the coordinate. @param radius sliding velocity per rate.
+template <class T>
+T viscous_load(const JointLoad& load, const T& rate, const T& radius,
+               const FrictionConstants<T>& c) {
+  const T linear = load.directional ? directional_viscous<T>(rate, radius, c) : T(c.viscous * rate);
+  if (!load.viscous_power) return linear;
+  return linear * viscous_power<T>(rate, T(c.transition_velocity / radius), c.viscous_exponent);
+}
+
+/// The load L of annotated friction along one joint coordinate [N or N m], positive against the
+/// coordinate; theory (13) with S from (10), (10a) or (48), or mu of (13e), (13f) in its place. N
+/// is that of the reaction, or 1 for friction that is given directly.
 /// @param rate of the coordinate. @param state receives velocity, normal force and load, if not
 /// null.
 template <class T>
-T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& rate,
-                    std::common_type_t<FrictionState<T>*> state) {
+T annotated_friction(const StateView<T>& view, const JointLoad& load, const T& rate,
+                     std::common_type_t<FrictionState<T>*> state) {
   const FrictionConstants<T>& c = view.constants(load.pair).friction;
   const bool turning = view.coordinate_constants(load.pair, load.element).kind ==
                        CoordinateConstants<T>::Kind::kTurn;
-  const T N = normal_force(view, load.pair);
+  const T N = load.direct ? T(1.0) : normal_force(view, load.pair);
   const T radius = turning ? c.pin_radius : T(1.0);
   const T u = radius * rate;
   T mu;
@@ -43,10 +55,8 @@ T reaction_friction(const StateView<T>& view, const JointLoad& load, const T& ra
     mu = bristle_law<T>(*bristle, Vector3<T>(u, T(0.0), T(0.0)), view.state->s, c).mu[0];
   else
     mu = sliding_friction<T>(view.system.friction_law(load.pair), load.directional, u, c);
-  const T viscous =
-      load.directional ? directional_viscous<T>(rate, radius, c) : T(c.viscous * rate);
-  const T value = radius * mu * N + viscous;
-  if (state) *state = {rate, N, value};
+  const T value = radius * mu * N + viscous_load(load, rate, radius, c);
+  if (state) *state = {rate, load.direct ? T(0.0) : N, value};
   return value;
 }
 
@@ -114,30 +124,114 @@ T applied_effort(const StateView<T>& view, const JointLoad& load) {
   return saturate(demand, limit).value;
 }
 
-/// The whole load L along a coordinate: friction, damping, spring and stop minus constant and
-/// applied efforts.
+/// What acts on the joint's own side of a gear: friction of the bearing, damping, spring and stop
+/// minus constant efforts.
 template <class T>
-T joint_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
+T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value(0.0);
-  if (load.reaction_friction) value += reaction_friction(view, load, rate, nullptr);
+  if (load.friction) value += annotated_friction(view, load, rate, nullptr);
   if (load.passive || load.constant_friction)
     value += passive_load(view, load.pair, load.element, load, rate);
   if (load.stop) value += stop_load(view, load, rate, view.system.study().limits.dissipation);
   if (!load.constant.empty()) value -= constant_effort(view, load);
+  return value;
+}
+
+/// The sum of c lambda of the couplings of a coordinate [N or N m]: of its drive, which acts on the
+/// motor's side of a gear, or of all others, which act on the joint's side; theory (8a), (28).
+template <class T>
+T coupling_load(const StateView<T>& view, const JointLoad& load, bool of_drive) {
+  T value(0.0);
+  for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) {
+    const Coupling& coupling = view.system.topology().couplings[k];
+    if (coupling.is_drive != of_drive) continue;
+    const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
+    for (std::size_t t = 0; t < coupling.terms.size(); ++t)
+      if (coupling.terms[t].pair == load.pair && coupling.terms[t].element == load.element)
+        value += view.design.constants.couplings[k].coefficients[t] * view.state->z[row];
+  }
+  return value;
+}
+
+/// The torque tau that the gear of a coordinate transmits to the joint [N m or N], positive along
+/// the coordinate; theory (9b): an unknown of a cut pair, else what the child and the loads on the
+/// joint's side need.
+template <class T>
+T gear_torque(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  if (load.gear_unknown >= 0) return view.state->z[view.layout.gear_column(load.gear_unknown)];
+  const auto body = to_index(view.layout.forest.body_below[to_index(load.pair)]);
+  std::array<T, 6> rows;
+  carry_back(transmitted_wrench(view, static_cast<int>(body)), view.constants(load.pair),
+             view.motion.poses[body],
+             view.state->q.data() + view.layout.column(static_cast<int>(body)), rows.data());
+  return rows[to_index(load.element)] + link_load(view, load, rate) +
+         coupling_load(view, load, false);
+}
+
+/// The friction of a gear's flanks per pressure, mu of theory (9b).
+template <class T>
+T gear_slip(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  const FrictionConstants<T>& c = view.dynamics(load.pair, load.element).gear.slip;
+  if (const BristleContact* bristle = view.system.bristle(load.pair, load.element, true))
+    return bristle_law<T>(*bristle, Vector3<T>(rate, T(0.0), T(0.0)), view.state->s, c).mu[0];
+  return sliding_friction(view.system.gear_law(load.pair, load.element), false, rate, c);
+}
+
+/// The load L of gear and motor, theory (9b): the loss of the flanks and the friction of the
+/// motor's side.
+template <class T>
+T gear_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  const GearConstants<T>& c = view.dynamics(load.pair, load.element).gear;
+  const T mu = gear_slip(view, load, rate);
+  T value = mu * c.coulomb + c.viscous * rate;
+  if (load.gear_transmits) value += gear_loss(gear_torque(view, load, rate), mu, c);
+  return value;
+}
+
+/// The whole load L along a coordinate: friction, damping, spring, stop and gear minus constant and
+/// applied efforts.
+template <class T>
+T joint_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  T value = link_load(view, load, rate);
+  if (load.gear) value += gear_load(view, load, rate);
   if (!load.controllers.empty()) value -= applied_effort(view, load);
   return value;
 }
 
-/// The friction of a load, without its other parts. A copy of `load` would also copy its lists,
+/// Sets the row of a transmitted torque that is an unknown, theory (9b): tau is the effort of
+/// controllers and drives less the load of the rotor and of gear_load().
+template <class T>
+void gear_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* G) {
+  if (load.gear_unknown < 0) return;
+  const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
+  const int column = view.layout.gear_column(load.gear_unknown);
+  T value = view.state->z[column] + gear_load(view, load, rate) + coupling_load(view, load, true);
+  if (!load.controllers.empty()) value -= applied_effort(view, load);
+  for (const Rotor& rotor : view.system.rotors())
+    if (rotor.pair == load.pair && rotor.element == load.element) value += rotor_load(view, rotor);
+  (*G)[column] = value;
+}
+
+/// The friction of a load without gear and other parts. A copy of `load` would also copy its lists,
 /// which allocates memory.
 inline JointLoad friction_part(const JointLoad& load) {
   JointLoad part;
   part.pair = load.pair;
   part.element = load.element;
-  part.reaction_friction = load.reaction_friction;
+  part.friction = load.friction;
+  part.direct = load.direct;
   part.directional = load.directional;
+  part.viscous_power = load.viscous_power;
   part.constant_friction = load.constant_friction;
   return part;
+}
+
+/// The load L of all friction along a coordinate, of joint, gear and motor.
+template <class T>
+T friction_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  T value = link_load(view, friction_part(load), rate);
+  if (load.gear) value += gear_load(view, load, rate);
+  return value;
 }
 
 /// Adds J^T L to the rows of motion.
@@ -151,7 +245,7 @@ void load_residual(const StateView<T>& view, Workspace<T>* workspace, const Join
 }
 
 /// Friction of a joint coordinate for observers: its rate, normal force and load L, of
-/// `<codesign:friction>` and `<dynamics friction>`.
+/// `<codesign:friction>`, `<dynamics friction>` and gear.
 template <class T>
 FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element) {
   const T rate = view.coordinate(pair, element, CoordinateDetail::kRate).rate;
@@ -159,12 +253,13 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != pair || load.element != element) continue;
     state.velocity = rate;
-    if (load.reaction_friction) reaction_friction(view, load, rate, &state);
+    if (load.friction) annotated_friction(view, load, rate, &state);
     if (load.constant_friction) {
       JointLoad dry = load;
       dry.passive = dry.spring = false;
       state.load += passive_load(view, pair, element, dry, rate);
     }
+    if (load.gear) state.load += gear_load(view, load, rate);
   }
   return state;
 }

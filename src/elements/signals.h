@@ -55,20 +55,26 @@ T orientation_term(const StateView<T>& view, const SignalReference& term) {
                                euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
 }
 
-/// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the
-/// child, -L of theory (13).
+/// The applied effort of a joint or its rate, positive along its coordinate, its friction on the
+/// child, -L of theory (13), the torque that its gear transmits, or what that loses, -L of (9b).
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term) {
   T sum(0.0);
+  const auto rate = [&] {
+    return T(view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate);
+  };
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
     if (term.kind == SignalKind::kJointEffort)
       sum += applied_effort(view, load);
     else if (term.kind == SignalKind::kJointEffortRate)
       sum += applied_effort_rate(view, load);
+    else if (term.kind == SignalKind::kGearTorque)
+      sum += gear_torque(view, load, rate());
+    else if (term.kind == SignalKind::kGearLoss)
+      sum -= gear_load(view, load, rate());
     else
-      sum -= joint_load<T>(view, friction_part(load),
-                           view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate);
+      sum -= friction_load(view, load, rate());
   }
   return sum;
 }
@@ -126,6 +132,8 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
     case SignalKind::kJointEffort:
     case SignalKind::kJointEffortRate:
     case SignalKind::kJointFriction:
+    case SignalKind::kGearTorque:
+    case SignalKind::kGearLoss:
       return load_term(view, term);
     case SignalKind::kJointNormalForce:
       return normal_force(view, term.pair);

@@ -44,9 +44,8 @@ bool CompiledSystem::begins_explicitly() const {
   if (solver.integrator != IntegratorKind::kRosenbrock) return false;
   if (solver.method == RosenbrockMethod::kDopri5) return true;
   const bool has_dry_friction =
-      !contacts().empty() || std::any_of(loads().begin(), loads().end(), [](const JointLoad& load) {
-        return load.reaction_friction || load.constant_friction;
-      });
+      !contacts().empty() || std::any_of(loads().begin(), loads().end(),
+                                         [](const JointLoad& load) { return load.has_friction(); });
   return solver.method == RosenbrockMethod::kAuto && compliance() == 0.0 && !has_dry_friction;
 }
 

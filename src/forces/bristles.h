@@ -93,6 +93,7 @@ struct BristleContact {
   int pair = -1, element = -1;  ///< element -1: the pair slips isotropically
   int first = 0;                ///< index of the first state
   int size = 1;                 ///< number of slip coordinates
+  bool gear = false;            ///< the flanks of the coordinate's gear, theory (9b)
 
   bool dwells() const { return model->dwells; }
   int states() const { return size + (dwells() ? 1 : 0); }

@@ -20,6 +20,30 @@ T brown_mcphee(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t
   return mu_dynamic * tanh(4.0 * u) + (mu_static - mu_dynamic) / (d * d) * u;
 }
 
+/// Stribeck's curve as it is identified, per unit of normal force; doc/theory.md (10a):
+///   S(v) = (mu_d + (mu_s - mu_d) exp(-v^2/v_s^2)) tanh(4 v / v_t).
+/// Linear in mu_s and mu_d.
+/// @param v sliding velocity with sign [m/s]; direct friction [m/s or rad/s], mu_s, mu_d [N or N
+/// m].
+template <class T>
+T stribeck(const T& v, const T& mu_static, const T& mu_dynamic, const FrictionNumbers<T>& c) {
+  using std::exp;
+  using std::tanh;
+  const T w = v / c.stribeck_velocity;
+  return (mu_dynamic + (mu_static - mu_dynamic) * exp(-(w * w))) *
+         tanh(4.0 * (v / c.transition_velocity));
+}
+
+/// The factor by which the viscous load c rate becomes c |rate|^a sgn(rate), smooth at rest;
+/// doc/theory.md (10a): (rate^2 + w^2)^((a - 1)/2).
+/// @param rate [rad/s or m/s], @param w transition velocity as a rate, > 0, @param a exponent [-].
+template <class T>
+T viscous_power(const T& rate, const T& w, const T& a) {
+  using std::exp;
+  using std::log;
+  return exp(0.5 * (a - 1.0) * log(rate * rate + w * w));
+}
+
 // Friction whose numbers differ with the sign of the velocity; doc/theory.md (48). Analytic, and
 // dissipative like each of the two laws: both oppose the motion, and each counts with a share
 // between 0 and 1.
@@ -33,12 +57,12 @@ T forward_share(const T& v, const T& v_t) {
 }
 
 /// The coefficient with other numbers against the axis: w S_forward + (1 - w) S_backward.
-/// @param S the coefficient as a function of v, mu_s, mu_d and v_t; linear in mu_s and mu_d.
+/// @param S the coefficient as a function of v, mu_s and mu_d; linear in mu_s and mu_d.
 template <class T, class Curve>
 T directional_friction(const Curve& S, const T& v, const FrictionNumbers<T>& c) {
-  const T back = S(v, c.mu_static_backward, c.mu_dynamic_backward, c.transition_velocity);
-  const T more = S(v, T(c.mu_static - c.mu_static_backward),
-                   T(c.mu_dynamic - c.mu_dynamic_backward), c.transition_velocity);
+  const T back = S(v, c.mu_static_backward, c.mu_dynamic_backward);
+  const T more =
+      S(v, T(c.mu_static - c.mu_static_backward), T(c.mu_dynamic - c.mu_dynamic_backward));
   return back + forward_share<T>(v, c.transition_velocity) * more;
 }
 

@@ -11,11 +11,18 @@ namespace codesign {
 
 namespace {
 
-// name, title, curve, per_speed, bristle, dwells, directional, divides_by_mu_dynamic
+template <class T>
+T brown_mcphee_curve(const T& v, const T& mu_static, const T& mu_dynamic,
+                     const FrictionNumbers<T>& c) {
+  return brown_mcphee(v, mu_static, mu_dynamic, c.transition_velocity);
+}
+
+// name, title, curve, per_speed, bristle, dwells, directional, divides_by_mu_dynamic,
+// has_stribeck_velocity
 constexpr FrictionLaw kFrictionTable[] = {
     {"brown_mcphee",
      "Brown and McPhee",
-     {brown_mcphee, brown_mcphee},
+     {brown_mcphee_curve, brown_mcphee_curve},
      {friction_per_speed, friction_per_speed},
      {},
      false,
@@ -23,12 +30,14 @@ constexpr FrictionLaw kFrictionTable[] = {
      false},
     {"gonthier", "Gonthier", {}, {}, {gonthier, gonthier}, true, false, false},
     {"lugre", "LuGre", {}, {}, {lugre, lugre}, false, false, true},
+    {"stribeck", "Stribeck", {stribeck, stribeck}, {}, {}, false, true, false, true},
 };
 
 }  // namespace
 
 const FrictionModel FrictionModel::kBrownMcPhee{kFrictionTable[0]},
-    FrictionModel::kGonthier{kFrictionTable[1]}, FrictionModel::kLuGre{kFrictionTable[2]};
+    FrictionModel::kGonthier{kFrictionTable[1]}, FrictionModel::kLuGre{kFrictionTable[2]},
+    FrictionModel::kStribeck{kFrictionTable[3]};
 
 std::vector<FrictionModel> friction_laws() {
   return std::vector<FrictionModel>(std::begin(kFrictionTable), std::end(kFrictionTable));

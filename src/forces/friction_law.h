@@ -27,9 +27,10 @@ struct Bristle {
 };
 
 /// The friction S(v) per normal force as a function of the sliding velocity [m/s], odd in v; theory
-/// (10).
+/// (10), (10a). mu_static and mu_dynamic may be those of one direction or a difference of both.
 template <class T>
-using FrictionCurve = T (*)(const T& v, const T& mu_static, const T& mu_dynamic, const T& v_t);
+using FrictionCurve = T (*)(const T& v, const T& mu_static, const T& mu_dynamic,
+                            const FrictionNumbers<T>& c);
 /// S(|u|)/|u| [s/m] as a function of u.u; theory (13a).
 template <class T>
 using FrictionPerSpeed = T (*)(const T& square, const T& mu_static, const T& mu_dynamic,
@@ -52,12 +53,14 @@ struct FrictionLaw {
   bool directional = false;  ///< `curve` is linear in mu_s and mu_d, which may differ for motion
                              ///< against the axis, theory (48)
   bool divides_by_mu_dynamic = false;  ///< mu_dynamic must not be zero
+  bool has_stribeck_velocity = false;  ///< `curve` reads it
 
   /// Whether the law uses a number; other numbers are refused, since they would have no effect.
   bool uses(const FrictionNumberRule& rule) const {
     using L = FrictionNumberRule::Laws;
     return rule.laws == L::kAll || (rule.laws == L::kBristles && bristle) ||
-           (rule.laws == L::kDwelling && dwells) || (rule.laws == L::kDirectional && directional);
+           (rule.laws == L::kDwelling && dwells) || (rule.laws == L::kDirectional && directional) ||
+           (rule.laws == L::kStribeck && has_stribeck_velocity);
   }
 };
 
@@ -65,7 +68,7 @@ struct FrictionLaw {
 class FrictionModel : public RowReference<FrictionLaw> {
  public:
   using RowReference::RowReference;
-  static const FrictionModel kBrownMcPhee, kGonthier, kLuGre;
+  static const FrictionModel kBrownMcPhee, kGonthier, kLuGre, kStribeck;
 };
 
 /// The library's friction laws.
@@ -80,7 +83,7 @@ T per_speed(const FrictionLaw& law, const T& square, const FrictionNumbers<T>& c
   // Speed over v_t that counts as rest, where the quotient has a limit but no value.
   constexpr double kRest = 1e-6;
   const T rest = kRest * c.transition_velocity, speed = sqrt(square + rest * rest);
-  return law.curve.of<T>(speed, c.mu_static, c.mu_dynamic, c.transition_velocity) / speed;
+  return law.curve.of<T>(speed, c.mu_static, c.mu_dynamic, c) / speed;
 }
 
 }  // namespace codesign

@@ -9,9 +9,10 @@ namespace codesign {
 /// evaluation of designs go through these rows.
 template <class Value>
 struct FrictionNumbers {
-  Value mu_static{0.0};            ///< mu_s [-]
-  Value mu_dynamic{0.0};           ///< mu_d [-]
-  Value transition_velocity{1.0};  ///< v_t [m/s]
+  Value mu_static{0.0};            ///< mu_s [-]; direct: `static`, T_s [N or N m]
+  Value mu_dynamic{0.0};           ///< mu_d [-]; direct: `coulomb`, T_c [N or N m]
+  Value transition_velocity{1.0};  ///< v_t [m/s]; direct: [m/s or rad/s], as v_s
+  Value stribeck_velocity{1.0};    ///< v_s [m/s]
   Value joint_length{1.0};         ///< a [m]
   Value joint_width{1.0};          ///< b [m]
   Value pin_radius{
@@ -20,16 +21,19 @@ struct FrictionNumbers {
   Value preload{0.0};            ///< N_0 [N], constant part of the normal force
   Value smoothing{1.0};          ///< epsilon of the smooth absolute value [N]
   Value viscous{0.0};            ///< c [N s/m] or [N m s/rad], viscous coefficient of (13)
+  Value viscous_exponent{1.0};   ///< a [-], (10a)
   Value bristle_stiffness{1.0};  ///< sigma_0 [1/m], per normal force
   Value bristle_damping{1.0};    ///< sigma_1 [s/m], per normal force
   Value dwell_time{1.0};         ///< tau_dw [s]
   // Against the joint's axis, theory (48).
-  Value mu_static_backward{0.0};   ///< mu_s [-]
-  Value mu_dynamic_backward{0.0};  ///< mu_d [-]
+  Value mu_static_backward{0.0};   ///< mu_s [-]; direct: T_s
+  Value mu_dynamic_backward{0.0};  ///< mu_d [-]; direct: T_c
   Value viscous_backward{0.0};     ///< c [N s/m] or [N m s/rad]
 };
 
-/// The rule for one attribute of `<codesign:friction>`.
+/// The rule for one attribute of `<codesign:friction>`. Friction is given by coefficients, over the
+/// normal force of the joint's bearing, or directly in N m or N, theory (10a); mu_static and
+/// mu_dynamic have another name in each form.
 struct FrictionNumberRule {
   /// The value of a missing attribute: none (it is required), `standard`, 1, or the value of
   /// another attribute. A joint whose length or width is missing has a law without them; the value
@@ -39,25 +43,28 @@ struct FrictionNumberRule {
     kStandard,
     kLengthOfOne,
     kPinRadius,
+    kTenTransitions,
     kMuStatic,
     kMuDynamic,
-    kViscous
+    kViscous,
+    kCoulomb,
+    kStatic  ///< `static_backward`: `static` if it is given, else `coulomb_backward`
   };
   /// The friction laws that use the number: all, those with bristles, with a dwell state, with
-  /// numbers for motion against the axis.
-  enum class Laws { kAll, kBristles, kDwelling, kDirectional };
+  /// numbers for motion against the axis, with a Stribeck velocity.
+  enum class Laws { kAll, kBristles, kDwelling, kDirectional, kStribeck };
+  enum class Form { kAny, kCoefficients, kDirect };
 
   const char* attribute;
   bool zero_allowed;  ///< whether zero is allowed; negative values never are
   Missing missing = Missing::kStandard;
   double standard = 0.0;
   Laws laws = Laws::kAll;
+  Form form = Form::kAny;
+  bool is_backward = false;  ///< whether it counts for motion against the joint's axis only
+  bool of_gears = false;     ///< whether `<codesign:actuator>` has it, too; theory (9b)
 
-  /// Whether the number counts for motion against the joint's axis only.
-  bool is_backward() const {
-    return missing == Missing::kMuStatic || missing == Missing::kMuDynamic ||
-           missing == Missing::kViscous;
-  }
+  bool is_in(bool direct) const { return form == Form::kAny || (form == Form::kDirect) == direct; }
 };
 
 /// Calls visit(rule, member of each structure...) for each number, in the order in which they are
@@ -66,28 +73,44 @@ template <class Visit, class... Values>
 void visit_friction_numbers(const Visit& visit, Values*... of) {
   using M = FrictionNumberRule::Missing;
   using U = FrictionNumberRule::Laws;
-  visit(FrictionNumberRule{"mu_static", true, M::kRefused}, of->mu_static...);
-  visit(FrictionNumberRule{"mu_dynamic", true, M::kRefused}, of->mu_dynamic...);
-  visit(FrictionNumberRule{"transition_velocity", false, M::kStandard, 1e-2},
+  using F = FrictionNumberRule::Form;
+  using R = FrictionNumberRule;
+  visit(R{"mu_static", true, M::kRefused, 0.0, U::kAll, F::kCoefficients}, of->mu_static...);
+  visit(R{"mu_dynamic", true, M::kRefused, 0.0, U::kAll, F::kCoefficients}, of->mu_dynamic...);
+  visit(R{"coulomb", true, M::kRefused, 0.0, U::kAll, F::kDirect}, of->mu_dynamic...);
+  visit(R{"static", true, M::kCoulomb, 0.0, U::kAll, F::kDirect}, of->mu_static...);
+  visit(R{"transition_velocity", false, M::kStandard, 1e-2, U::kAll, F::kAny, false, true},
         of->transition_velocity...);
-  visit(FrictionNumberRule{"joint_length", false, M::kLengthOfOne}, of->joint_length...);
-  visit(FrictionNumberRule{"joint_width", false, M::kLengthOfOne}, of->joint_width...);
-  visit(FrictionNumberRule{"pin_radius", false}, of->pin_radius...);
-  visit(FrictionNumberRule{"friction_arm", false, M::kPinRadius}, of->friction_arm...);
-  visit(FrictionNumberRule{"preload", true}, of->preload...);
-  visit(FrictionNumberRule{"smoothing", false, M::kStandard, 1e-3}, of->smoothing...);
-  visit(FrictionNumberRule{"viscous", true}, of->viscous...);
-  visit(FrictionNumberRule{"bristle_stiffness", false, M::kStandard, 1e4, U::kBristles},
+  visit(R{"stribeck_velocity", false, M::kTenTransitions, 0.0, U::kStribeck},
+        of->stribeck_velocity...);
+  visit(R{"joint_length", false, M::kLengthOfOne, 0.0, U::kAll, F::kCoefficients},
+        of->joint_length...);
+  visit(R{"joint_width", false, M::kLengthOfOne, 0.0, U::kAll, F::kCoefficients},
+        of->joint_width...);
+  visit(R{"pin_radius", false, M::kStandard, 0.0, U::kAll, F::kCoefficients}, of->pin_radius...);
+  visit(R{"friction_arm", false, M::kPinRadius, 0.0, U::kAll, F::kCoefficients},
+        of->friction_arm...);
+  visit(R{"preload", true, M::kStandard, 0.0, U::kAll, F::kCoefficients}, of->preload...);
+  visit(R{"smoothing", false, M::kStandard, 1e-3, U::kAll, F::kCoefficients, false, true},
+        of->smoothing...);
+  visit(R{"viscous", true}, of->viscous...);
+  visit(R{"viscous_exponent", false, M::kStandard, 1.0}, of->viscous_exponent...);
+  visit(R{"bristle_stiffness", false, M::kStandard, 1e4, U::kBristles, F::kAny, false, true},
         of->bristle_stiffness...);
-  visit(FrictionNumberRule{"bristle_damping", false, M::kStandard, 10.0, U::kBristles},
+  visit(R{"bristle_damping", false, M::kStandard, 10.0, U::kBristles, F::kAny, false, true},
         of->bristle_damping...);
-  visit(FrictionNumberRule{"dwell_time", false, M::kStandard, 2.0, U::kDwelling},
+  visit(R{"dwell_time", false, M::kStandard, 2.0, U::kDwelling, F::kAny, false, true},
         of->dwell_time...);
-  visit(FrictionNumberRule{"mu_static_backward", true, M::kMuStatic, 0.0, U::kDirectional},
+  visit(R{"mu_static_backward", true, M::kMuStatic, 0.0, U::kDirectional, F::kCoefficients, true},
         of->mu_static_backward...);
-  visit(FrictionNumberRule{"mu_dynamic_backward", true, M::kMuDynamic, 0.0, U::kDirectional},
+  visit(R{"mu_dynamic_backward", true, M::kMuDynamic, 0.0, U::kDirectional, F::kCoefficients, true},
         of->mu_dynamic_backward...);
-  visit(FrictionNumberRule{"viscous_backward", true, M::kViscous}, of->viscous_backward...);
+  visit(R{"coulomb_backward", true, M::kCoulomb, 0.0, U::kDirectional, F::kDirect, true},
+        of->mu_dynamic_backward...);
+  visit(R{"static_backward", true, M::kStatic, 0.0, U::kDirectional, F::kDirect, true},
+        of->mu_static_backward...);
+  visit(R{"viscous_backward", true, M::kViscous, 0.0, U::kAll, F::kAny, true},
+        of->viscous_backward...);
 }
 
 /// The numbers of a friction law at one design.

@@ -151,7 +151,8 @@ std::string loaded_pairs(const CompiledSystem& system, const Eigen::VectorXd& st
 std::string frictions_in_loops(const CompiledSystem& system) {
   std::string names;
   for (int p : system.sharing().pairs)
-    if (const int joint = system.topology().pairs[to_index(p)].friction_joint; joint >= 0)
+    if (const int joint = system.topology().pairs[to_index(p)].friction_joint;
+        joint >= 0 && !system.topology().pairs[to_index(p)].friction_is_direct)
       add_name(system.robot().joints[to_index(joint)].name, &names);
   return names;
 }

@@ -157,14 +157,55 @@ std::string describe(const LimitCrossing& crossing) {
          " s; the worst value is " + readable(crossing.worst);
 }
 
+TransitionWatch::TransitionWatch(const Problem& problem, const std::vector<double>& parameters,
+                                 const FrameNames& names) {
+  for (const JointDescription& joint : problem.robot().joints) {
+    const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
+    if (found == names.joints.end()) continue;
+    const auto watch = [&](const FrictionDescription& friction, const char* element) {
+      if (friction.model->bristle) return;  // bristles stick below their Stribeck velocity
+      watched_.push_back({to_index(found - names.joints.begin()), &friction,
+                          joint.element() + element, friction.transition_velocity.at(parameters)});
+    };
+    if (joint.friction && joint.friction->is_direct) watch(*joint.friction, " <codesign:friction>");
+    if (joint.actuator && joint.actuator->gear)
+      watch(joint.actuator->gear->slip, " <codesign:actuator>");
+  }
+}
+
+void TransitionWatch::observe(const Frame& frame) {
+  for (Watched& watched : watched_)
+    watched.fastest = std::max(watched.fastest, std::abs(frame.joints[watched.sample].velocity));
+}
+
+Warnings TransitionWatch::warnings() const {
+  constexpr double kRest = 1e-6;  // slower joints move by rounding errors
+  Warnings all;
+  for (const Watched& watched : watched_) {
+    const bool rests = watched.fastest <= kRest * watched.transition;
+    if (rests || watched.fastest >= watched.transition) continue;
+    all.push_back(warn("transition_beyond_motion",
+                       {watched.friction->where, watched.element,
+                        "the joint never moves as fast as the transition velocity of its friction, "
+                        "which acts like viscous friction below it; the fastest motion is " +
+                            readable(watched.fastest),
+                        to_decimal(watched.transition),
+                        "a transition_velocity well below the motion; or model=\"lugre\", which "
+                        "sticks"}));
+  }
+  return all;
+}
+
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters,
                       const std::vector<SignalDescription>& signals, int samples,
                       const RowSink& sink, const std::atomic<bool>* cancel) {
   Simulation simulation(problem.system(), parameters, signals);
   LimitWatch watch(problem, parameters, simulation.names());
+  TransitionWatch transitions(problem, parameters, simulation.names());
   std::vector<double> row;
   const auto observer = [&](const Frame& frame) {
     watch.observe(frame);
+    transitions.observe(frame);
     row.assign(1, frame.time);
     row.insert(row.end(), frame.signals.begin(), frame.signals.end());
     sink(row);
@@ -176,6 +217,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
   summary.warnings = simulation.warnings();
+  if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
   const Study& study = problem.study();
   const bool has_peak = std::any_of(
       study.watched.begin(), study.watched.end(),

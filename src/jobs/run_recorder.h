@@ -51,6 +51,29 @@ class LimitWatch {
   std::vector<LimitCrossing> crossings_;
 };
 
+/// Finds joints that move in a run, but never as fast as the transition velocity of their gear, or
+/// of friction that is given in N m or N.
+class TransitionWatch {
+ public:
+  /// @param problem must outlive this. @param parameters all named parameters. @param names of the
+  /// frames to observe.
+  TransitionWatch(const Problem& problem, const std::vector<double>& parameters,
+                  const FrameNames& names);
+
+  void observe(const Frame& frame);
+  /// A warning `transition_beyond_motion` for each such joint.
+  Warnings warnings() const;
+
+ private:
+  struct Watched {
+    std::size_t sample = 0;  ///< index into Frame::joints
+    const FrictionDescription* friction = nullptr;
+    std::string element;
+    double transition = 0.0, fastest = 0.0;  ///< [rad/s or m/s]
+  };
+  std::vector<Watched> watched_;
+};
+
 /// The sentence that `codesign simulate` and `check` print for a crossing.
 std::string describe(const LimitCrossing& crossing);
 

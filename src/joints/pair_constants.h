@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "forces/friction_numbers.h"
+#include "forces/gear.h"
 #include "math/scalar.h"
 
 namespace codesign {
@@ -51,6 +52,7 @@ struct JointDynamicsConstants {
   T gear_ratio{1.0}, rotor_inertia{0.0};  ///< n and J_r of an actuator
   Vector3<T> rotor_axis =
       Vector3<T>::Zero();  ///< unit vector in the axes of the body that carries the rotor
+  GearConstants<T> gear;   ///< valid if the actuator has ActuatorDescription::gear
 };
 
 /// One coordinate of a pair as a turn about, or a slide along, an axis; the coordinates of a pair

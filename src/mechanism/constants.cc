@@ -106,7 +106,7 @@ std::string body_fault(const RobotDescription& robot, const Topology& topology, 
          (fault.value.empty() ? "" : " (" + fault.value + ")");
 }
 
-std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
+bool is_possible(const FrictionConstants<double>& f) {
   bool possible = f.mu_static >= f.mu_dynamic && f.mu_static_backward >= f.mu_dynamic_backward;
   const auto check = [&possible](const FrictionNumberRule& rule, const double& number) {
     // A radius that is not given is zero; check_friction_geometry() asks for it where the law needs
@@ -118,10 +118,21 @@ std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f)
     possible = possible && (number > 0.0 || (may_be_zero && number == 0.0));
   };
   visit_friction_numbers(check, &f);
-  return possible ? ""
-                  : "friction geometry or coefficients of joint '" + pair.name +
-                        "' are out of range (allowed: mu_static >= mu_dynamic >= 0, pin_radius, "
-                        "preload and viscous >= 0, all others > 0)";
+  return possible;
+}
+
+std::string friction_fault(const Pair& pair, const FrictionConstants<double>& f) {
+  return is_possible(f) ? ""
+                        : "friction geometry or coefficients of joint '" + pair.name +
+                              "' are out of range (allowed: mu_static >= mu_dynamic >= 0, static "
+                              ">= coulomb >= 0, pin_radius, preload and viscous >= 0, all others "
+                              "> 0)";
+}
+
+bool is_possible(const GearConstants<double>& gear) {
+  const double sum = gear.driving + gear.backdriving + gear.coulomb + gear.viscous;
+  return gear.driving >= 0.0 && gear.backdriving >= 0.0 && gear.coulomb >= 0.0 &&
+         gear.viscous >= 0.0 && std::isfinite(sum);
 }
 
 std::string joint_fault(const RobotDescription& robot, const Pair& pair,
@@ -136,6 +147,11 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair,
         !std::isfinite(d.gear_ratio))
       return "the rotor of joint '" + joint.name +
              "' is out of range (allowed: finite gear_ratio, finite rotor_inertia >= 0)";
+    if (joint.actuator && joint.actuator->gear &&
+        !(is_possible(d.gear) && is_possible(d.gear.slip)))
+      return "the gear of joint '" + joint.name +
+             "' is out of range (allowed: efficiency > 0 and at most 1, backdrive_efficiency at "
+             "most 1, coulomb and viscous >= 0, all others > 0)";
   }
   return "";
 }

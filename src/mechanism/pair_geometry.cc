@@ -47,7 +47,8 @@ class PairBuilder {
       add_cylindrical_coordinates();
     result_.R_ij = geometry_.X_ij.R;
     if (!pair_.is_loop && pair_.kind->in_forest) place_steps();
-    if (pair_.friction_joint >= 0) result_.friction = friction();
+    if (pair_.friction_joint >= 0)
+      result_.friction = friction(*robot_.joints[to_index(pair_.friction_joint)].friction);
     if (pair_.friction_joint >= 0) place_slip();
   }
 
@@ -281,10 +282,23 @@ class PairBuilder {
     d.gear_ratio = actuator.gear_ratio.at(parameters_);
     d.rotor_inertia = actuator.rotor_inertia.at(parameters_);
     d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
+    if (actuator.gear) d.gear = gear(*actuator.gear, d.gear_ratio);
   }
 
-  FrictionConstants<T> friction() const {
-    const FrictionDescription& f = *robot_.joints[to_index(pair_.friction_joint)].friction;
+  // The same loss in both directions of power makes eta_b = 2 - 1/eta.
+  GearConstants<T> gear(const GearDescription& gear, const T& n) const {
+    GearConstants<T> c;
+    if (gear.efficiency) c.driving = T(1.0) / gear.efficiency->at(parameters_) - T(1.0);
+    c.backdriving = gear.backdrive_efficiency
+                        ? T(T(1.0) - gear.backdrive_efficiency->at(parameters_))
+                        : c.driving;
+    c.coulomb = (is_less(n, T(0.0), false) ? T(-n) : n) * gear.coulomb.at(parameters_);
+    c.viscous = n * n * gear.viscous.at(parameters_);
+    c.slip = friction(gear.slip);
+    return c;
+  }
+
+  FrictionConstants<T> friction(const FrictionDescription& f) const {
     FrictionConstants<T> c;
     const auto evaluate = [this, &c](const FrictionNumberRule& rule, const Quantity& q, T& number) {
       const bool missing = q.is_zero();
@@ -292,10 +306,13 @@ class PairBuilder {
         number = T(1.0);
       else if (missing && rule.missing == FrictionNumberRule::Missing::kPinRadius)
         number = c.pin_radius;
+      else if (missing && rule.missing == FrictionNumberRule::Missing::kTenTransitions)
+        number = T(10.0) * c.transition_velocity;
       else
         number = q.at(parameters_);
     };
     visit_friction_numbers(evaluate, &f, &c);
+    if (f.is_direct) c.pin_radius = T(1.0);
     return c;
   }
 
@@ -336,6 +353,18 @@ void check_friction_geometry(const FrictionDescription& friction, PairKind kind,
                       "this joint slips in several directions, none of which is backward", "",
                       "mu_static_backward, mu_dynamic_backward and viscous_backward on revolute, "
                       "continuous, prismatic and cylindrical joints"});
+  if (friction.has_exponent && slips_isotropically(kind))
+    throw InputError(
+        {friction.where, element,
+         "this joint slips in several directions, for which the viscous load has no "
+         "exponent",
+         "", "viscous_exponent on revolute, continuous, prismatic and cylindrical joints"});
+  if (friction.is_direct) {
+    if (kind == PairKind::kRevolute || kind == PairKind::kPrismatic) return;
+    throw InputError({friction.where, element,
+                      "friction in N m or N needs a joint with one coordinate", "",
+                      "revolute, continuous and prismatic joints; coefficients on others"});
+  }
   const BearingLaw& bearing = kind->bearing;
   if (!bearing.normal_force)
     throw InputError(

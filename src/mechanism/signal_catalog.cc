@@ -27,6 +27,14 @@ struct Offer {
 };
 
 constexpr const char* kMechanism = "mechanism";
+
+bool has_gear(const JointDescription& joint) { return joint.actuator && joint.actuator->gear; }
+
+/// Whether the signal normal_force exists. Friction that is given in N m or N has none.
+bool has_normal_force(const JointDescription& joint) {
+  return joint.friction ? !joint.friction->is_direct : !joint.dry_friction.is_zero();
+}
+
 const Names& reactions() {
   static const Names kReactions{"reaction_force", "reaction_torque"};
   return kReactions;
@@ -49,9 +57,14 @@ void add_joint(const JointDescription& joint, Offer* offer) {
   if (has_one_coordinate(joint.type))
     offer->scalars = {"position",    "velocity",       "acceleration",  "effort",
                       "effort_rate", "actuator_power", "damping_power", "load_power"};
-  if (has_friction(joint))
-    for (const char* quantity : {"friction", "normal_force", "sliding_velocity", "friction_power"})
+  if (has_friction(joint)) {
+    offer->scalars.emplace_back("friction");
+    if (has_normal_force(joint)) offer->scalars.emplace_back("normal_force");
+    for (const char* quantity : {"sliding_velocity", "friction_power"})
       offer->scalars.emplace_back(quantity);
+  }
+  if (has_gear(joint)) offer->scalars.emplace_back("gear_loss");
+  if (joint.has_lossy_gear()) offer->scalars.emplace_back("gear_torque");
   offer->welded = joint.type == JointType::kFixed && !joint.is_loop;
   if (!offer->welded) offer->vectors = reactions();
 }
@@ -157,7 +170,7 @@ bool is_of_mechanism(const SignalTerm& term) {
 bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
 
 bool has_friction(const JointDescription& joint) {
-  return joint.friction.has_value() || !joint.dry_friction.is_zero();
+  return joint.friction.has_value() || !joint.dry_friction.is_zero() || has_gear(joint);
 }
 
 void check_signal(const SignalDescription& signal, const RobotDescription& robot,
@@ -184,8 +197,12 @@ std::vector<std::string> default_signals(const RobotDescription& robot,
   }
   for (const JointDescription& joint : robot.joints) {
     if (!has_friction(joint)) continue;
-    for (const char* quantity : {"/friction", "/normal_force", "/sliding_velocity"})
-      signals.push_back(joint.name + quantity);
+    signals.push_back(joint.name + "/friction");
+    if (has_normal_force(joint)) signals.push_back(joint.name + "/normal_force");
+    signals.push_back(joint.name + "/sliding_velocity");
+    if (!has_gear(joint)) continue;
+    signals.push_back(joint.name + "/gear_loss");
+    if (joint.has_lossy_gear()) signals.push_back(joint.name + "/gear_torque");
   }
   for (const ControllerDescription& controller : controllers)
     signals.push_back(controller.name + "/output");

@@ -9,7 +9,8 @@
 
 namespace codesign {
 
-/// Whether a joint or loop has friction, from `<codesign:friction>` or `<dynamics friction>`.
+/// Whether a joint or loop has friction, from `<codesign:friction>`, `<dynamics friction>` or the
+/// losses of its actuator.
 bool has_friction(const JointDescription& joint);
 
 /// Whether a term is a quantity of the whole mechanism, such as `mechanism/total_energy`. The
@@ -27,8 +28,8 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
                   const std::string& element);
 
 /// The signals recorded by default: position and velocity of every joint that moves a mass;
-/// friction, normal force and sliding velocity of every joint with friction; the output of each
-/// controller.
+/// friction, normal force and sliding velocity of every joint with friction; loss and torque of
+/// every gear that loses; the output of each controller.
 std::vector<std::string> default_signals(const RobotDescription& robot,
                                          const std::vector<ControllerDescription>& controllers);
 

@@ -229,6 +229,7 @@ class TopologyBuilder {
                         "a second <codesign:friction> on one folded joint", pair->name,
                         "one for the whole chain of massless links"});
     pair->friction_joint = joint;
+    pair->friction_is_direct = description.friction->is_direct;
   }
 
   // The URDF reader checks ordinary joints only, not those folded from a chain.

@@ -31,6 +31,7 @@ struct Pair {
   int body_i = -1, body_j = -1;     ///< -1: the ground
   std::vector<ChainElement> chain;  ///< from i to j
   int friction_joint = -1;          ///< the joint of the chain with a `<codesign:friction>`, or -1
+  bool friction_is_direct = false;  ///< that friction is in N m or N; theory (10a)
   bool is_loop = false;             ///< the chain contains a loop
 };
 

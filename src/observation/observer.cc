@@ -53,7 +53,7 @@ void Observer::name_joints() {
 void Observer::name_frictions() {
   const Topology& topology = system_.topology();
   for (const JointLoad& load : system_.loads()) {
-    if (!load.reaction_friction && !load.constant_friction) continue;
+    if (!load.has_friction()) continue;
     const Pair& pair = topology.pairs[to_index(load.pair)];
     const int element = std::min(load.element, static_cast<int>(pair.chain.size()) - 1);
     const JointDescription& joint =

@@ -34,12 +34,13 @@ struct Layout {
   int n =
       0;  ///< number of coordinates: 7 per free body (r, p), and those of the pairs of the forest
   int m = 0;  ///< number of multipliers: rows of cut pairs, then couplings, then |p| = 1 per free
-              ///< body; then `sharing`
+              ///< body; then `sharing` and `gears`
   int couplings = 0;  ///< number of `<mimic>` and `<coupling>`, one row each
-  int sharing = 0;  ///< the last ones of m: unknowns w, eta, mu of shared reactions; theory (23b),
-                    ///< SharingLayout
-  int states = 0;   ///< number of extra first-order states s: integrals of controllers, then states
-                    ///< of friction laws
+  int sharing = 0;    ///< in m after those: unknowns w, eta, mu of shared reactions; theory (23b),
+                      ///< SharingLayout
+  int gears = 0;      ///< the last ones of m: torques that gears of cut pairs transmit; theory (9b)
+  int states = 0;  ///< number of extra first-order states s: integrals of controllers, then states
+                   ///< of friction laws
   std::vector<int>
       pair_row;  ///< first constraint row of each pair; a pair of the forest has no rows
 
@@ -58,12 +59,13 @@ struct Layout {
   std::vector<double> initial_turns;  ///< State::turns before a start is assembled
 
   int turn(int pair, int element) const { return turn_slot[to_index(pair)] + element; }
-  int constraints() const { return m - sharing; }  ///< number of rows of Phi
-  int columns() const { return n + m + states; }   ///< size of z and of G
-  int positions() const { return n + states; }     ///< size of (q, s)
+  int constraints() const { return m - sharing - gears; }  ///< number of rows of Phi
+  int columns() const { return n + m + states; }           ///< size of z and of G
+  int positions() const { return n + states; }             ///< size of (q, s)
   int lambda_column(int row) const {
     return n + row;
   }  ///< in z of the multiplier of a row of Phi; also the row Phi'' in G
+  int gear_column(int k) const { return n + m - gears + k; }  ///< in z of the k-th; also its row
   int state_column(int k) const { return n + m + k; }  ///< in z of sigma_k; also its row in G
   int position_column(int k) const { return n + k; }   ///< in (q, s) of s_k
   /// The place in z of the rate by which a position of (q, s) is eliminated, theory (16): a_k for

@@ -27,10 +27,16 @@ struct ResolvedTerm {
 /// (13).
 struct JointLoad {
   int pair = -1,
-      element = -1;  ///< the coordinate: index in Topology::pairs and in the pair's chain
-  bool reaction_friction = false;  ///< an annotated friction law acts on this coordinate
-  bool directional = false;        ///< its numbers differ with the sign of the velocity
+      element = -1;            ///< the coordinate: index in Topology::pairs and in the pair's chain
+  bool friction = false;       ///< an annotated friction law acts on this coordinate
+  bool direct = false;         ///< in N m or N, without a normal force; theory (10a)
+  bool directional = false;    ///< its numbers differ with the sign of the velocity
+  bool viscous_power = false;  ///< its viscous part has an exponent
   bool constant_friction = false;  ///< `<dynamics friction>`
+  bool gear = false;               ///< losses of gear and motor, theory (9b)
+  bool gear_transmits = false;     ///< some of them in proportion to the transmitted torque
+  int gear_unknown = -1;           ///< index of that torque among the unknowns; -1: it follows from
+                                   ///< the wrench that the joint transmits
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
@@ -40,6 +46,7 @@ struct JointLoad {
 
   /// Whether the load depends on the position of the coordinate, not on its rate alone.
   bool needs_position() const { return spring || stop; }
+  bool has_friction() const { return friction || constant_friction || gear; }
 };
 
 /// The rotor of an actuator, theory (9a).
@@ -95,11 +102,13 @@ class System {
   const std::vector<int>& contacts() const { return contacts_; }
   /// The coordinates and contacts whose friction law has states, theory (13e), (13f).
   const std::vector<BristleContact>& bristles() const { return bristles_; }
-  /// The states of the friction law of a joint coordinate, or of a contact (element -1); null if
-  /// the law has no states.
-  const BristleContact* bristle(int pair, int element) const;
+  /// The states of the friction law of a joint coordinate, of its gear, or of a contact (element
+  /// -1); null if the law has no states.
+  const BristleContact* bristle(int pair, int element, bool gear = false) const;
   /// The friction law of a pair with Pair::friction_joint.
   const FrictionLaw& friction_law(int pair) const;
+  /// The law of the flanks of a coordinate's gear, theory (9b).
+  const FrictionLaw& gear_law(int pair, int element) const;
   /// The terms of the integrand and the terminal terms of the objective, theory (21).
   const std::vector<ResolvedTerm>& integral() const { return integral_; }
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
@@ -140,7 +149,7 @@ class System {
   void collect_link_loads();
   void collect_rotors();
   void collect_bristles();
-  void add_bristle(int pair, int element, int size);
+  void add_bristle(BristleContact contact);
   void find_coordinates();
   void refuse_load(int pair, int element) const;
   void check_couplings() const;

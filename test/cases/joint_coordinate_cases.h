@@ -126,6 +126,54 @@ inline std::vector<CoordinatesCase> frictions() {
   return all;
 }
 
+/// Gears that lose in the tree, folded, as a loop, and tied to another joint; friction in N m.
+inline std::vector<CoordinatesCase> gears() {
+  const std::string losses =
+      "transition_velocity='0.05' efficiency='0.8' backdrive_efficiency='0.7'";
+  const auto actuator = [](const std::string& more) {
+    return "<codesign:actuator gear_ratio='-7' rotor_inertia='0.004' " + more + "/>";
+  };
+  const auto one = [](const std::string& type, const std::string& more) {
+    return joint_cases::tree("joint", type, "base", "tip", "1 0 0.5", joint_cases::kOrigin + more);
+  };
+  const std::string
+      motor =
+          "controllers: {motor: {type: state_feedback, output: joint, feedforward: {type: sine, "
+          "amplitude: 8.0, frequency: 3.0}}}\n",
+      start = "initial_state: {root: {velocity: 1.0}}\n";
+  std::vector<CoordinatesCase> all;
+  const auto add = [&](const std::string& name, const std::string& content,
+                       const std::string& more = "") {
+    all.push_back({name, on_hinge(content), start + motor + more});
+  };
+  const std::string gear = actuator(losses + " coulomb='0.02' viscous='0.001'");
+  add("revolute", one("revolute", gear));
+  add("prismatic", one("prismatic", gear));
+  add("locks_itself", one("revolute", actuator("transition_velocity='0.05' efficiency='0.45'")));
+  add("sticks", one("revolute", actuator(losses + " model='lugre'")));
+  add("loop", joint_cases::free("tip") + joint_cases::loop("revolute", "base", gear));
+  add("with_everything",
+      one("revolute", gear + annotation("brown_mcphee", "joint_length='0.1' pin_radius='0.03'") +
+                          "<dynamics damping='0.1' friction='0.2'/><codesign:torsion_spring "
+                          "stiffness='5' free_position='0.2'/>"),
+      "loads: [{joint: joint, effort: 0.7}]\n");
+  std::string folded = joint_cases::chain({{'R', "1 0 0"}, {'R', "0 1 0"}});
+  folded.insert(folded.find("</joint>"), gear);
+  all.push_back({"folded", on_hinge(folded), start});
+  add("mimicked", one("revolute", gear) + joint_cases::body("hand") +
+                      joint_cases::tree("finger", "continuous", "tip", "hand", "0 1 0",
+                                        "<mimic joint='joint' multiplier='-2'/>"));
+  add("in_newton_metres",
+      one("revolute",
+          "<codesign:friction coulomb='0.3' static='0.5' stribeck_velocity='0.3' "
+          "transition_velocity='0.05' viscous='0.2' viscous_exponent='0.6' "
+          "coulomb_backward='0.4'/>"));
+  all.push_back({"read_by_a_controller", on_hinge(one("revolute", gear)),
+                 start + "controllers: {motor: {type: state_feedback, output: root, feedback: "
+                         "[{signal: joint/gear_torque - joint/gear_loss, gain: 0.1}]}}\n"});
+  return all;
+}
+
 /// Everything else that acts on a mechanism.
 /// Bars on hinges one below the other.
 inline std::string chain_of(int count) {

@@ -31,6 +31,11 @@ std::vector<SignalDescription> signals_of(const RobotDescription& robot, const T
       for (const char* axis : {"x", "y", "z"})
         texts.push_back(robot.joints[k].name + "/" + quantity + "/" + axis);
   }
+  for (const JointDescription& joint : robot.joints) {
+    if (!joint.actuator || !joint.actuator->gear) continue;
+    for (const char* quantity : {"gear_torque", "gear_loss", "friction_power"})
+      texts.push_back(joint.name + "/" + quantity);
+  }
   for (const Body& body : topology.bodies)
     for (const char* quantity : {"position", "velocity", "angular_velocity"})
       for (const char* axis : {"x", "y", "z"})
@@ -178,6 +183,8 @@ INSTANTIATE_TEST_SUITE_P(Rings, JointCoordinates, ::testing::ValuesIn(joint_coor
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Frictions, JointCoordinates,
                          ::testing::ValuesIn(joint_coordinates::frictions()), name_of);
+INSTANTIATE_TEST_SUITE_P(Gears, JointCoordinates, ::testing::ValuesIn(joint_coordinates::gears()),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Loads, JointCoordinates, ::testing::ValuesIn(joint_coordinates::loads()),
                          name_of);
 

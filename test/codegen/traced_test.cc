@@ -26,7 +26,8 @@ TEST_F(TracedTest, KnownNumbersAreComputedWith) {
   for (const auto& [traced, expected] :
        {std::pair(sin(Traced(0.3)), std::sin(0.3)), std::pair(cos(Traced(0.3)), std::cos(0.3)),
         std::pair(asin(Traced(0.3)), std::asin(0.3)), std::pair(tanh(Traced(0.3)), std::tanh(0.3)),
-        std::pair(exp(Traced(0.3)), std::exp(0.3)), std::pair(round(Traced(0.7)), 1.0)})
+        std::pair(exp(Traced(0.3)), std::exp(0.3)), std::pair(log(Traced(0.3)), std::log(0.3)),
+        std::pair(round(Traced(0.7)), 1.0)})
     EXPECT_EQ(traced.value(), expected);
   EXPECT_EQ(recording.size(), 2) << "nothing was recorded";
 }

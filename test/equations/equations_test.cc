@@ -79,7 +79,7 @@ TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
 TEST_F(EquationsTest, FrictionIsTheForceOnTheChildAgainstItsMotion) {
   real.formulas().load(state);
   for (const JointLoad& load : system.loads()) {
-    if (!load.reaction_friction) continue;
+    if (!load.friction) continue;
     const FrictionState<double> friction = real.formulas().friction(load.pair, load.element);
     EXPECT_GT(friction.load * friction.velocity, 0.0);
     EXPECT_GT(friction.normal, 0.0);

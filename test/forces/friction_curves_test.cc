@@ -45,9 +45,10 @@ FrictionNumbers<T> directional_numbers() {
 
 template <class T>
 T directional_brown_mcphee(const T& v, const FrictionNumbers<T>& c) {
-  return directional_friction<T>([](const T& at, const T& mu_s, const T& mu_d,
-                                    const T& v_t) { return brown_mcphee<T>(at, mu_s, mu_d, v_t); },
-                                 v, c);
+  const auto S = [&c](const T& at, const T& mu_s, const T& mu_d) {
+    return brown_mcphee<T>(at, mu_s, mu_d, c.transition_velocity);
+  };
+  return directional_friction<T>(S, v, c);
 }
 
 TEST(DirectionalFriction, TheShareChangesOverAtRest) {
@@ -99,6 +100,53 @@ TEST(DirectionalFriction, NeverDrivesTheMotion) {
     EXPECT_GE(directional_brown_mcphee(v, c) * v, 0.0) << v;
     EXPECT_GE(directional_viscous(v, 1.0, c) * v, 0.0) << v;
   }
+}
+
+/// Coulomb 5, static 7 N m, 0.2 rad/s.
+template <class T>
+FrictionNumbers<T> stribeck_numbers() {
+  FrictionNumbers<T> c;
+  c.mu_static = T(7.0);
+  c.mu_dynamic = T(5.0);
+  c.stribeck_velocity = T(0.2);
+  c.transition_velocity = T(0.01);
+  return c;
+}
+
+TEST(Stribeck, HandComputedPoints) {
+  const FrictionNumbers<double> c = stribeck_numbers<double>();
+  const auto S = [&c](double v) { return stribeck(v, c.mu_static, c.mu_dynamic, c); };
+  EXPECT_EQ(S(0.0), 0.0);
+  EXPECT_NEAR(S(0.01), (5.0 + 2.0 * std::exp(-0.0025)) * std::tanh(4.0), 1e-14);
+  EXPECT_NEAR(S(0.2), 5.0 + 2.0 * std::exp(-1.0), 1e-14);
+  EXPECT_NEAR(S(-0.2), -S(0.2), 0.0);
+  EXPECT_NEAR(S(3.0), 5.0, 1e-15);
+  // At rest the slope is 4 T_s / v_t.
+  const FrictionNumbers<Complex> z = stribeck_numbers<Complex>();
+  EXPECT_NEAR(stribeck(Complex(0.0, 1e-30), z.mu_static, z.mu_dynamic, z).imag() / 1e-30, 2800.0,
+              1e-9);
+}
+
+TEST(ViscousPower, IsTheGivenPowerAwayFromRestAndSmoothThere) {
+  for (double rate : {0.5, -2.0})
+    EXPECT_NEAR(3.0 * rate * viscous_power(rate, 1e-6, 0.6),
+                3.0 * std::copysign(std::pow(std::abs(rate), 0.6), rate), 1e-10);
+  EXPECT_EQ(viscous_power(0.3, 0.01, 1.0), 1.0);
+  EXPECT_NEAR(viscous_power(0.0, 0.01, 0.5), 10.0, 1e-13);
+  EXPECT_NEAR(viscous_power(0.03, 0.04, 3.0), 0.0025, 1e-17);
+}
+
+TEST(ViscousPower, HasItsDerivatives) {
+  const auto law = [](const Eigen::VectorXcd& x) {
+    return Eigen::VectorXcd(Eigen::VectorXcd::Constant(1, x[0] * viscous_power(x[0], x[1], x[2])));
+  };
+  // c (r^2 + w^2)^b r with b = (a - 1)/2: by r: f/r + 2 b r f/(r^2 + w^2), by a: f ln(...)/2.
+  const Eigen::Vector3d x(0.02, 0.01, 0.6);
+  const double square = 0.0005, f = 0.02 * std::pow(square, -0.2);
+  const Eigen::MatrixXd exact = complex_step_jacobian(law, x);
+  EXPECT_NEAR(exact(0, 0), f / 0.02 - 0.4 * 0.02 * f / square, 1e-12);
+  EXPECT_NEAR(exact(0, 1), -0.4 * 0.01 * f / square, 1e-12);
+  EXPECT_NEAR(exact(0, 2), 0.5 * f * std::log(square), 1e-13);
 }
 
 constexpr double kIsotropicMuS = 0.4, kIsotropicMuD = 0.3, kIsotropicVt = 0.01;

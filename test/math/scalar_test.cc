@@ -136,6 +136,7 @@ TEST(Lanes, Functions) {
   using std::tanh;
   expect_derivatives([](auto x, auto y) { return sqrt(x) * tanh(y); }, 1.7, 0.3);
   expect_derivatives([](auto x, auto y) { return sin(x) * cos(y) + exp(x * y); }, 0.6, -0.9);
+  expect_derivatives([](auto x, auto y) { return log(x * x + y) * y; }, 0.6, 0.9);
   expect_derivatives([](auto x, auto y) { return asin(x) + y; }, 0.35, 1.0);
   expect_derivatives([](auto x, auto y) { return arc_tangent(y, x); }, -0.8, 0.5);
   expect_derivatives([](auto x, auto y) { return smooth_abs(x, y); }, -0.8, 0.01);

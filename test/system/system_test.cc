@@ -62,7 +62,7 @@ TEST(CompiledSystem, OnlyJointsWithALoadAreListed) {
   const CompiledSystem system =
       compile(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity"));
   ASSERT_EQ(system.loads().size(), 2U);
-  EXPECT_TRUE(system.loads()[0].reaction_friction);
+  EXPECT_TRUE(system.loads()[0].friction);
   EXPECT_FALSE(system.loads()[0].passive);
   const CompiledSystem driven = controlled("{p: 1.0}", "hinge/position", kSwing);
   ASSERT_EQ(driven.loads().size(), 1U);

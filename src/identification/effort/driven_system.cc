@@ -60,13 +60,16 @@ Study without_control(Study study) {
 
 void refuse_friction_states(const CompiledSystem& system) {
   if (system.bristles().empty()) return;
+  const BristleContact& contact = system.bristles().front();
+  const Pair& pair = system.topology().pairs[to_index(contact.pair)];
   const int index =
-      system.topology().pairs[to_index(system.bristles().front().pair)].friction_joint;
+      contact.gear ? pair.chain[to_index(contact.element)].joint : pair.friction_joint;
   const JointDescription& joint = system.robot().joints[to_index(index)];
   throw InputError(
-      {joint.friction->where, joint.element() + " <codesign:friction>",
+      {contact.gear ? joint.actuator->where : joint.friction->where,
+       joint.element() + (contact.gear ? " <codesign:actuator>" : " <codesign:friction>"),
        "the friction law has states, which the motion at one instant does not determine",
-       joint.friction->model->name,
+       contact.model->name,
        "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
 }
 

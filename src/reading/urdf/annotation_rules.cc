@@ -28,10 +28,17 @@ void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
 
 Names friction_attributes() {
   Names names;
-  const FrictionNumbers<double> any;
-  visit_friction_numbers([&names](const FrictionNumberRule& rule,
-                                  const double&) { names.emplace_back(rule.attribute); },
-                         &any);
+  visit_friction_numbers(
+      [&names](const FrictionNumberRule& rule) { names.emplace_back(rule.attribute); });
+  return names;
+}
+
+Names actuator_attributes() {
+  Names names{"gear_ratio",           "rotor_inertia", "efficiency",
+              "backdrive_efficiency", "coulomb",       "viscous"};
+  visit_friction_numbers([&names](const FrictionNumberRule& rule) {
+    if (rule.of_gears) names.emplace_back(rule.attribute);
+  });
   return names;
 }
 
@@ -50,8 +57,7 @@ void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRu
                     {"stiffness", "damping", "free_position"},
                     {},
                     {}});
-  rules->push_back(
-      {path + "/codesign:actuator", true, {}, {"gear_ratio", "rotor_inertia"}, {}, {}});
+  rules->push_back({path + "/codesign:actuator", true, {"model"}, actuator_attributes(), {}, {}});
 }
 
 void add_link_rules(std::vector<ElementRule>* rules) {

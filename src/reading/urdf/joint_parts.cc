@@ -13,15 +13,15 @@
 namespace codesign {
 namespace {
 
-FrictionModel read_model(const XmlElement& element, const Laws& laws) {
-  const std::string name = element.find("model").value_or("brown_mcphee");
+FrictionModel read_model(const XmlElement& element, bool direct, const Laws& laws) {
+  const std::string name = element.find("model").value_or(direct ? "stribeck" : "brown_mcphee");
   if (const auto law = find_friction(laws, name)) return *law;
   throw unknown_name(element.where("model"), element.label(), "friction model", name,
                      names_of(laws.friction));
 }
 
 /// The number that counts where an attribute is missing.
-const Quantity& value_if_missing(const FrictionNumberRule& rule,
+const Quantity& value_if_missing(const XmlElement& element, const FrictionNumberRule& rule,
                                  const FrictionDescription& friction, const Quantity& standard) {
   switch (rule.missing) {
     case FrictionNumberRule::Missing::kPinRadius:
@@ -29,12 +29,16 @@ const Quantity& value_if_missing(const FrictionNumberRule& rule,
     case FrictionNumberRule::Missing::kMuStatic:
       return friction.mu_static;
     case FrictionNumberRule::Missing::kMuDynamic:
+    case FrictionNumberRule::Missing::kCoulomb:
       return friction.mu_dynamic;
+    case FrictionNumberRule::Missing::kStatic:
+      return element.has("static") ? friction.mu_static : friction.mu_dynamic_backward;
     case FrictionNumberRule::Missing::kViscous:
       return friction.viscous;
     case FrictionNumberRule::Missing::kRefused:
     case FrictionNumberRule::Missing::kStandard:
     case FrictionNumberRule::Missing::kLengthOfOne:
+    case FrictionNumberRule::Missing::kTenTransitions:
       break;
   }
   return standard;
@@ -62,6 +66,16 @@ void require_ordered(const XmlElement& element, const std::string& dynamic_name,
 /// have no effect.
 void read_number(const XmlElement& element, const FrictionNumberRule& rule,
                  const ReadContext& context, FrictionDescription* friction, Quantity* number) {
+  if (!rule.is_in(friction->is_direct)) {
+    if (element.has(rule.attribute))
+      element.fail_at(rule.attribute,
+                      std::string(rule.attribute) +
+                          (friction->is_direct ? " has no meaning for friction in N m or N"
+                                               : " has no meaning for friction by coefficients"),
+                      friction->is_direct ? "mu_static and mu_dynamic in place of coulomb"
+                                          : "coulomb in place of mu_static and mu_dynamic");
+    return;
+  }
   if (!friction->model->uses(rule)) {
     if (element.has(rule.attribute))
       element.fail_at(rule.attribute,
@@ -73,9 +87,9 @@ void read_number(const XmlElement& element, const FrictionNumberRule& rule,
   if (rule.missing == FrictionNumberRule::Missing::kRefused)
     *number = read_quantity(element, rule.attribute, range, context.table);
   else
-    *number = read_quantity_or(value_if_missing(rule, *friction, *number), element, rule.attribute,
-                               range, context.table);
-  if (rule.is_backward() && element.has(rule.attribute)) friction->is_directional = true;
+    *number = read_quantity_or(value_if_missing(element, rule, *friction, *number), element,
+                               rule.attribute, range, context.table);
+  if (rule.is_backward && element.has(rule.attribute)) friction->is_directional = true;
 }
 
 std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
@@ -96,22 +110,109 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
                                   const ReadContext& context) {
   FrictionDescription friction;
   friction.where = element.where();
-  friction.model = read_model(element, *context.laws);
+  friction.is_direct = element.has("coulomb");
+  friction.has_exponent = element.has("viscous_exponent");
+  friction.model = read_model(element, friction.is_direct, *context.laws);
   const auto read = [&](const FrictionNumberRule& rule, Quantity& number) {
     read_number(element, rule, context, &friction, &number);
   };
   visit_friction_numbers(read, &friction);
-  require_ordered(element, "mu_dynamic", friction.mu_dynamic, "mu_static", friction.mu_static);
-  require_ordered(element, "mu_dynamic_backward", friction.mu_dynamic_backward,
-                  "mu_static_backward", friction.mu_static_backward);
+  const std::string dynamic = friction.is_direct ? "coulomb" : "mu_dynamic",
+                    at_rest = friction.is_direct ? "static" : "mu_static";
+  require_ordered(element, dynamic, friction.mu_dynamic, at_rest, friction.mu_static);
+  require_ordered(element, dynamic + "_backward", friction.mu_dynamic_backward,
+                  at_rest + "_backward", friction.mu_static_backward);
   if (friction.model->divides_by_mu_dynamic && friction.mu_dynamic.nominal() == 0.0)
-    element.fail_at(
-        "mu_dynamic",
-        std::string("mu_dynamic is zero: the ") + friction.model->title + " model divides by it",
-        "> 0");
+    element.fail_at(dynamic,
+                    dynamic + " is zero: the " + friction.model->title + " model divides by it",
+                    "> 0");
+  if (friction.is_direct && element.has("transverse_axis"))
+    element.fail_at("transverse_axis", "transverse_axis has no meaning for friction in N m or N",
+                    "mu_static and mu_dynamic in place of coulomb");
   if (element.has("transverse_axis"))
     friction.transverse_axis = read_transverse_axis(element, axis);
   return friction;
+}
+
+namespace {
+
+Quantity read_at_most_one(const XmlElement& element, const char* attribute, Range range,
+                          const ReadContext& context) {
+  const Quantity number = read_quantity(element, attribute, range, context.table);
+  if (number.nominal() > 1.0)
+    element.fail_at(attribute, std::string(attribute) + " is above 1: the gear would give power",
+                    range == Range::kPositive ? "> 0 and at most 1" : "at most 1");
+  return number;
+}
+
+/// The law of a gear's flanks: friction per pressure, direct, of 1 in both directions.
+FrictionDescription read_slip(const XmlElement& element, const ReadContext& context) {
+  FrictionDescription slip;
+  slip.where = element.where();
+  slip.model = read_model(element, false, *context.laws);
+  slip.mu_static = slip.mu_dynamic = 1.0;
+  const auto read = [&](const FrictionNumberRule& rule, Quantity& number) {
+    if (rule.of_gears) read_number(element, rule, context, &slip, &number);
+  };
+  visit_friction_numbers(read, &slip);
+  slip.is_direct = true;
+  return slip;
+}
+
+/// The losses of gear and motor; none if no attribute gives them.
+std::optional<GearDescription> read_gear(const XmlElement& element, const ReadContext& context) {
+  const char* const kLosses = "beside efficiency, coulomb or viscous";
+  const auto refuse = [&](const std::string& attribute, const char* allowed) {
+    if (element.has(attribute)) element.fail_at(attribute, attribute + " has no effect", allowed);
+  };
+  if (!element.has("efficiency")) refuse("backdrive_efficiency", "beside efficiency");
+  if (!element.has("efficiency") && !element.has("coulomb") && !element.has("viscous")) {
+    refuse("model", kLosses);
+    visit_friction_numbers([&](const FrictionNumberRule& rule) {
+      if (rule.of_gears) refuse(rule.attribute, kLosses);
+    });
+    return std::nullopt;
+  }
+  GearDescription gear;
+  if (element.has("efficiency"))
+    gear.efficiency = read_at_most_one(element, "efficiency", Range::kPositive, context);
+  if (element.has("backdrive_efficiency"))
+    gear.backdrive_efficiency =
+        read_at_most_one(element, "backdrive_efficiency", Range::kAny, context);
+  gear.coulomb = read_quantity_or(0.0, element, "coulomb", Range::kNonNegative, context.table);
+  gear.viscous = read_quantity_or(0.0, element, "viscous", Range::kNonNegative, context.table);
+  gear.slip = read_slip(element, context);
+  return gear;
+}
+
+/// Whether no torque of the joint turns the motor, theory (9b).
+bool locks_itself(const GearDescription& gear) {
+  if (!gear.efficiency) return false;
+  if (gear.backdrive_efficiency) return gear.backdrive_efficiency->nominal() <= 0.0;
+  return 2.0 - 1.0 / gear.efficiency->nominal() <= 0.0;
+}
+
+}  // namespace
+
+ActuatorDescription read_actuator(const XmlElement& element, JointType type,
+                                  const ReadContext& context) {
+  if (!has_one_coordinate(type))
+    element.fail("a joint of this type has no single coordinate for a rotor", "",
+                 "revolute, continuous or prismatic");
+  ActuatorDescription actuator;
+  actuator.where = element.where();
+  actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, context.table);
+  if (actuator.gear_ratio.nominal() == 0.0)
+    element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
+  actuator.rotor_inertia =
+      read_quantity(element, "rotor_inertia", Range::kNonNegative, context.table);
+  actuator.gear = read_gear(element, context);
+  if (actuator.rotor_inertia.is_zero() && actuator.gear && locks_itself(*actuator.gear))
+    element.fail_at("rotor_inertia",
+                    "a gear that locks itself needs the inertia of its motor, else a load that "
+                    "moves the joint stops it at once",
+                    "> 0, or a backdrive_efficiency above 0");
+  return actuator;
 }
 
 namespace {

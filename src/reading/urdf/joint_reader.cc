@@ -92,18 +92,21 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
   return mimic;
 }
 
-ActuatorDescription read_actuator(const XmlElement& element, JointType type,
-                                  const ParameterTable& table) {
-  if (!has_one_coordinate(type))
-    element.fail("a joint of this type has no single coordinate for a rotor", "",
-                 "revolute, continuous or prismatic");
-  ActuatorDescription actuator;
-  actuator.where = element.where();
-  actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, table);
-  if (actuator.gear_ratio.nominal() == 0.0)
-    element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
-  actuator.rotor_inertia = read_quantity(element, "rotor_inertia", Range::kNonNegative, table);
-  return actuator;
+/// Sets the transition velocities that are not given, of friction in N m or N and of gears: a
+/// hundredth of the joint's largest speed if it has one, else 0.01 rad/s or 0.001 m/s.
+void suit_transitions(const XmlElement& element, JointDescription* joint) {
+  const bool bounded = joint->limit && joint->limit->bounds_velocity();
+  const Quantity usual = bounded                ? 0.01 * joint->limit->velocity.nominal()
+                         : is_turn(joint->type) ? 0.01
+                                                : 0.001;
+  const auto lacks = [&element](const char* tag) {
+    const std::optional<XmlElement> child = element.child(tag);
+    return child && !child->has("transition_velocity");
+  };
+  if (joint->friction && joint->friction->is_direct && lacks("codesign:friction"))
+    joint->friction->transition_velocity = usual;
+  if (joint->actuator && joint->actuator->gear && lacks("codesign:actuator"))
+    joint->actuator->gear->slip.transition_velocity = usual;
 }
 
 void read_limit_of_joint(const XmlElement& element, const ReadContext& context,
@@ -183,7 +186,7 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context,
                                   spring = element.child("codesign:torsion_spring");
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, context);
-  if (actuator) joint->actuator = read_actuator(*actuator, joint->type, table);
+  if (actuator) joint->actuator = read_actuator(*actuator, joint->type, context);
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
     spring->fail("a joint of this type has no single coordinate for a spring", "",
@@ -226,6 +229,7 @@ JointDescription read_joint(const XmlElement& element, const ReadContext& contex
   read_joint_parts(element, context, &joint);
   read_limit_of_joint(element, context, &joint);
   read_mimic_of_joint(element, context, &joint);
+  suit_transitions(element, &joint);
   return joint;
 }
 
@@ -240,6 +244,7 @@ JointDescription read_loop(const XmlElement& element, const ReadContext& context
   loop.child_origin = read_origin(element.only("successor"), context.table);
   read_joint_parts(element, context, &loop);
   read_type_specific(element, context, &loop);
+  suit_transitions(element, &loop);
   return loop;
 }
 

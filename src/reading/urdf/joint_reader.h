@@ -31,6 +31,10 @@ struct ReadContext {
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis,
                                   const ReadContext& context);
 
+/// Reads one `<codesign:actuator>` of a joint of the type. @throws InputError
+ActuatorDescription read_actuator(const XmlElement& element, JointType type,
+                                  const ReadContext& context);
+
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);
 

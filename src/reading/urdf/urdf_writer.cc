@@ -115,9 +115,10 @@ void write_friction_law(XMLElement* robot, const FrictionLaw& law) {
        joint = joint->NextSiblingElement()) {
     XMLElement* friction = joint->FirstChildElement("codesign:friction");
     if (friction == nullptr) continue;
+    const bool direct = friction->Attribute("coulomb") != nullptr;
     friction->SetAttribute("model", law.name);
     visit_friction_numbers([&](const FrictionNumberRule& rule) {
-      if (law.uses(rule)) return;
+      if (law.uses(rule) && rule.is_in(direct)) return;
       friction->DeleteAttribute(rule.attribute);
       friction->DeleteAttribute((std::string(kPrefix) + rule.attribute).c_str());
     });

@@ -39,10 +39,15 @@ TEST(FrictionReader, Defaults) {
 /// The default that doc/annotations.md gives for a missing number.
 std::string shown_default(const FrictionNumberRule& rule) {
   using M = FrictionNumberRule::Missing;
-  static const std::map<M, std::string> kWords = {
-      {M::kRefused, "required"},       {M::kLengthOfOne, "none"},
-      {M::kPinRadius, "`pin_radius`"}, {M::kMuStatic, "`mu_static`"},
-      {M::kMuDynamic, "`mu_dynamic`"}, {M::kViscous, "`viscous`"}};
+  static const std::map<M, std::string> kWords = {{M::kRefused, "required"},
+                                                  {M::kLengthOfOne, "none"},
+                                                  {M::kPinRadius, "`pin_radius`"},
+                                                  {M::kMuStatic, "`mu_static`"},
+                                                  {M::kMuDynamic, "`mu_dynamic`"},
+                                                  {M::kViscous, "`viscous`"},
+                                                  {M::kCoulomb, "`coulomb`"},
+                                                  {M::kStatic, "`static`, else `coulomb_backward`"},
+                                                  {M::kTenTransitions, "10 `transition_velocity`"}};
   const bool is_none = rule.standard == 0.0 && !rule.zero_allowed;
   return rule.missing != M::kStandard ? kWords.at(rule.missing)
          : is_none                    ? "none"
@@ -133,7 +138,7 @@ TEST(FrictionReader, NumbersAgainstTheAxis) {
   expect_error(text_with(plain + " viscous_backward=\"-1\""), {"viscous_backward is negative"});
   expect_error(text_with(plain + " model=\"lugre\" mu_static_backward=\"0.5\""),
                {"mu_static_backward has no meaning for this friction model (value: 0.5, allowed: "
-                "with model=\"brown_mcphee\")"});
+                "with model=\"brown_mcphee\" or model=\"stribeck\")"});
   expect_error(text_with(plain + " viscous_backwards=\"1\""),
                {"did you mean \"viscous_backward\"?"});
 }
@@ -151,6 +156,119 @@ TEST(FrictionReader, AttributesBelongToTheirModels) {
                {"did you mean \"bristle_stiffness\"?"});
   expect_error(text_with("model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0\""),
                {"mu_dynamic is zero: the LuGre model divides by it"});
+}
+
+TEST(FrictionReader, InNewtonMetres) {
+  const FrictionDescription f =
+      friction(R"(coulomb="2" codesign:coulomb="${10*length}" viscous="8" viscous_exponent="0.7")");
+  EXPECT_TRUE(f.is_direct);
+  EXPECT_TRUE(f.has_exponent);
+  EXPECT_FALSE(f.is_directional);
+  EXPECT_EQ(f.model, FrictionModel::kStribeck);
+  EXPECT_DOUBLE_EQ(f.mu_dynamic.at(std::vector<double>{0.6}), 6.0);
+  EXPECT_DOUBLE_EQ(f.mu_static.at(std::vector<double>{0.6}), 6.0) << "as coulomb";
+  EXPECT_EQ(f.viscous_exponent.nominal(), 0.7);
+  EXPECT_EQ(f.transition_velocity.nominal(), 0.01) << "rad/s";
+  EXPECT_FALSE(friction(kPlain).is_direct);
+
+  const FrictionDescription lugre = friction(
+      R"(model="lugre" coulomb="5" static="7" transition_velocity="0.1" bristle_stiffness="3e4")");
+  EXPECT_EQ(lugre.model, FrictionModel::kLuGre);
+  EXPECT_EQ(lugre.mu_static.nominal(), 7.0);
+}
+
+TEST(FrictionReader, InNewtonMetresByDirection) {
+  const FrictionDescription f = friction(R"(coulomb="5" coulomb_backward="6")");
+  EXPECT_TRUE(f.is_directional);
+  EXPECT_EQ(f.mu_dynamic_backward.nominal(), 6.0);
+  EXPECT_EQ(f.mu_static_backward.nominal(), 6.0) << "no static friction is given";
+  EXPECT_EQ(friction(R"(coulomb="5" static="7" coulomb_backward="6")").mu_static_backward.nominal(),
+            7.0);
+}
+
+TEST(FrictionReader, FaultsInNewtonMetres) {
+  expect_error(text_with("coulomb=\"-1\""), {"coulomb is negative"});
+  expect_error(text_with("coulomb=\"5\" static=\"4\""),
+               {"coulomb is above static (value: 5, allowed: at most static=4)"});
+  expect_error(text_with("coulomb=\"5\" viscous_exponent=\"0\""),
+               {"viscous_exponent is not positive"});
+  expect_error(text_with("coulomb=\"5\" mu_static=\"0.4\""),
+               {"mu_static has no meaning for friction in N m or N (value: 0.4, allowed: mu_static "
+                "and mu_dynamic in place of coulomb)"});
+  expect_error(text_with("coulomb=\"5\" transverse_axis=\"0 0 1\""),
+               {"transverse_axis has no meaning for friction in N m or N"});
+  expect_error(text_with(std::string(kPlain) + " static=\"4\""),
+               {"static has no meaning for friction by coefficients (value: 4, allowed: coulomb in "
+                "place of mu_static and mu_dynamic)"});
+  expect_error(text_with("coulomb=\"5\" model=\"lugre\" stribeck_velocity=\"1\""),
+               {"stribeck_velocity has no meaning for this friction model (value: 1, allowed: with "
+                "model=\"stribeck\")"});
+  expect_error(text_with("coulomb=\"0\" model=\"lugre\""),
+               {"coulomb is zero: the LuGre model divides by it"});
+  expect_error(text_with("coulomb=\"5\" stribek_velocity=\"1\""),
+               {"did you mean \"stribeck_velocity\"?"});
+}
+
+std::optional<GearDescription> gear(const std::string& attributes) {
+  const std::string actuator = "\n<codesign:actuator rotor_inertia=\"1e-5\" " + attributes + "/>";
+  return read_urdf(pendulum(actuator)).joints.at(0).actuator->gear;
+}
+
+TEST(GearReader, EfficienciesAndFrictionOfTheMotor) {
+  EXPECT_FALSE(gear("gear_ratio=\"50\""));
+  const GearDescription g = *gear(
+      R"(gear_ratio="50" efficiency="0.9" codesign:efficiency="${1-length/2}" coulomb="0.01")");
+  EXPECT_DOUBLE_EQ(g.efficiency->at(std::vector<double>{0.4}), 0.8);
+  EXPECT_FALSE(g.backdrive_efficiency);
+  EXPECT_EQ(g.coulomb.nominal(), 0.01);
+  EXPECT_EQ(g.viscous.nominal(), 0.0);
+  EXPECT_EQ(g.slip.model, FrictionModel::kBrownMcPhee);
+  EXPECT_EQ(g.slip.transition_velocity.nominal(), 0.01);
+  EXPECT_EQ(g.slip.smoothing.nominal(), 1e-3);
+  EXPECT_FALSE(gear("viscous=\"1e-5\"")->efficiency);
+  const GearDescription worm = *gear(
+      R"(efficiency="0.4" backdrive_efficiency="-0.6" model="lugre" bristle_stiffness="3e4")");
+  EXPECT_EQ(worm.backdrive_efficiency->nominal(), -0.6);
+  EXPECT_EQ(worm.slip.bristle_stiffness.nominal(), 3e4);
+}
+
+TEST(GearReader, TheTransitionSuitsTheSpeedOfTheJoint) {
+  const auto transition = [](const std::string& type, const std::string& more) {
+    const RobotDescription robot = read_urdf(robot_text(
+        kGround + link_with("arm") +
+        joint_with("joint", type, "ground", "arm",
+                   "<codesign:actuator rotor_inertia='1' efficiency='0.9'/><codesign:friction "
+                   "coulomb='1'/>" +
+                       more)));
+    EXPECT_EQ(robot.joints[0].friction->transition_velocity.nominal(),
+              robot.joints[0].actuator->gear->slip.transition_velocity.nominal());
+    return robot.joints[0].friction->transition_velocity.nominal();
+  };
+  EXPECT_DOUBLE_EQ(transition("continuous", "<limit effort='0' velocity='3'/>"), 0.03);
+  EXPECT_EQ(transition("continuous", ""), 0.01);
+  EXPECT_EQ(transition("prismatic", "<limit effort='0' velocity='0'/>"), 0.001);
+}
+
+TEST(GearReader, Faults) {
+  const auto faulty = [](const std::string& attributes, const std::string& message) {
+    expect_error(pendulum("\n<codesign:actuator rotor_inertia=\"1e-5\" " + attributes + "/>"),
+                 {"test.urdf:3: <joint name=\"hinge\"> <codesign:actuator>: " + message});
+  };
+  faulty(
+      "efficiency=\"1.1\"",
+      "efficiency is above 1: the gear would give power (value: 1.1, allowed: > 0 and at most 1)");
+  faulty("efficiency=\"0\"", "efficiency is not positive");
+  faulty("efficiency=\"0.9\" backdrive_efficiency=\"1.5\"", "backdrive_efficiency is above 1");
+  faulty("coulomb=\"-1\"", "coulomb is negative");
+  faulty("backdrive_efficiency=\"0.5\"",
+         "backdrive_efficiency has no effect (value: 0.5, allowed: beside efficiency)");
+  faulty("transition_velocity=\"0.5\"",
+         "transition_velocity has no effect (value: 0.5, allowed: beside efficiency, coulomb or "
+         "viscous)");
+  faulty("efficiency=\"0.9\" bristle_stiffness=\"1e4\"", "bristle_stiffness has no meaning");
+  faulty("efficiency=\"0.9\" model=\"lugree\"", "unknown friction model");
+  expect_error(pendulum("<codesign:actuator rotor_inertia=\"0\" efficiency=\"0.5\"/>"),
+               {"a gear that locks itself needs the inertia of its motor"});
 }
 
 RobotDescription read_geared(

@@ -1,0 +1,155 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// What acts on the coordinates and links of a system: loads, rotors, friction with states.
+#include "description/study.h"
+#include "math/arrays.h"
+#include "system/system.h"
+
+namespace codesign {
+
+void System::collect_loads() {
+  int unknowns = 0;
+  for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
+    const Pair& pair = topology_.pairs[p];
+    const bool contact = pair.friction_joint >= 0 && slips_isotropically(pair.kind);
+    if (contact) contacts_.push_back(static_cast<int>(p));
+    for (std::size_t e = 0; e < has_coordinate_[p].size(); ++e) {
+      JointLoad load;
+      load.pair = static_cast<int>(p);
+      load.element = static_cast<int>(e);
+      load.friction = pair.friction_joint >= 0 && !contact;
+      if (load.friction) {
+        const FrictionDescription& f = *robot_.joints[to_index(pair.friction_joint)].friction;
+        load.direct = f.is_direct;
+        load.directional = f.is_directional;
+        load.viscous_power = f.has_exponent;
+      }
+      if (e < pair.chain.size()) {
+        const JointDescription& joint = robot_.joints[to_index(pair.chain[e].joint)];
+        load.constant_friction = !joint.dry_friction.is_zero();
+        load.gear = joint.actuator && joint.actuator->gear;
+        load.gear_transmits = joint.has_lossy_gear();
+        if (load.gear_transmits && contact)
+          throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
+                            "the joint is folded into one that slips in several directions with "
+                            "friction, which the efficiency of a gear does not know",
+                            pair.name, "no efficiency, or no <codesign:friction>"});
+        if (load.gear_transmits && layout_.is_cut(load.pair)) load.gear_unknown = unknowns++;
+        load.spring = joint.spring.has_value();
+        load.passive = !joint.damping.is_zero() || load.spring;
+        load.stop = study().limits.position && has_stops(joint);
+        load.saturated = study().limits.effort && joint.limit && joint.limit->bounds_effort();
+        for (std::size_t k = 0; k < study().loads.size(); ++k)
+          if (study().loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
+      }
+      for (std::size_t c = 0; c < controllers_.size(); ++c)
+        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element)
+          load.controllers.push_back(static_cast<int>(c));
+      const bool driven = !load.controllers.empty() || !load.constant.empty();
+      if (!load.has_friction() && !load.passive && !load.stop && !driven) continue;
+      if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
+      loads_.push_back(load);
+    }
+  }
+}
+
+void System::collect_link_loads() {
+  for (std::size_t k = 0; k < study().loads.size(); ++k) {
+    const LoadDescription& load = study().loads[k];
+    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
+      if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
+        throw InputError({load.where, "loads",
+                          "the joint moves only a link without <inertial>, so a load on it has "
+                          "nothing to act on",
+                          load.joint, "a joint whose child link has an <inertial>"});
+    for (std::size_t link = 0; link < robot_.links.size(); ++link) {
+      if (robot_.links[link].name != load.link) continue;
+      const int body = topology_.link_body[link];
+      if (body == Topology::kGround)
+        throw InputError({load.where, "loads",
+                          "the link is part of the ground, which no load moves", load.link,
+                          "a link that moves"});
+      if (body == Topology::kMassless)
+        throw InputError(
+            {load.where, "loads",
+             "the link has no <inertial>, so it is folded into a joint and cannot be loaded",
+             load.link, "a link with <inertial>"});
+      link_loads_.push_back(
+          {static_cast<int>(k), body, static_cast<int>(link), load.in_link_frame});
+    }
+  }
+}
+
+void System::collect_rotors() {
+  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+    const JointDescription& joint = robot_.joints[j];
+    if (!joint.actuator) continue;
+    const bool turns = !joint.actuator->rotor_inertia.is_zero();
+    if (!turns && !joint.actuator->gear) continue;
+    const auto refuse = [&joint](const std::string& fault, const std::string& value) {
+      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault,
+                        value,
+                        "a link with <inertial>, which holds the rotor's mass and its inertia as "
+                        "if it did not spin"});
+    };
+    const int pair = topology_.joint_pair[j], body = topology_.link_body[to_index(joint.parent)];
+    if (pair < 0)
+      refuse("the joint moves only a link without <inertial>",
+             robot_.links[to_index(joint.child)].name);
+    if (!turns) continue;
+    if (body == Topology::kMassless)
+      refuse("the parent link, which carries the rotor, has no <inertial>",
+             robot_.links[to_index(joint.parent)].name);
+    const std::vector<ChainElement>& chain = topology_.pairs[to_index(pair)].chain;
+    for (std::size_t e = 0; e < chain.size(); ++e) {
+      if (chain[e].joint != static_cast<int>(j)) continue;
+      if (!has_coordinate_[to_index(pair)][e]) refuse_load(pair, static_cast<int>(e));
+      rotors_.push_back({pair, static_cast<int>(e), body});
+    }
+  }
+}
+
+const FrictionLaw& System::friction_law(int pair) const {
+  return *robot_.joints[to_index(topology_.pairs[to_index(pair)].friction_joint)].friction->model;
+}
+
+const FrictionLaw& System::gear_law(int pair, int element) const {
+  const ChainElement& at = topology_.pairs[to_index(pair)].chain[to_index(element)];
+  return *robot_.joints[to_index(at.joint)].actuator->gear->slip.model;
+}
+
+void System::add_bristle(BristleContact contact) {
+  if (!contact.model->bristle) return;
+  contact.first = layout_.states;
+  bristles_.push_back(contact);
+  layout_.states += contact.states();
+}
+
+void System::collect_bristles() {
+  for (const JointLoad& load : loads_) {
+    if (load.friction) add_bristle({friction_law(load.pair), load.pair, load.element, 0, 1, false});
+    if (load.gear)
+      add_bristle({gear_law(load.pair, load.element), load.pair, load.element, 0, 1, true});
+  }
+  for (int contact : contacts_)
+    add_bristle({friction_law(contact), contact, -1, 0,
+                 topology_.pairs[to_index(contact)].kind->slip_coordinates, false});
+}
+
+const BristleContact* System::bristle(int pair, int element, bool gear) const {
+  for (const BristleContact& contact : bristles_)
+    if (contact.pair == pair && contact.element == element && contact.gear == gear) return &contact;
+  return nullptr;
+}
+
+void System::refuse_load(int pair, int element) const {
+  const ChainElement& in_chain = topology_.pairs[to_index(pair)].chain[to_index(element)];
+  const JointDescription& joint = robot_.joints[to_index(in_chain.joint)];
+  throw InputError({joint.where, joint.element(),
+                    "a controller, load, actuator, spring, damping, stop or stock friction on a "
+                    "joint without a scalar coordinate of its own",
+                    topology_.pairs[to_index(pair)].name,
+                    "revolute, continuous and prismatic joints; in a ball joint of three hinges "
+                    "those at right angles to each other"});
+}
+
+}  // namespace codesign

@@ -1,0 +1,119 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// Gradients by the numbers of gears that lose torque, and of friction in N m.
+#include <gtest/gtest.h>
+
+#include "integration/mechanisms.h"
+#include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
+
+namespace codesign {
+namespace {
+
+using Numbers = std::vector<std::pair<std::string, std::string>>;  // attribute and value
+
+/// Attributes with twins by parameters of the same names, after a prefix.
+std::string twins(const std::string& prefix, const Numbers& numbers) {
+  std::string text;
+  for (const auto& [name, value] : numbers)
+    text += " " + name + "='" + value + "' codesign:" + name + "='${" + prefix + name + "}'";
+  return text;
+}
+
+std::string declared(const std::string& prefix, const Numbers& numbers) {
+  std::string text;
+  for (const auto& [name, value] : numbers)
+    text += "<codesign:parameter name='" + prefix + name + "' value='" + value + "'/>";
+  return text;
+}
+
+std::string tuned(const std::string& prefix, const Numbers& numbers) {
+  std::string text;
+  for (const auto& [name, value] : numbers) text += prefix + name + ": {tune: true}, ";
+  return text;
+}
+
+/// A double pendulum with a gear at the shoulder and friction in N m at the elbow.
+struct Geared {
+  Numbers gear, friction;
+  std::string model;
+
+  std::string urdf() const {
+    return robot(declared("g_", gear) + declared("f_", friction) + bar("upper") + bar("lower") +
+                 hinge("shoulder", "ground", "upper", "0 0 0",
+                       "<codesign:actuator" + twins("g_", gear) + model + "/>") +
+                 hinge("elbow", "upper", "lower", "0 0 -1",
+                       "<codesign:friction" + twins("f_", friction) + model + "/>"));
+  }
+  std::string study(const std::string& solver) const {
+    return "duration: 0.6\ninitial_state: {shoulder: {position: 1.0}, elbow: {velocity: 1.0}}\n"
+           "controllers: {motor: {type: state_feedback, output: shoulder, feedforward: {type: "
+           "sine, "
+           "amplitude: 15.0, frequency: 2.0}}}\nparameters: {" +
+           tuned("g_", gear) + tuned("f_", friction) +
+           "}\nobjective: {integral: [{signal: elbow/velocity}, {signal: shoulder/gear_torque, "
+           "weight: 1e-2}, {signal: shoulder/gear_loss, weight: 0.1}, {signal: elbow/friction}], "
+           "terminal: [{signal: shoulder/position}]}\nsolver: {" +
+           solver + "}\n";
+  }
+  GradientCheck check(const std::string& solver, CheckMethod method) const {
+    const Problem problem = load_problem({"test.urdf", urdf()}, {}, {"test.yaml", study(solver)});
+    return check_gradient(problem, problem.start(), method);
+  }
+};
+
+Geared smooth() {
+  return {{{"gear_ratio", "-12"},
+           {"rotor_inertia", "2e-3"},
+           {"efficiency", "0.8"},
+           {"backdrive_efficiency", "0.65"},
+           {"coulomb", "0.05"},
+           {"viscous", "0.002"},
+           {"transition_velocity", "0.2"},
+           {"smoothing", "0.3"}},
+          {{"coulomb", "0.4"},
+           {"static", "0.6"},
+           {"coulomb_backward", "0.5"},
+           {"stribeck_velocity", "0.5"},
+           {"transition_velocity", "0.2"},
+           {"viscous", "0.3"},
+           {"viscous_exponent", "0.6"}},
+          ""};
+}
+
+Geared with_bristles() {
+  return {{{"gear_ratio", "12"},
+           {"rotor_inertia", "2e-3"},
+           {"efficiency", "0.8"},
+           {"coulomb", "0.05"},
+           {"transition_velocity", "0.2"},
+           {"bristle_stiffness", "50"}},
+          {{"coulomb", "0.4"}, {"static", "0.6"}, {"bristle_stiffness", "20"}},
+          " model='lugre'"};
+}
+
+TEST(GearGradients, AreThoseOfTheStepsTaken) {
+  for (const Geared& geared : {smooth(), with_bristles()})
+    for (const char* solver :
+         {"coordinates: joint", "coordinates: absolute", "coordinates: joint, gradient: adjoint",
+          "coordinates: absolute, gradient: adjoint"}) {
+      const GradientCheck exact = geared.check(solver, CheckMethod::kComplexStep);
+      ASSERT_TRUE(exact.status.ok()) << solver << exact.status.cause;
+      EXPECT_LT(exact.largest_relative_difference, 1e-8) << solver << geared.model;
+      EXPECT_GT(exact.evaluation.gradient.cwiseAbs().minCoeff(), 1e-7) << "every number counts";
+    }
+}
+
+TEST(GearGradients, AreThoseOfIndependentRuns) {
+  for (const char* coordinates : {"joint", "absolute"}) {
+    const GradientCheck check =
+        smooth().check(std::string("relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10, "
+                                   "coordinates: ") +
+                           coordinates,
+                       CheckMethod::kRidders);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_LT(check.largest_relative_difference, 1e-6) << coordinates;
+  }
+}
+
+}  // namespace
+}  // namespace codesign
