@@ -298,6 +298,8 @@ std::vector<Partial> partials_of(Recording* recording, int n) {
       return {{node.a, one - self * self}};
     case Operation::kExp:
       return {{node.a, self}};
+    case Operation::kLog:
+      return {{node.a, one / value(node.a)}};
     case Operation::kSin:
       return {{node.a, cos(value(node.a))}};
     case Operation::kCos:

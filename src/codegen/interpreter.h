@@ -18,7 +18,7 @@ namespace codesign {
 /// kLeaf and kLiteral, which do not compute anything, the result is a.
 template <class T>
 T operate(Operation operation, const T& a, const T& b) {
-  using std::asin, std::cos, std::exp, std::sin, std::sqrt, std::tanh;
+  using std::asin, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
   switch (operation) {
     case Operation::kAdd:
       return a + b;
@@ -38,6 +38,8 @@ T operate(Operation operation, const T& a, const T& b) {
       return tanh(a);
     case Operation::kExp:
       return exp(a);
+    case Operation::kLog:
+      return log(a);
     case Operation::kSin:
       return sin(a);
     case Operation::kCos:

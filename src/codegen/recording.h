@@ -90,6 +90,7 @@ enum class Operation : std::uint8_t {
   kRound,  ///< to the nearest integer
   kTanh,
   kExp,
+  kLog,
   kSin,
   kCos,
   kArcSine,

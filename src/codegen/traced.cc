@@ -81,6 +81,7 @@ Traced cos(const Traced& x) { return apply(Operation::kCos, x); }
 Traced asin(const Traced& x) { return apply(Operation::kArcSine, x); }
 Traced tanh(const Traced& x) { return apply(Operation::kTanh, x); }
 Traced exp(const Traced& x) { return apply(Operation::kExp, x); }
+Traced log(const Traced& x) { return apply(Operation::kLog, x); }
 Traced round(const Traced& x) { return apply(Operation::kRound, x); }
 Traced atan2(const Traced& y, const Traced& x) {
   if (x.is_literal() && y.is_literal()) return {std::atan2(y.value(), x.value())};

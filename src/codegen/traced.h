@@ -60,6 +60,7 @@ Traced cos(const Traced& x);
 Traced asin(const Traced& x);
 Traced tanh(const Traced& x);
 Traced exp(const Traced& x);
+Traced log(const Traced& x);
 Traced atan2(const Traced& y, const Traced& x);
 Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }

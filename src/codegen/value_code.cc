@@ -308,6 +308,8 @@ class Code final : public ValueCode, private MachineCode {
         return reinterpret_cast<const void*>(static_cast<Unary>(std::tanh));
       case Operation::kExp:
         return reinterpret_cast<const void*>(static_cast<Unary>(std::exp));
+      case Operation::kLog:
+        return reinterpret_cast<const void*>(static_cast<Unary>(std::log));
       case Operation::kSin:
         return reinterpret_cast<const void*>(static_cast<Unary>(std::sin));
       case Operation::kCos:

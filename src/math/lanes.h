@@ -143,6 +143,7 @@ struct Lanes {
     const double e = std::exp(x.a);
     return {e, x.v * e};
   }
+  CODESIGN_INLINE friend Lanes log(const Lanes& x) { return {std::log(x.a), x.v * (1.0 / x.a)}; }
   CODESIGN_INLINE friend Lanes atan2(const Lanes& y, const Lanes& x) {
     const double inverse = 1.0 / (x.a * x.a + y.a * y.a);
     return {std::atan2(y.a, x.a), y.v * (x.a * inverse) - x.v * (y.a * inverse)};

@@ -29,14 +29,14 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
       motion_(study_.get()),
       topology_(derive_topology(robot_)),
       sharing_(std::move(sharing)) {
-  for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
-  drives_ = static_cast<int>(drives.size());
+  add_drives(drives);
   refuse_unsupported();
   choose_forest();
   lay_out();
   find_coordinates();
   check_couplings();
   resolve_objective();
+  resolve_load_signals();
   resolve_controllers();
   check_signals();
   collect_loads();
@@ -49,6 +49,24 @@ std::vector<double> System::parameters() const { return start_parameters(study()
 
 std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
   return parameters_at(study(), rho);
+}
+
+void System::add_drives(const std::vector<int>& drives) {
+  for (std::size_t k = 0; k < study().motion.size(); ++k) {
+    const GivenMotion& motion = study().motion[k];
+    const int joint = joint_named(robot_, motion.joint);
+    if (topology_.joint_pair[to_index(joint)] < 0)
+      throw InputError({motion.where, "motion." + motion.joint,
+                        "the joint moves only a link without <inertial>, so that its motion has no "
+                        "effect",
+                        motion.joint, "a joint whose child link has an <inertial>"});
+    Coupling drive = drive_of(robot_, topology_, joint);
+    drive.motion = static_cast<int>(k);
+    drive.where = motion.where;
+    topology_.couplings.push_back(std::move(drive));
+  }
+  for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
+  drives_ = static_cast<int>(drives.size());
 }
 
 void System::choose_forest() {
@@ -137,14 +155,20 @@ void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms,
                               std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study().controllers),
-                           static_cast<int>(k)});
+      resolved->push_back({resolve_named(terms[k].signal), static_cast<int>(k)});
     }
   };
   resolve(study().integral, &integral_);
   resolve(study().terminal, &terminal_);
   for (const WatchedSignal& watched : study().watched)
-    watched_.push_back(resolve_signal(watched.signal, robot_, topology_, study().controllers));
+    watched_.push_back(resolve_named(watched.signal));
+}
+
+Signal System::resolve_named(const SignalDescription& signal) {
+  Signal resolved =
+      resolve_signal(signal, robot_, topology_, study().controllers, study().parameters);
+  reads_time_ = reads_time_ || codesign::reads_time(resolved);
+  return resolved;
 }
 
 void System::resolve_controllers() {
@@ -178,118 +202,6 @@ bool System::begins_controllers() const {
   return std::any_of(controllers_.begin(), controllers_.end(), [](const Controller& controller) {
     return controller.states.filter >= 0 || controller.states.held >= 0;
   });
-}
-
-void System::collect_loads() {
-  for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
-    const Pair& pair = topology_.pairs[p];
-    const bool contact = pair.friction_joint >= 0 && slips_isotropically(pair.kind);
-    if (contact) contacts_.push_back(static_cast<int>(p));
-    for (std::size_t e = 0; e < has_coordinate_[p].size(); ++e) {
-      JointLoad load;
-      load.pair = static_cast<int>(p);
-      load.element = static_cast<int>(e);
-      load.reaction_friction = pair.friction_joint >= 0 && !contact;
-      load.directional = load.reaction_friction &&
-                         robot_.joints[to_index(pair.friction_joint)].friction->is_directional;
-      if (e < pair.chain.size()) {
-        const JointDescription& joint = robot_.joints[to_index(pair.chain[e].joint)];
-        load.constant_friction = !joint.dry_friction.is_zero();
-        load.spring = joint.spring.has_value();
-        load.passive = !joint.damping.is_zero() || load.spring;
-        load.stop = study().limits.position && has_stops(joint);
-        load.saturated = study().limits.effort && joint.limit && joint.limit->bounds_effort();
-        for (std::size_t k = 0; k < study().loads.size(); ++k)
-          if (study().loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
-      }
-      for (std::size_t c = 0; c < controllers_.size(); ++c)
-        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element)
-          load.controllers.push_back(static_cast<int>(c));
-      const bool driven = !load.controllers.empty() || !load.constant.empty();
-      if (!load.reaction_friction && !load.constant_friction && !load.passive && !load.stop &&
-          !driven)
-        continue;
-      if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
-      loads_.push_back(load);
-    }
-  }
-}
-
-void System::collect_link_loads() {
-  for (std::size_t k = 0; k < study().loads.size(); ++k) {
-    const LoadDescription& load = study().loads[k];
-    for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
-      if (robot_.joints[joint].name == load.joint && topology_.joint_pair[joint] < 0)
-        throw InputError({load.where, "loads",
-                          "the joint moves only a link without <inertial>, so a load on it has "
-                          "nothing to act on",
-                          load.joint, "a joint whose child link has an <inertial>"});
-    for (std::size_t link = 0; link < robot_.links.size(); ++link) {
-      if (robot_.links[link].name != load.link) continue;
-      const int body = topology_.link_body[link];
-      if (body == Topology::kGround)
-        throw InputError({load.where, "loads",
-                          "the link is part of the ground, which no load moves", load.link,
-                          "a link that moves"});
-      if (body == Topology::kMassless)
-        throw InputError(
-            {load.where, "loads",
-             "the link has no <inertial>, so it is folded into a joint and cannot be loaded",
-             load.link, "a link with <inertial>"});
-      link_loads_.push_back(
-          {static_cast<int>(k), body, static_cast<int>(link), load.in_link_frame});
-    }
-  }
-}
-
-void System::collect_rotors() {
-  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
-    const JointDescription& joint = robot_.joints[j];
-    if (!joint.actuator || joint.actuator->rotor_inertia.is_zero()) continue;
-    const auto refuse = [&joint](const std::string& fault, const std::string& value) {
-      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault,
-                        value,
-                        "a link with <inertial>, which holds the rotor's mass and its inertia as "
-                        "if it did not spin"});
-    };
-    const int pair = topology_.joint_pair[j], body = topology_.link_body[to_index(joint.parent)];
-    if (pair < 0)
-      refuse("the joint moves only a link without <inertial>",
-             robot_.links[to_index(joint.child)].name);
-    if (body == Topology::kMassless)
-      refuse("the parent link, which carries the rotor, has no <inertial>",
-             robot_.links[to_index(joint.parent)].name);
-    const std::vector<ChainElement>& chain = topology_.pairs[to_index(pair)].chain;
-    for (std::size_t e = 0; e < chain.size(); ++e) {
-      if (chain[e].joint != static_cast<int>(j)) continue;
-      if (!has_coordinate_[to_index(pair)][e]) refuse_load(pair, static_cast<int>(e));
-      rotors_.push_back({pair, static_cast<int>(e), body});
-    }
-  }
-}
-
-const FrictionLaw& System::friction_law(int pair) const {
-  return *robot_.joints[to_index(topology_.pairs[to_index(pair)].friction_joint)].friction->model;
-}
-
-void System::add_bristle(int pair, int element, int size) {
-  const FrictionLaw& law = friction_law(pair);
-  if (!law.bristle) return;
-  bristles_.push_back({law, pair, element, layout_.states, size});
-  layout_.states += bristles_.back().states();
-}
-
-void System::collect_bristles() {
-  for (const JointLoad& load : loads_)
-    if (load.reaction_friction) add_bristle(load.pair, load.element, 1);
-  for (int contact : contacts_)
-    add_bristle(contact, -1, topology_.pairs[to_index(contact)].kind->slip_coordinates);
-}
-
-const BristleContact* System::bristle(int pair, int element) const {
-  for (const BristleContact& contact : bristles_)
-    if (contact.pair == pair && contact.element == element) return &contact;
-  return nullptr;
 }
 
 void System::find_coordinates() {
@@ -340,6 +252,14 @@ void System::check_couplings() const {
 
 void System::check_effort_rate(const SignalReference& term,
                                const SignalDescription& description) const {
+  for (const Coupling& drive : topology_.couplings)
+    if (drive.motion >= 0 && drive.terms.front().pair == term.pair &&
+        drive.terms.front().element == term.element)
+      throw InputError(
+          {description.where, "signal",
+           "the motion of the joint is given, and the rate of the effort that it needs "
+           "is not available",
+           description.text, drive.name + "/effort"});
   for (std::size_t c = 0; c < controllers_.size(); ++c) {
     if (controllers_[c].pair != term.pair || controllers_[c].element != term.element ||
         controllers_[c].has_output_rate)

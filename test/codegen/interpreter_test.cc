@@ -22,6 +22,7 @@ TEST(Operate, IsTheFormulaOfEachOperation) {
   EXPECT_EQ(of(Operation::kSquareRoot), std::sqrt(0.3));
   EXPECT_EQ(of(Operation::kTanh), std::tanh(0.3));
   EXPECT_EQ(of(Operation::kExp), std::exp(0.3));
+  EXPECT_EQ(of(Operation::kLog), std::log(0.3));
   EXPECT_EQ(of(Operation::kSin), std::sin(0.3));
   EXPECT_EQ(of(Operation::kCos), std::cos(0.3));
   EXPECT_EQ(of(Operation::kArcSine), std::asin(0.3));
