@@ -78,7 +78,7 @@ def identification(study):
 
 
 OVER = ("runs", "uncertain", "robust", "multistart")
-SOLVED = ("gravity", "initial_state", "loads", "limits", "optimizer", "solver", "engine")
+SOLVED = ("gravity", "initial_state", "loads", "motion", "limits", "optimizer", "solver", "engine")
 
 
 def settings(study, keys):

@@ -7,6 +7,7 @@
 
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 #include "equations/iteration_matrix.h"
 #include "equations/mass_solution.h"
 #include "math/arrays.h"
@@ -44,8 +45,10 @@ Assembly::Assembly(const CompiledSystem& system)
   const auto size = to_index(tree_.size);
   follows_.assign(size, false);
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
-    followers_.push_back(tree_.offset[to_index(topology.couplings[k].terms.front().joint)]);
-    follows_[to_index(followers_.back())] = true;
+    const CouplingTerm& first = topology.couplings[k].terms.front();
+    const bool in_tree = !topology.pairs[to_index(first.pair)].is_loop;
+    followers_.push_back(in_tree ? tree_.offset[to_index(first.joint)] : -1);
+    if (in_tree) follows_[to_index(followers_.back())] = true;
   }
   const GivenStart given(system, tree_);
   position_given_ = given.position;
@@ -72,13 +75,22 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
 }
 
+ReferenceMotion<double> Assembly::given_motion(const Equations<double>& equations,
+                                               const Coupling& coupling) const {
+  if (coupling.motion < 0) return {};
+  return equations.formulas().view().design.motion[to_index(coupling.motion)].at(time_);
+}
+
 // A follower may itself lead another coupling: after as many passes as there are couplings every
 // chain of followers is consistent.
-void Assembly::follow_couplings(const Constants<double>& constants) {
+void Assembly::follow_couplings(const Equations<double>& equations) {
+  const Constants<double>& constants = equations.constants();
   const std::vector<Coupling>& couplings = system_.topology().couplings;
   for (std::size_t pass = 0; pass < couplings.size(); ++pass) {
     for (std::size_t k = 0; k < couplings.size(); ++k) {
-      double position = constants.couplings[k].offset, rate = 0.0;
+      if (followers_[k] < 0) continue;
+      const ReferenceMotion<double> given = given_motion(equations, couplings[k]);
+      double position = constants.couplings[k].offset + given.value, rate = given.rate;
       for (std::size_t t = 1; t < couplings[k].terms.size(); ++t) {
         const int c = tree_.offset[to_index(couplings[k].terms[t].joint)];
         position -= constants.couplings[k].coefficients[t] * theta_[c];
@@ -155,6 +167,7 @@ const Eigen::MatrixXd& Assembly::Dependents::solve(const Eigen::MatrixXd& rows,
 /// @returns the largest error.
 double Assembly::find_errors(const std::vector<double>& parameters, Equations<double>* equations) {
   work_.state.resize(system_.layout());
+  work_.state.t = time_;
   place(parameters, equations, &work_.state);
   equations->constraint_errors(work_.state, &work_.errors, &work_.rates);
   take_loop_rows();
@@ -302,10 +315,10 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
   warnings_.clear();
   contradicting_.clear();
   state->resize(system_.layout());
-  state->t = start_time_;
+  state->t = time_ = start_time_;
   set_extra_states(system_, parameters, &state->s);
   set_start(parameters);
-  follow_couplings(equations->constants());
+  follow_couplings(*equations);
   Status status = solve_positions(parameters, equations);
   if (is_own_design(parameters)) {
     if (status.ok()) note_origin();
@@ -314,6 +327,16 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
   }
   if (status.ok()) place(parameters, equations, state);
   return status;
+}
+
+/// Sets work_.given to the rates that the rows of the loops and couplings have: zero but for
+/// motions that are given.
+void Assembly::find_given_rates(const Equations<double>& equations) {
+  work_.given.setZero(loops_.rows());
+  const std::vector<Coupling>& couplings = system_.topology().couplings;
+  for (std::size_t k = 0; k < couplings.size(); ++k)
+    work_.given[loops_.first_coupling_row() + static_cast<int>(k)] =
+        given_motion(equations, couplings[k]).rate;
 }
 
 Status Assembly::solve_velocities(const std::vector<double>& parameters,
@@ -335,11 +358,12 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters,
   for (int c = 0; c < tree_.size; ++c)
     for (SparseMatrix::InnerIterator entry(work_.enforced, c); entry; ++entry)
       if (drops_[to_index(entry.row())]) entry.valueRef() *= 0.0;
-  work_.rows.noalias() = work_.enforced * theta_rate_;
+  find_given_rates(*equations);
+  work_.rows = work_.enforced * theta_rate_ - work_.given;
   const Eigen::MatrixXd& step = velocities_.solve(work_.rows, &work_.scaled, &work_.solution);
   for (std::size_t k = 0; k < velocities_.columns.size(); ++k)
     theta_rate_[velocities_.columns[k]] -= step(to_signed(k), 0);
-  work_.left.noalias() = work_.enforced * theta_rate_;
+  work_.left = work_.enforced * theta_rate_ - work_.given;
   if (work_.left.size() > 0 &&
       !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
     return contradiction();

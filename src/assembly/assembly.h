@@ -163,7 +163,7 @@ class Assembly {
     LeastSquaresWorkspace solution;
     SparseMatrix enforced;  ///< the unscaled Jacobian, dropped rows zero
     State<double> state;
-    VectorX<double> errors, rates, left;
+    VectorX<double> errors, rates, given, left;
     VectorX<double> start, first,
         near;  ///< tree coordinates to return to, of solve_positions(), close() and refine()
     VectorX<double> plain, followed,
@@ -223,10 +223,13 @@ class Assembly {
   void place(const std::vector<double>& parameters, Equations<double>* equations,
              State<double>* state);
   void set_start(const std::vector<double>& parameters);
-  void follow_couplings(const Constants<double>& constants);
+  void follow_couplings(const Equations<double>& equations);
   /// The first two lists of column preferences: followers, then the other coordinates that are not
   /// given.
   void by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const;
+  ReferenceMotion<double> given_motion(const Equations<double>& equations,
+                                       const Coupling& coupling) const;
+  void find_given_rates(const Equations<double>& equations);
   /// Sets work_.loops.
   void scale_loops(const std::vector<double>& parameters, const Equations<double>& equations);
   /// Sets work_.rows to the rows of the loops and couplings of work_.errors; dropped rows are zero
@@ -251,11 +254,13 @@ class Assembly {
   SingularStart singular_start_;
   Warnings warnings_;
   std::vector<std::size_t> contradicting_;
-  std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others
+  std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others; -1 for
+                                ///< the drive of a loop
   std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;
   double start_time_ = 0.0;               ///< [s]
+  double time_ = 0.0;                     ///< of the positions that are sought [s]
   VectorX<double> guess_;                 ///< of theta_, instead of the study's; empty: none
   const std::vector<double> own_design_;  ///< the start values of the study's parameters
   Origin origin_;

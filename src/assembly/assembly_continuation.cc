@@ -48,7 +48,7 @@ Status Assembly::close_from(const TreeCoordinates& from, const std::vector<doubl
   matrix_.reset_pivots();
   theta_ = from.theta;
   theta_rate_ = from.rate;
-  follow_couplings(equations->constants());
+  follow_couplings(*equations);
   const Status status = solve_positions(parameters, equations);
   return status.ok() ? solve_velocities(parameters, equations) : status;
 }
@@ -62,6 +62,7 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
                           velocities = velocity_given_;
   const std::vector<bool> none(positions.size(), false);
   guess_given_ = velocity_given_ = none;
+  time_ = state->t;
   Status status = close_from(from, parameters, equations);
   if (!status.ok() && positions != none) {
     position_given_ = none;
@@ -157,7 +158,7 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
     is_held = next == 1.0;
     theta_ = work_.followed;
     set_given_start(system_, tree_, work_.between, &theta_, &theta_rate_);
-    follow_couplings(equations->constants());
+    follow_couplings(*equations);
     if (converges_at_once(work_.between, equations)) {
       work_.followed = theta_;
       reached = next;
@@ -216,7 +217,7 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters,
     for (std::size_t k = 0; k < open.size(); ++k)
       nudge[open[k]] = kNudge * columns[open[k]] * ((k * period / 2) % 2 == 0 ? 1.0 : -1.0);
     theta_ = start + nudge;
-    follow_couplings(equations->constants());
+    follow_couplings(*equations);
     const Rest rest = close_from_start(parameters, equations);
     if (rest == Rest::kApart) continue;
     warnings_.push_back(
@@ -306,7 +307,11 @@ Status Assembly::choose_branch(const std::vector<double>& parameters,
   const std::string joints = singular_start_.joints();
   const std::string where =
       "the start is a singular position, where several motions of " + joints + " meet";
-  if (!singular_start_.choose_motion(velocity_given_, &theta_rate_))
+  std::vector<bool> held = velocity_given_;
+  for (std::size_t k = 0; k < followers_.size(); ++k)
+    if (system_.topology().couplings[k].motion >= 0 && followers_[k] >= 0)
+      held[to_index(followers_[k])] = true;
+  if (!singular_start_.choose_motion(held, &theta_rate_))
     return {StatusCode::kSingularConfiguration, 0.0,
             where + ", and the given velocities belong to none of them"};
   warnings_.push_back({"singular_start",

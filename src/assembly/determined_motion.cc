@@ -160,11 +160,13 @@ class Motions {
   void find_allowed() {
     const Eigen::Index size = M_.rows();
     Eigen::MatrixXd forbidden(system_.layout().m, size);
-    VectorX<double> errors, rates;
+    VectorX<double> errors, rates, given;
+    state_.v.setZero();
+    equations_->constraint_errors(state_, &errors, &given);
     for (Eigen::Index k = 0; k < size; ++k) {
       state_.v = V_.col(k);
       equations_->constraint_errors(state_, &errors, &rates);
-      forbidden.col(k) = rates * scale_[k];
+      forbidden.col(k) = (rates - given) * scale_[k];
     }
     const double rounding = 1e-12 * scale_.maxCoeff();
     forbidden =
@@ -234,6 +236,32 @@ void require_determined_motion(const CompiledSystem& system, const std::vector<d
   const Motions motions(system, parameters, assembly, equations);
   const Eigen::VectorXd motion = motions.undetermined();
   if (motion.size() > 0) motions.refuse(motion);
+}
+
+void require_free_drives(const CompiledSystem& system, const std::vector<double>& parameters,
+                         const Assembly& assembly, const Equations<double>& equations) {
+  constexpr double kMoves = 1e-6;  // least rate of a joint, relative to all rates of a motion
+  const std::vector<Coupling>& couplings = system.topology().couplings;
+  const LoopJacobian& loops = assembly.loops();
+  Eigen::MatrixXd scaled;
+  // The drives are the last rows; each is compared with all rows before it.
+  for (std::size_t k = 0; k < couplings.size(); ++k) {
+    if (couplings[k].motion < 0) continue;
+    if (scaled.size() == 0) {
+      const SparseMatrix J = loops.evaluate(parameters, assembly.theta(), equations);
+      const LoopScales scales = loops.scales(J, equations);
+      scaled = scales.rows.asDiagonal() * J * scales.columns.asDiagonal();
+    }
+    const int row = loops.first_coupling_row() + static_cast<int>(k);
+    const Eigen::MatrixXd allowed = orthogonal_complement(scaled.topRows(row).transpose(), kMoves);
+    if (allowed.cols() > 0 && product(scaled.row(row), allowed).norm() > kMoves) continue;
+    throw InputError({couplings[k].where, couplings[k].element(),
+                      "the loops, the couplings and the other motions that are given determine the "
+                      "motion of this joint already, at least at the start",
+                      couplings[k].name,
+                      "motions of at most as many joints as there are degrees of freedom, from a "
+                      "start that is not singular"});
+  }
 }
 
 }  // namespace codesign

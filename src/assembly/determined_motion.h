@@ -36,4 +36,10 @@ SparseMatrix constraint_jacobian(const CompiledSystem& system, Equations<double>
 void require_determined_motion(const CompiledSystem& system, const std::vector<double>& parameters,
                                const Assembly& assembly, Equations<double>* equations);
 
+/// Refuses a motion that is given, theory (8b), of a joint whose motion the loops, the couplings
+/// and the other given motions determine already, at the last positions of `assembly`.
+/// @throws InputError that names the joint.
+void require_free_drives(const CompiledSystem& system, const std::vector<double>& parameters,
+                         const Assembly& assembly, const Equations<double>& equations);
+
 }  // namespace codesign

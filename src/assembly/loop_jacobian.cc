@@ -72,12 +72,23 @@ LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
   first_coupling_row_ = rows();
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     add_row(system.layout().coupling_row(static_cast<int>(k)), topology.couplings[k].name);
-    for (const CouplingTerm& term : topology.couplings[k].terms)
-      coordinates_.push_back(tree.offset[to_index(term.joint)]);
+    couplings_.emplace_back();
+    for (const CouplingTerm& term : topology.couplings[k].terms) {
+      couplings_.back().push_back(movers_of(term));
+      for (const Mover& mover : couplings_.back().back().movers)
+        coordinates_.push_back(mover.coordinate);
+    }
   }
   std::sort(coordinates_.begin(), coordinates_.end());
   coordinates_.erase(std::unique(coordinates_.begin(), coordinates_.end()), coordinates_.end());
   find_pattern();
+}
+
+/// The coordinates that move the coordinate of a term: it is one of the tree, or that of a loop.
+LoopJacobian::Loop LoopJacobian::movers_of(const CouplingTerm& term) const {
+  for (const Loop& loop : loops_)
+    if (loop.pair == term.pair) return loop;
+  return {-1, -1, {{tree_.offset[to_index(term.joint)], true}}};
 }
 
 void LoopJacobian::find_pattern() {
@@ -86,11 +97,10 @@ void LoopJacobian::find_pattern() {
     for (const Mover& mover : loop.movers)
       for (int k = 0; k < rows_of(loop); ++k)
         entries.emplace_back(loop.first_row + k, mover.coordinate, 0.0);
-  const std::vector<Coupling>& couplings = system_.topology().couplings;
-  for (std::size_t k = 0; k < couplings.size(); ++k)
-    for (const CouplingTerm& term : couplings[k].terms)
-      entries.emplace_back(first_coupling_row_ + static_cast<int>(k),
-                           tree_.offset[to_index(term.joint)], 0.0);
+  for (std::size_t k = 0; k < couplings_.size(); ++k)
+    for (const Loop& term : couplings_[k])
+      for (const Mover& mover : term.movers)
+        entries.emplace_back(first_coupling_row_ + static_cast<int>(k), mover.coordinate, 0.0);
   pattern_.resize(rows(), tree_.size);
   pattern_.setFromTriplets(entries.begin(), entries.end());
   std::vector<bool> seen(to_index(static_cast<int>(pattern_.nonZeros())), false);
@@ -172,21 +182,41 @@ void LoopJacobian::evaluate(const std::vector<double>& parameters, const VectorX
     ++place;
   };
   double errors[kMostRows], rates[kMostRows];
-  for (const Loop& loop : loops_) {
+  // Calls visit(body i, body j) for the unit rate of each coordinate that moves a loop.
+  const auto move_each = [&](const Loop& loop, const auto& visit) {
     const Pair& pair = system_.topology().pairs[to_index(loop.pair)];
     const BodyKinematics<double> i = standing(w.q, pair.body_i), j = standing(w.q, pair.body_j);
-    const int size = rows_of(loop);
     for (const Mover& mover : loop.movers) {
       BodyKinematics<double> moved = mover.moves_j ? j : i;
       move(w.twists[to_index(mover.coordinate)], &moved);
-      equations.formulas().pair_errors(loop.pair, mover.moves_j ? i : moved,
-                                       mover.moves_j ? moved : j, Out<double>(errors).first(size),
+      visit(mover.moves_j ? i : moved, mover.moves_j ? moved : j);
+    }
+  };
+  for (const Loop& loop : loops_) {
+    const int size = rows_of(loop);
+    move_each(loop, [&](const auto& i, const auto& j) {
+      equations.formulas().pair_errors(loop.pair, i, j, Out<double>(errors).first(size),
                                        Out<double>(rates).first(size));
       for (int k = 0; k < size; ++k) add(rates[k]);
+    });
+  }
+  for (std::size_t k = 0; k < couplings_.size(); ++k) {
+    const std::vector<double>& coefficients = equations.constants().couplings[k].coefficients;
+    for (std::size_t t = 0; t < couplings_[k].size(); ++t) {
+      const Loop& term = couplings_[k][t];
+      if (term.pair < 0) {
+        add(coefficients[t]);
+        continue;
+      }
+      const PairConstants<double>& pair = equations.constants().pairs[to_index(term.pair)];
+      const int element = system_.topology().couplings[k].terms[t].element;
+      move_each(term, [&](const auto& i, const auto& j) {
+        add(coefficients[t] * coordinate_motion(pair, pair.coordinates[to_index(element)], i, j,
+                                                CoordinateDetail::kRate)
+                                  .rate);
+      });
     }
   }
-  for (const CouplingConstants<double>& coupling : equations.constants().couplings)
-    for (double coefficient : coupling.coefficients) add(coefficient);
 }
 
 int LoopJacobian::power(const Loop& loop, int within, const Equations<double>& equations) {
@@ -270,9 +300,9 @@ std::vector<LoopJacobian::Part> LoopJacobian::parts() const {
     for (const Mover& mover : loop.movers) sets.join(mover.coordinate, tree_.size + loop.first_row);
   }
   for (std::size_t k = 0; k < topology.couplings.size(); ++k)
-    for (const CouplingTerm& term : topology.couplings[k].terms)
-      sets.join(tree_.offset[to_index(term.joint)],
-                tree_.size + first_coupling_row_ + static_cast<int>(k));
+    for (const Loop& term : couplings_[k])
+      for (const Mover& mover : term.movers)
+        sets.join(mover.coordinate, tree_.size + first_coupling_row_ + static_cast<int>(k));
   std::vector<Part> parts;
   std::vector<int> part_of(to_index(tree_.size + rows()), -1);
   for (int row = 0; row < rows(); ++row) {

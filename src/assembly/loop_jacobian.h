@@ -12,6 +12,7 @@
 namespace codesign {
 
 class CompiledSystem;
+struct CouplingTerm;
 template <class T>
 class Equations;
 
@@ -73,6 +74,8 @@ class LoopJacobian {
     part->resize(rows(), all.cols());
     for (int k = 0; k < rows(); ++k) part->row(k) = all.row(constraint_rows_[to_index(k)]);
   }
+  /// The row of the first coupling; one row per coupling.
+  int first_coupling_row() const { return first_coupling_row_; }
   /// Name of the loop or coupling that row `row` of this matrix belongs to.
   const std::string& owner(int row) const { return owners_[to_index(row)]; }
   /// Coordinates that a loop or coupling depends on, ascending; the others have empty columns.
@@ -120,6 +123,7 @@ class LoopJacobian {
   };
 
   void add_loop(int pair);
+  Loop movers_of(const CouplingTerm& term) const;
   void find_pattern();
   int rows_of(const Loop& loop) const;
   /// Power of length in the unit of a loop's row: 0 for an angle, 1 for a position [m], 2 for half
@@ -133,6 +137,8 @@ class LoopJacobian {
   std::vector<int> constraint_rows_, coordinates_;
   std::vector<std::string> owners_;
   std::vector<Loop> loops_;
+  /// Per coupling and term; the pair is -1 for a coordinate of the tree.
+  std::vector<std::vector<Loop>> couplings_;
   /// Where evaluate() puts a number: the first one of a slot is written, later ones are added.
   struct Slot {
     int slot;

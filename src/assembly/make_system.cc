@@ -160,6 +160,17 @@ Warning undetermined_friction(const CompiledSystem& system, const Redundancy& re
               {first.where, first.element(), message + advice_text(robot, releases), "", ""});
 }
 
+/// Between the steps of idas a compliance of 1e-9 turns violations of redundant rows, which are
+/// within its tolerance, into forces. Free mechanisms give way to them, driven ones cannot.
+void refuse_idas(const MotionStudy& study, const Redundancy& redundancy) {
+  if (study.motion.empty() || study.solver.integrator != IntegratorKind::kIdas ||
+      !redundancy.sharing.dropped.empty())
+    return;
+  throw InputError({study.motion.front().where, "motion." + study.motion.front().joint,
+                    "idas cannot give the motion of a mechanism with redundant constraints",
+                    redundancy.rows.front().joint, "solver: {integrator: rosenbrock}"});
+}
+
 /// How redundant constraints are handled, Redundancy::sharing, doc/theory.md (23); nothing if there
 /// are none. @param start positions at which they are found.
 std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorkspace* start,
@@ -173,6 +184,7 @@ std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorksp
                                 &start->equations),
          warnings);
   if (!must_drop(miss, redundancy)) redundancy.sharing.dropped.clear();
+  refuse_idas(system.study(), redundancy);
   redundancy.sharing.compliance = compliance_of(start->equations);
   return redundancy;
 }
@@ -199,7 +211,9 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   Warnings found;
   const auto system = std::make_shared<const CompiledSystem>(robot, study, known);
   StartWorkspace start(*system, system->parameters());
-  require_start(*system, start.assembly, start.solve_positions());
+  const Status positions = start.solve_positions();
+  require_free_drives(*system, start.parameters, start.assembly, start.equations);
+  require_start(*system, start.assembly, positions);
   append(start.assembly.warnings(), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
   if (const Layout& layout = system->layout(); layout.has_forest()) {

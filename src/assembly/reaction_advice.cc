@@ -233,8 +233,8 @@ Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& 
   std::vector<Signal> resolved;
   resolved.reserve(signals.size());
   for (const SignalDescription& signal : signals)
-    resolved.push_back(
-        resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
+    resolved.push_back(resolve_signal(signal, system.robot(), system.topology(),
+                                      system.study().controllers, system.study().parameters));
   Warnings warnings;
   for (std::size_t k : open_reactions(system, redundancy, state, resolved, equations))
     append({warn("undetermined_reaction",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <random>
 
@@ -87,6 +88,10 @@ class TestMotion {
     for (int trial = 0; trial < kTrials && !rows->empty(); ++trial) {
       held_.setOnes(loops_.rows());
       for (int row : *rows) held_[row] = 0.0;
+      // A motion that is given would hold the mechanism where it is.
+      for (std::size_t k = 0; k < system_.topology().couplings.size(); ++k)
+        if (system_.topology().couplings[k].motion >= 0)
+          held_[loops_.first_coupling_row() + static_cast<int>(k)] = 0.0;
       for (double size = kTestMotion; size > 0.1 * kTestMotion; size *= 0.5)
         if (try_motion(theta, trial, size, rows)) break;
     }
@@ -338,8 +343,11 @@ Redundancy analyse_redundancy(const CompiledSystem& system, Equations<double>* e
     if (dependent.empty()) continue;
     for (int k : dependent) rows.push_back(part.rows[to_index(k)]);
     result.sharing.pairs.insert(result.sharing.pairs.end(), part.pairs.begin(), part.pairs.end());
-    result.sharing.couplings.insert(result.sharing.couplings.end(), part.couplings.begin(),
-                                    part.couplings.end());
+    const auto is_given = [&](int k) {
+      return system.topology().couplings[to_index(k)].motion >= 0;
+    };
+    std::remove_copy_if(part.couplings.begin(), part.couplings.end(),
+                        std::back_inserter(result.sharing.couplings), is_given);
   }
   if (rows.empty()) return result;
   for (std::vector<int>* list : {&result.sharing.pairs, &result.sharing.couplings})

@@ -59,6 +59,11 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   }
   loops_.evaluate(parameters, theta, *equations, &motion_, &sparse_J_);
   J_ = sparse_J_;
+  // A motion that is given is held, and its row is linear: it restricts no other motion.
+  const std::vector<Coupling>& couplings = system_.topology().couplings;
+  for (std::size_t k = 0; k < couplings.size(); ++k)
+    if (couplings[k].motion >= 0)
+      J_.row(loops_.first_coupling_row() + static_cast<int>(k)).setZero();
   qr_.matrix(J_.rows(), J_.cols()) = J_;
   qr_.factor(kRankAtStart);
   qr_.complement(&L_);

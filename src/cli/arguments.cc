@@ -40,9 +40,20 @@ void add_setting(const std::string& text, Arguments* arguments) {
                                    number_of<double>("--set", text.substr(equals + 1)));
 }
 
+/// The comma after an item of a list; commas in `${max(a, b)}` separate arguments.
+std::size_t comma_after(const std::string& text, std::size_t first) {
+  int depth = 0;
+  for (std::size_t k = first; k < text.size(); ++k) {
+    if (text[k] == '{') ++depth;
+    if (text[k] == '}') --depth;
+    if (text[k] == ',' && depth <= 0) return k;
+  }
+  return text.size();
+}
+
 void add_signals(const std::string& text, Arguments* arguments) {
   for (std::size_t first = 0; first <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', first), text.size());
+    const std::size_t comma = comma_after(text, first);
     if (comma == first) throw UsageError("--signals: an empty name in \"" + text + "\"");
     arguments->signals.push_back(text.substr(first, comma - first));
     first = comma + 1;

@@ -41,7 +41,7 @@ class Resolver {
 
   Signal readable(const SignalDescription& description, std::size_t k,
                   const std::string& key) const {
-    Signal signal = resolve_signal(description, robot_, topology_, study_.controllers);
+    Signal signal = resolve_signal(description, robot_, topology_, study_.controllers, {});
     for (const SignalReference& term : signal)
       if (term.controller >= static_cast<int>(k) || reads_effort(term, k))
         throw InputError({study_.controllers[k].where, element(k) + key,
@@ -55,7 +55,7 @@ class Resolver {
   /// if one of them drives its joint.
   bool reads_effort(const SignalReference& term, std::size_t k) const {
     if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kJointEffortRate ||
-        term.kind == SignalKind::kActuatorPower)
+        term.kind == SignalKind::kActuatorPower || term.kind == SignalKind::kMotorTorque)
       return true;
     if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque)
       return false;
@@ -82,7 +82,7 @@ class Resolver {
     if (joint == robot_.joints.end()) return;
     const SignalDescription output{
         joint->name + "/velocity", {{1.0, joint->name, "velocity", ""}}, description.where};
-    const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers);
+    const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers, {});
     controller.pair = resolved.front().pair;
     controller.element = resolved.front().element;
   }
@@ -140,24 +140,9 @@ class Resolver {
   /// instant of the sample. The same holds for a filter, whose state begins at its input.
   void refuse_rates(std::size_t k) const {
     const auto is_rate = [](const SignalReference& term) {
-      switch (term.kind) {
-        case SignalKind::kJointPosition:
-        case SignalKind::kJointVelocity:
-        case SignalKind::kLinkPosition:
-        case SignalKind::kLinkVelocity:
-        case SignalKind::kLinkAngularVelocity:
-        case SignalKind::kLinkOrientation:
-        case SignalKind::kKineticEnergy:
-        case SignalKind::kPotentialEnergy:
-        case SignalKind::kTotalEnergy:
-        case SignalKind::kControllerError:
-        case SignalKind::kControllerSetpoint:
-        case SignalKind::kControllerIntegral:
-        case SignalKind::kControllerOutput:
-          return false;
-        default:
-          return true;
-      }
+      using K = SignalKind;
+      return !is_of_motion(term.kind) && term.kind != K::kControllerError &&
+             term.kind != K::kControllerIntegral && term.kind != K::kControllerOutput;
     };
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))

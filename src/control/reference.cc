@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "codegen/number_types.h"
+#include "description/formula.h"
 #include "math/arrays.h"
+#include "math/taylor.h"
 
 namespace codesign {
 namespace {
@@ -125,6 +127,18 @@ void Reference<T>::set(const ReferenceDescription& description, const std::vecto
       live_ = description.live.function;
       planned_ = std::make_shared<const Reference<T>>(*description.live.planned, parameters);
       break;
+    case ReferenceDescription::Kind::kIntegral:
+      rate_.resize(1);
+      rate_[0].set(*description.integral.rate, parameters);
+      rate_[0].sum_areas();
+      offset_ = description.integral.start.at(parameters);
+      break;
+    case ReferenceDescription::Kind::kExpression:
+      expression_ = &description.expression;
+      used_.clear();
+      for (const int used : expression_->formula->dependencies())
+        used_.push_back(used == expression_->time ? T(0.0) : parameters.at(to_index(used)));
+      break;
   }
 }
 
@@ -196,6 +210,56 @@ ReferenceMotion<T> Reference<T>::commanded_at(const LiveFunction& function, doub
 }
 
 template <class T>
+std::size_t Reference<T>::piece_at(double t) const {
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), t,
+                       [](double time, const Piece& piece) { return time < piece.start; });
+  return to_index(next - pieces_.begin()) - 1;
+}
+
+template <class T>
+T Reference<T>::area(const Piece& piece, double duration) {
+  T sum(0.0);
+  for (std::size_t k = piece.c.size(); k-- > 0;)
+    sum = sum * duration + piece.c[k] * (1.0 / static_cast<double>(k + 1));
+  return sum * duration;
+}
+
+// The first piece is a constant without a start; it counts from the first way-point backward.
+template <class T>
+void Reference<T>::sum_areas() {
+  areas_.assign(pieces_.size(), T(0.0));
+  for (std::size_t k = 2; k < pieces_.size(); ++k)
+    areas_[k] = areas_[k - 1] + area(pieces_[k - 1], pieces_[k].start - pieces_[k - 1].start);
+  if (pieces_.empty()) return;
+  const T before = integral_at(0.0);
+  for (T& sum : areas_) sum -= before;
+}
+
+template <class T>
+T Reference<T>::integral_at(double t) const {
+  using std::cos;
+  if (kind_ == ReferenceDescription::Kind::kConstant) return offset_ * t;
+  if (kind_ == ReferenceDescription::Kind::kSine)
+    return offset_ * t + amplitude_ / angular_frequency_ *
+                             (cos(phase_) - cos(angular_frequency_ * T(t) + phase_));
+  const std::size_t k = piece_at(t);
+  if (k == 0) return areas_[0] + pieces_[0].c[0] * (t - pieces_[1].start);
+  return areas_[k] + area(pieces_[k], t - pieces_[k].start);
+}
+
+template <class T>
+ReferenceMotion<T> Reference<T>::expression_at(double t) const {
+  const Expression& formula = *expression_->formula;
+  std::vector<Taylor<T>> variables;
+  for (std::size_t k = 0; k < used_.size(); ++k)
+    variables.push_back(formula.dependencies()[k] == expression_->time ? Taylor<T>::time(t)
+                                                                       : Taylor<T>(used_[k]));
+  const Taylor<T> f = evaluate_formula<Taylor<T>>(formula.steps(), variables);
+  return {f.c[0], f.c[1], T(2.0) * f.c[2], T(6.0) * f.c[3]};
+}
+
+template <class T>
 ReferenceMotion<T> Reference<T>::at(double t) const {
   using std::cos;
   using std::sin;
@@ -205,6 +269,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return motion;
   }
   if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
+  if (kind_ == ReferenceDescription::Kind::kExpression) return expression_at(t);
   if (kind_ == ReferenceDescription::Kind::kLive)
     return live_->commanded ? commanded_at(*live_, t) : planned_->at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
@@ -213,10 +278,11 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     const T square = angular_frequency_ * angular_frequency_;
     return {offset_ + s, angular_frequency_ * c, -(square * s), -(square * angular_frequency_ * c)};
   }
-  const auto next =
-      std::upper_bound(pieces_.begin(), pieces_.end(), t,
-                       [](double time, const Piece& piece) { return time < piece.start; });
-  const Piece& piece = *std::prev(next);
+  if (kind_ == ReferenceDescription::Kind::kIntegral) {
+    const ReferenceMotion<T> rate = rate_[0].at(t);
+    return {offset_ + rate_[0].integral_at(t), rate.value, rate.rate, rate.acceleration};
+  }
+  const Piece& piece = pieces_[piece_at(t)];
   if (!std::isfinite(piece.start)) {
     motion.value = piece.c[0];
     return motion;

@@ -63,7 +63,8 @@ class Reference {
     set(description, parameters);
   }
   /// Becomes what the constructor makes. Uses its memory again, so that the same description at
-  /// other parameters allocates nothing, unless it is commanded.
+  /// other parameters allocates nothing, unless it is commanded. @param description must outlive
+  /// this if it is an expression.
   void set(const ReferenceDescription& description, const std::vector<T>& parameters);
 
   /// The function at time t [s]. At a way-point the derivatives of the following piece hold.
@@ -80,6 +81,13 @@ class Reference {
   };
   static ReferenceMotion<T> along(const Piece& piece, double t);
   ReferenceMotion<T> sampled_at(double t) const;
+  /// The integral from 0 to t of a constant, a sine or way-points, theory (C2b); for way-points
+  /// after sum_areas().
+  T integral_at(double t) const;
+  void sum_areas();
+  ReferenceMotion<T> expression_at(double t) const;
+  std::size_t piece_at(double t) const;
+  static T area(const Piece& piece, double duration);
   void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
   static Piece hold(double start, const T& value);
 
@@ -92,6 +100,10 @@ class Reference {
   std::vector<Knot<T>> knots_;                   ///< workspace of set()
   std::vector<Piece>
       pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
+  std::vector<T> areas_;            ///< per piece but the first: the integral from 0 to its start
+  std::vector<Reference<T>> rate_;  ///< kIntegral: one entry, the rate
+  const TimeExpression* expression_ = nullptr;
+  std::vector<T> used_;  ///< kExpression: the numbers of its formula's dependencies; of the time: 0
 };
 
 /// For recorded equations: a constant, or inputs that are supplied for each instant

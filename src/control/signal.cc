@@ -1,12 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "control/signal.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism/topology.h"
+#include "text/nearest_name.h"
 
 namespace codesign {
 namespace {
@@ -34,6 +37,8 @@ const std::map<std::string, SignalKind>& joint_kinds() {
       {"damping_power", SignalKind::kDampingPower},
       {"actuator_power", SignalKind::kActuatorPower},
       {"load_power", SignalKind::kLoadPower},
+      {"motor_torque", SignalKind::kMotorTorque},
+      {"motor_speed", SignalKind::kMotorSpeed},
       {"reaction_force", SignalKind::kReactionForce},
       {"reaction_torque", SignalKind::kReactionTorque}};
   return kinds;
@@ -127,6 +132,39 @@ SignalReference resolve_controller(const SignalTerm& term, int controller) {
   return reference;
 }
 
+SignalReference resolve_spring(const SignalTerm& term, int spring) {
+  SignalReference reference;
+  reference.spring = spring;
+  reference.kind = term.quantity == "force"    ? SignalKind::kSpringForce
+                   : term.quantity == "length" ? SignalKind::kSpringLength
+                                               : SignalKind::kSpringSpeed;
+  return reference;
+}
+
+/// The variables of an expression: its signals in the order of the terms, parameters, the time.
+std::shared_ptr<const ResolvedFormula> resolve_formula(const SignalDescription& signal,
+                                                       const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  ResolvedFormula formula{signal.formula->steps, {}};
+  int terms = 0;
+  for (const std::string& name : signal.formula->names) {
+    ResolvedFormula::Variable& variable = formula.variables.emplace_back();
+    if (name.find('/') != std::string::npos) {
+      variable.term = terms++;
+    } else if (std::find(names.begin(), names.end(), name) != names.end()) {
+      variable.parameter = std::make_shared<const Expression>(name, names);
+    } else if (name != "t") {
+      names.emplace_back("t");
+      InputFault fault = unknown_name(signal.where, "signal", "parameter", name, names).fault();
+      fault.value = signal.text;
+      fault.allowed += "; signals are written NAME/QUANTITY, without spaces";
+      throw InputError(fault);
+    }
+  }
+  return std::make_shared<const ResolvedFormula>(std::move(formula));
+}
+
 std::optional<SignalKind> derivative_kind(SignalKind kind) {
   switch (kind) {
     case SignalKind::kJointPosition:
@@ -138,6 +176,8 @@ std::optional<SignalKind> derivative_kind(SignalKind kind) {
       return SignalKind::kLinkVelocity;
     case SignalKind::kLinkVelocity:
       return SignalKind::kLinkAcceleration;
+    case SignalKind::kSpringLength:
+      return SignalKind::kSpringSpeed;
     case SignalKind::kControllerIntegral:
       return SignalKind::kControllerError;
     case SignalKind::kControllerError:
@@ -153,13 +193,18 @@ std::optional<SignalKind> derivative_kind(SignalKind kind) {
 
 Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot,
                       const Topology& topology,
-                      const std::vector<ControllerDescription>& controllers) {
+                      const std::vector<ControllerDescription>& controllers,
+                      const std::vector<Parameter>& parameters) {
   check_signal(signal, robot, controllers, "signal");
   Signal resolved;
+  if (signal.formula) resolved.formula = resolve_formula(signal, parameters);
   for (const SignalTerm& term : signal.terms) {
     SignalReference reference;
     if (is_of_mechanism(term)) {
       reference.kind = mechanism_kinds().at(term.quantity);
+    } else if (const auto spring = find_named(robot.spring_dampers, term.object);
+               spring && is_of_spring(term)) {
+      reference = resolve_spring(term, *spring);
     } else if (const auto controller = find_named(controllers, term.object)) {
       reference = resolve_controller(term, *controller);
     } else if (const auto joint = find_named(robot.joints, term.object);
@@ -175,7 +220,38 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
   return resolved;
 }
 
+bool is_of_motion(SignalKind kind) {
+  switch (kind) {
+    case SignalKind::kJointPosition:
+    case SignalKind::kJointVelocity:
+    case SignalKind::kLinkPosition:
+    case SignalKind::kLinkVelocity:
+    case SignalKind::kLinkAngularVelocity:
+    case SignalKind::kLinkOrientation:
+    case SignalKind::kKineticEnergy:
+    case SignalKind::kPotentialEnergy:
+    case SignalKind::kTotalEnergy:
+    case SignalKind::kSpringForce:
+    case SignalKind::kSpringLength:
+    case SignalKind::kSpringSpeed:
+    case SignalKind::kMotorSpeed:
+    case SignalKind::kControllerSetpoint:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool reads_time(const Signal& signal) {
+  if (!signal.formula) return false;
+  const auto is_time = [](const ResolvedFormula::Variable& variable) {
+    return variable.term < 0 && !variable.parameter;
+  };
+  return std::any_of(signal.formula->variables.begin(), signal.formula->variables.end(), is_time);
+}
+
 std::optional<Signal> differentiate(const Signal& resolved) {
+  if (resolved.formula) return std::nullopt;
   Signal derivative = resolved;
   for (SignalReference& reference : derivative) {
     const auto kind = derivative_kind(reference.kind);

@@ -1,9 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "description/expression.h"
+#include "mechanism_codesign/parameter.h"
 
 namespace codesign {
 
@@ -47,7 +51,12 @@ enum class SignalKind {
   kControllerIntegral,
   kControllerOutput,
   kControllerSetpoint,
-  kControllerSetpointRate
+  kControllerSetpointRate,
+  kSpringForce,  ///< tension of a spring-damper; theory (13b)
+  kSpringLength,
+  kSpringSpeed,  ///< rate of its length
+  kMotorTorque,  ///< of the actuator of a joint: effort / gear ratio
+  kMotorSpeed    ///< gear ratio times velocity
 };
 
 /// One term of a signal with its names resolved to indices.
@@ -58,16 +67,38 @@ struct SignalReference {
   int link = -1;                ///< index of a link
   int axis = 0;         ///< component of a vector (x, y, z) or a quaternion (w, x, y, z), from 0
   int controller = -1;  ///< index of a controller
+  int spring = -1;      ///< index in RobotDescription::spring_dampers
 };
 
-/// A sum of resolved terms.
-using Signal = std::vector<SignalReference>;
+/// An expression of signals with its names resolved.
+struct ResolvedFormula {
+  struct Variable {
+    int term = -1;                                ///< index among the terms of the signal; or
+    std::shared_ptr<const Expression> parameter;  ///< a parameter; neither: the time t
+  };
+  ExpressionSteps steps;
+  std::vector<Variable> variables;
+};
 
-/// Resolves the names of a signal. @throws InputError for unknown names and for quantities that
-/// cannot be read.
+/// A sum of resolved terms, or an expression of them.
+struct Signal : std::vector<SignalReference> {
+  using std::vector<SignalReference>::vector;
+  std::shared_ptr<const ResolvedFormula> formula;  ///< null: the sum
+};
+
+/// Whether a quantity depends on the positions and velocities of the mechanism and on nothing else,
+/// so that loads may depend on it.
+bool is_of_motion(SignalKind kind);
+
+/// Whether a signal contains the time t.
+bool reads_time(const Signal& signal);
+
+/// Resolves the names of a signal. @param parameters that an expression may contain.
+/// @throws InputError for unknown names and for quantities that cannot be read.
 Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot,
                       const Topology& topology,
-                      const std::vector<ControllerDescription>& controllers);
+                      const std::vector<ControllerDescription>& controllers,
+                      const std::vector<Parameter>& parameters = {});
 
 /// The time derivative of a resolved signal; std::nullopt if the derivative of a term is not
 /// available.

@@ -158,29 +158,32 @@ std::complex<double> expression_quotient(std::complex<double> a, std::complex<do
 
 const std::vector<ExpressionFunction>& expression_function_table() {
   static const std::vector<ExpressionFunction> kTable = {
-      {"sqrt", 1, square_root},
-      {"sin", 1, [](In<Complex> z) { return std::sin(z[0]); }},
-      {"cos", 1, [](In<Complex> z) { return std::cos(z[0]); }},
-      {"tan", 1, [](In<Complex> z) { return std::tan(z[0]); }},
-      {"asin", 1, arc_sine},
-      {"acos", 1, arc_cosine},
-      {"atan", 1, [](In<Complex> z) { return std::atan(z[0]); }},
-      {"atan2", 2, arc_tangent2},
-      {"sinh", 1, [](In<Complex> z) { return std::sinh(z[0]); }},
-      {"cosh", 1, [](In<Complex> z) { return std::cosh(z[0]); }},
-      {"tanh", 1, [](In<Complex> z) { return std::tanh(z[0]); }},
-      {"exp", 1, [](In<Complex> z) { return std::exp(z[0]); }},
-      {"log", 1, [](In<Complex> z) { return std::log(z[0]); }},
-      {"log10", 1, [](In<Complex> z) { return std::log10(z[0]); }},
-      {"pow", 2, expression_power},
-      {"abs", 1, [](In<Complex> z) { return z[0].real() >= 0.0 ? z[0] : -z[0]; }},
-      {"sign", 1, [](In<Complex> z) { return Complex(sign_of(z[0].real())); }},
-      {"min", -1, [](In<Complex> z) { return extreme(z, -1.0); }},
-      {"max", -1, [](In<Complex> z) { return extreme(z, 1.0); }},
-      {"floor", 1, [](In<Complex> z) { return Complex(std::floor(z[0].real())); }},
-      {"ceil", 1, [](In<Complex> z) { return Complex(std::ceil(z[0].real())); }},
-      {"radians", 1, [](In<Complex> z) { return z[0] * (M_PI / 180.0); }},
-      {"degrees", 1, [](In<Complex> z) { return z[0] * (180.0 / M_PI); }},
+      {"sqrt", 1, square_root, FunctionKind::kSquareRoot},
+      {"sin", 1, [](In<Complex> z) { return std::sin(z[0]); }, FunctionKind::kSine},
+      {"cos", 1, [](In<Complex> z) { return std::cos(z[0]); }, FunctionKind::kCosine},
+      {"tan", 1, [](In<Complex> z) { return std::tan(z[0]); }, FunctionKind::kTangent},
+      {"asin", 1, arc_sine, FunctionKind::kArcSine},
+      {"acos", 1, arc_cosine, FunctionKind::kArcCosine},
+      {"atan", 1, [](In<Complex> z) { return std::atan(z[0]); }, FunctionKind::kArcTangent},
+      {"atan2", 2, arc_tangent2, FunctionKind::kArcTangent2},
+      {"sinh", 1, [](In<Complex> z) { return std::sinh(z[0]); }, FunctionKind::kHyperbolicSine},
+      {"cosh", 1, [](In<Complex> z) { return std::cosh(z[0]); }, FunctionKind::kHyperbolicCosine},
+      {"tanh", 1, [](In<Complex> z) { return std::tanh(z[0]); }, FunctionKind::kHyperbolicTangent},
+      {"exp", 1, [](In<Complex> z) { return std::exp(z[0]); }, FunctionKind::kExponential},
+      {"log", 1, [](In<Complex> z) { return std::log(z[0]); }, FunctionKind::kLogarithm},
+      {"log10", 1, [](In<Complex> z) { return std::log10(z[0]); }, FunctionKind::kLogarithm10},
+      {"pow", 2, expression_power, FunctionKind::kPower},
+      {"abs", 1, [](In<Complex> z) { return z[0].real() >= 0.0 ? z[0] : -z[0]; },
+       FunctionKind::kMagnitude},
+      {"sign", 1, [](In<Complex> z) { return Complex(sign_of(z[0].real())); }, FunctionKind::kSign},
+      {"min", -1, [](In<Complex> z) { return extreme(z, -1.0); }, FunctionKind::kLeast},
+      {"max", -1, [](In<Complex> z) { return extreme(z, 1.0); }, FunctionKind::kGreatest},
+      {"floor", 1, [](In<Complex> z) { return Complex(std::floor(z[0].real())); },
+       FunctionKind::kFloor},
+      {"ceil", 1, [](In<Complex> z) { return Complex(std::ceil(z[0].real())); },
+       FunctionKind::kCeiling},
+      {"radians", 1, [](In<Complex> z) { return z[0] * (M_PI / 180.0); }, FunctionKind::kRadians},
+      {"degrees", 1, [](In<Complex> z) { return z[0] * (180.0 / M_PI); }, FunctionKind::kDegrees},
   };
   return kTable;
 }
@@ -265,6 +268,8 @@ Expression::Expression(const std::string& text, const ExpressionScope& scope) : 
   const auto stack = to_index(stack_size(parsed.steps));
   program_ = std::make_unique<const Program>(Program{std::move(parsed.steps), stack});
 }
+
+const ExpressionSteps& Expression::steps() const { return program_->steps; }
 
 Expression::~Expression() = default;
 

@@ -15,6 +15,33 @@
 
 namespace codesign {
 
+/// The functions of expressions, for formulas of other scalars (description/formula.h).
+enum class FunctionKind : unsigned char {
+  kSquareRoot,
+  kSine,
+  kCosine,
+  kTangent,
+  kArcSine,
+  kArcCosine,
+  kArcTangent,
+  kArcTangent2,
+  kHyperbolicSine,
+  kHyperbolicCosine,
+  kHyperbolicTangent,
+  kExponential,
+  kLogarithm,
+  kLogarithm10,
+  kPower,
+  kMagnitude,
+  kSign,
+  kLeast,
+  kGreatest,
+  kFloor,
+  kCeiling,
+  kRadians,
+  kDegrees
+};
+
 /// A function that expressions may call. All functions propagate a complex step exactly to first
 /// order; those that are not analytic (abs, min, max, floor, ...) branch by the real part.
 struct ExpressionFunction {
@@ -22,6 +49,7 @@ struct ExpressionFunction {
   const char* name;
   int count;  ///< number of arguments; -1: one or more
   Law law;
+  FunctionKind kind;
 };
 
 /// All functions. The table never changes, so that indices into it stay valid.
@@ -91,6 +119,9 @@ ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
 struct ExpressionScope {
   std::function<int(const std::string&)> find;      ///< index of a parameter, -1 if there is none
   std::function<std::vector<std::string>()> names;  ///< all names, for messages
+  /// Where a signal ends that begins at a byte of the text; that byte itself if none does. A signal
+  /// is then a name to find(). Empty: there are no signals.
+  std::function<std::size_t(const std::string& text, std::size_t at)> signal_end{};
 };
 
 /// Numbers for the parameters that one expression uses: the expressions that people write use few.
@@ -120,6 +151,9 @@ class Expression {
 
   /// Indices of the parameters that appear in the expression, ascending.
   const std::vector<int>& dependencies() const { return dependencies_; }
+
+  /// The operations; variable k is parameter dependencies()[k].
+  const ExpressionSteps& steps() const;
 
   /// Value at `parameters`, which may hold more entries than the names given at construction (the
   /// surplus is ignored). NaN where the expression has no real value (square root or logarithm of a

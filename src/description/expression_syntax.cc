@@ -30,7 +30,8 @@ std::vector<std::string> function_names() {
 
 class Parser {
  public:
-  Parser(const std::string& text, const ExpressionScope& scope) : scope_(scope), scanner_(text) {}
+  Parser(const std::string& text, const ExpressionScope& scope)
+      : scope_(scope), scanner_(text, scope) {}
 
   ParsedExpression run() {
     if (scanner_.token().kind == Kind::kEnd) throw std::invalid_argument("the expression is empty");
@@ -288,6 +289,7 @@ void ExpressionScanner::next() {
   if (at_ >= text_.size()) return;
   if (starts_identifier(peek())) {
     while (continues_identifier(peek())) ++at_;
+    if (scope_.signal_end) at_ = std::max(at_, scope_.signal_end(text_, token_.at));
     token_.kind = ExpressionToken::Kind::kName;
     token_.text = text_.substr(token_.at, at_ - token_.at);
   } else if (is_digit(peek()) || peek() == '.') {

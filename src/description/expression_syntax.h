@@ -22,8 +22,12 @@ struct ExpressionToken {
 /// reference to the text.
 class ExpressionScanner {
  public:
-  /// Reads the first token. @throws std::invalid_argument if it is invalid.
-  explicit ExpressionScanner(const std::string& text) : text_(text) { next(); }
+  /// Reads the first token. @param scope which signals there are; must outlive the scanner.
+  /// @throws std::invalid_argument if it is invalid.
+  ExpressionScanner(const std::string& text, const ExpressionScope& scope)
+      : text_(text), scope_(scope) {
+    next();
+  }
 
   const ExpressionToken& token() const { return token_; }
   bool is(const char* symbol) const {
@@ -44,6 +48,7 @@ class ExpressionScanner {
   void read_symbol();
 
   const std::string& text_;
+  const ExpressionScope& scope_;
   std::size_t at_ = 0;
   ExpressionToken token_;
 };

@@ -60,15 +60,29 @@ struct ControllerDescription {
   SourceLocation where;
 };
 
-/// A constant load: an effort on a joint, or a wrench on a link.
+/// A component of a load: a function of time, or an expression of signals.
+struct LoadFunction {
+  ReferenceDescription of_time;
+  std::shared_ptr<const SignalDescription> of_signals;  ///< null: of_time
+};
+
+/// A load: an effort on a joint, or a wrench on a link.
 struct LoadDescription {
   std::string joint;  ///< one of joint and link is empty
   std::string link;
-  Quantity effort;               ///< of a joint, along its coordinate [N m or N]
-  QuantityVector force, torque;  ///< on a link [N], [N m]
-  QuantityVector point;          ///< where the force acts, in the link's frame [m]
+  LoadFunction effort;                        ///< of a joint, along its coordinate [N m or N]
+  std::array<LoadFunction, 3> force, torque;  ///< on a link [N], [N m]
+  QuantityVector point;                       ///< where the force acts, in the link's frame [m]
   bool in_link_frame = false;  ///< components of force and torque in the link's axes, turning with
                                ///< it; else in the root link's axes
+  SourceLocation where;
+};
+
+/// A joint whose motion is given; theory (8b).
+struct GivenMotion {
+  std::string joint;              ///< revolute, continuous or prismatic, of the tree or a loop
+  ReferenceDescription position;  ///< of its coordinate [rad or m]; kIntegral if its velocity is
+                                  ///< given
   SourceLocation where;
 };
 
@@ -111,6 +125,7 @@ struct MotionStudy {
   std::vector<Quantity> initial_extra_states;
   std::vector<ControllerDescription> controllers;
   std::vector<LoadDescription> loads;
+  std::vector<GivenMotion> motion;
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]`
   /// is rho_k.
   std::vector<Parameter> parameters;

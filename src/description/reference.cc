@@ -68,6 +68,14 @@ void add(const ReferenceDescription& description, Found* found) {
     case ReferenceDescription::Kind::kLive:
       add(*description.live.planned, found);
       break;
+    case ReferenceDescription::Kind::kIntegral:
+      add(*description.integral.rate, found);
+      add(description.integral.start, found);
+      break;
+    case ReferenceDescription::Kind::kExpression:
+      for (const int used : description.expression.formula->dependencies())
+        if (used != description.expression.time) found->insert(used);
+      break;
   }
 }
 
@@ -99,6 +107,16 @@ BasisWeights basis_weights(const BasisDescription& basis, double t) {
     weights.rate[to_index(r) + 1] += share;
   }
   return weights;
+}
+
+const ReferenceDescription& clock_function() {
+  static const ReferenceDescription kClock = [] {
+    ReferenceDescription clock;
+    clock.kind = ReferenceDescription::Kind::kExpression;
+    clock.expression = {std::make_shared<const Expression>("t", std::vector<std::string>{"t"}), 0};
+    return clock;
+  }();
+  return kClock;
 }
 
 std::vector<int> dependencies(const ReferenceDescription& description) {

@@ -87,10 +87,23 @@ struct LiveDescription {
   std::shared_ptr<const ReferenceDescription> planned;
 };
 
-/// A prescribed function of time: the setpoint of a controller or the reference of an objective's
-/// term. Of the alternatives the one that `kind` names is used.
+/// start + the integral of `rate` from 0 to t, for a motion whose velocity is given; theory (C2b).
+struct IntegralDescription {
+  std::shared_ptr<const ReferenceDescription> rate;  ///< not null; constant, sine or way-points
+  Quantity start;                                    ///< value at t = 0
+};
+
+/// An expression of the time and of parameters; theory (C2c).
+struct TimeExpression {
+  std::shared_ptr<const Expression> formula;
+  int time = -1;  ///< index of the time t [s] among the names of the formula; the others are
+                  ///< parameters
+};
+
+/// A prescribed function of time: the setpoint of a controller, the reference of an objective's
+/// term, or the motion of a joint. Of the alternatives the one that `kind` names is used.
 struct ReferenceDescription {
-  enum class Kind { kConstant, kSine, kWaypoints, kSampled, kLive };
+  enum class Kind { kConstant, kSine, kWaypoints, kSampled, kLive, kIntegral, kExpression };
 
   // NOLINTNEXTLINE(google-explicit-constructor): a number is a constant reference.
   ReferenceDescription(Quantity value = 0.0) : constant(std::move(value)) {}
@@ -102,7 +115,12 @@ struct ReferenceDescription {
   WaypointsDescription waypoints;
   SampledDescription sampled;  ///< of recorded efforts; studies do not name it
   LiveDescription live;        ///< of commands (CommandInputs); studies do not name it
+  IntegralDescription integral;
+  TimeExpression expression;
 };
+
+/// The time t itself as a function of time.
+const ReferenceDescription& clock_function();
 
 /// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag.
 struct TrajectoryAddress {

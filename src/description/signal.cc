@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
+#include "description/expression_syntax.h"
 #include "text/number_text.h"
 
 namespace codesign {
 namespace {
 
 constexpr const char* kFormOfSignal =
-    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, and sums and "
-    "differences of them";
+    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, sums and "
+    "differences of them, and expressions of them, ${...}";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
@@ -25,7 +28,9 @@ bool is_quantity(const std::string& word) {
       "position",       "velocity",         "acceleration",   "effort",         "friction",
       "normal_force",   "sliding_velocity", "error",          "setpoint",       "integral",
       "output",         "angular_velocity", "orientation",    "reaction_force", "reaction_torque",
-      "friction_power", "damping_power",    "actuator_power", "load_power"};
+      "friction_power", "damping_power",    "actuator_power", "load_power",     "effort_rate",
+      "kinetic_energy", "potential_energy", "total_energy",   "force",          "length",
+      "speed",          "motor_torque",     "motor_speed"};
   return kQuantities.count(word) != 0;
 }
 
@@ -140,11 +145,74 @@ class SignalParser {
   std::size_t position_ = 0;
 };
 
+bool continues_name(char c) { return continues_identifier(c) || c == '-' || c == '.'; }
+
+/// The end of the signal that begins at a byte of an expression, or that byte: a name, which may
+/// contain slashes, then a slash and a known quantity, and a component of one letter.
+std::size_t signal_end(const std::string& text, std::size_t at) {
+  const auto name_end = [&text](std::size_t k) {
+    while (k < text.size() && continues_name(text[k])) ++k;
+    return k;
+  };
+  for (std::size_t slash = name_end(at); slash < text.size() && text[slash] == '/';
+       slash = name_end(slash + 1)) {
+    std::size_t end = slash + 1;
+    while (end < text.size() && continues_identifier(text[end])) ++end;
+    if (!is_quantity(text.substr(slash + 1, end - slash - 1))) continue;
+    const bool has_component = end + 1 < text.size() && text[end] == '/' &&
+                               std::string("wxyz").find(text[end + 1]) != std::string::npos &&
+                               (end + 2 == text.size() || !continues_identifier(text[end + 2]));
+    return has_component ? end + 2 : end;
+  }
+  return at;
+}
+
+/// The term of a signal that signal_end() has found.
+SignalTerm term_of(const std::string& signal) {
+  SignalTerm term;
+  std::size_t end = signal.size(), slash = signal.rfind('/');
+  if (slash + 2 == end) {  // no quantity has one letter
+    term.component = signal.substr(slash + 1);
+    end = slash;
+    slash = signal.rfind('/', end - 1);
+  }
+  term.quantity = signal.substr(slash + 1, end - slash - 1);
+  term.object = signal.substr(0, slash);
+  return term;
+}
+
+SignalDescription parse_formula(const std::string& text, const SourceLocation& where,
+                                const std::string& element) {
+  SignalDescription signal{text, {}, where, nullptr};
+  SignalFormula formula;
+  std::vector<std::string>& names = formula.names;
+  const auto find = [&names](const std::string& name) {
+    const auto known = std::find(names.begin(), names.end(), name);
+    if (known == names.end()) names.push_back(name);
+    return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::string inside = trimmed(text);
+  try {
+    formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
+                                     {find, [&names] { return names; }, signal_end})
+                        .steps;
+  } catch (const std::invalid_argument& error) {
+    throw InputError({where, element, error.what(), text, kFormOfSignal});
+  }
+  for (const std::string& name : names)
+    if (name.find('/') != std::string::npos) signal.terms.push_back(term_of(name));
+  signal.formula = std::make_shared<const SignalFormula>(std::move(formula));
+  return signal;
+}
+
 }  // namespace
 
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
                                const std::string& element) {
-  return {text, SignalParser(text, where, element).parse(), where};
+  const std::string inside = trimmed(text);
+  if (inside.size() > 2 && inside.compare(0, 2, "${") == 0 && inside.back() == '}')
+    return parse_formula(text, where, element);
+  return {text, SignalParser(text, where, element).parse(), where, nullptr};
 }
 
 bool is_equality(const WatchedSignal& watched) {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,14 +21,23 @@ struct SignalTerm {
       component;  ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
 };
 
-/// A sum or difference of named signals, see doc/study.md.
-struct SignalDescription {
-  std::string text;
-  std::vector<SignalTerm> terms;
-  SourceLocation where;
+/// An expression of signals, parameters and the time t: `${crank/effort * crank/velocity}`.
+struct SignalFormula {
+  ExpressionSteps steps;
+  std::vector<std::string> names;  ///< of the variables of the steps: signals, of which the k-th is
+                                   ///< SignalDescription::terms[k], and names without a slash
 };
 
-/// Splits `a/position/x - b/position/x` into terms. Names are not checked here; see check_signal().
+/// A sum or difference of named signals, or an expression of signals; see doc/study.md.
+struct SignalDescription {
+  std::string text;
+  std::vector<SignalTerm> terms;  ///< summed up, or the signals that the formula reads
+  SourceLocation where;
+  std::shared_ptr<const SignalFormula> formula{};  ///< null: the sum of the terms
+};
+
+/// Splits `a/position/x - b/position/x` into terms, or parses `${...}`. Names are not checked here;
+/// see check_signal().
 /// @throws InputError if the text does not have the form of a signal.
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
                                const std::string& element);

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "control/controller.h"
@@ -12,14 +13,13 @@
 
 namespace codesign {
 
-/// A constant load on a link, theory (13g), with the numbers of one design. Components are in the
-/// root link's axes, or in the axes of the body if LinkLoad::turns.
+/// A load of the study, theory (13g), with the numbers of one design. Where System::load_signals()
+/// has a signal, its value counts in place of the function of time.
 template <class T>
-struct ConstantWrench {
-  /// [N], acting at `point`; [N m]. If LinkLoad::turns the torque includes the moment of the force
-  /// about the centre of mass.
-  Vector3<T> force, torque;
-  Vector3<T> point;  ///< point of action in body coordinates, from the centre of mass [m]
+struct LoadNumbers {
+  Reference<T> effort;                        ///< of a joint [N or N m]
+  std::array<Reference<T>, 3> force, torque;  ///< of a link [N], [N m], in the axes of the load
+  Vector3<T> point;  ///< where the force acts, in body coordinates, from the centre of mass [m]
 };
 
 /// The numbers of the objective's terms, theory (21), one per term of Study::integral or
@@ -41,9 +41,10 @@ struct Design {
   ObjectiveNumbers<T> integral,
       terminal;                       ///< the integrand g and the terminal terms w of theory (21)
   std::vector<Reference<T>> watched;  ///< the references of Study::watched, theory (21a)
-  std::vector<T> efforts;  ///< one per entry of Study::loads [N or N m]; read for loads on joints
-  std::vector<ConstantWrench<T>> wrenches;  ///< one per entry of System::link_loads()
-  Vector3<T> gravity;                       ///< [m/s^2], in the root link's axes
+  std::vector<LoadNumbers<T>> loads;  ///< order of Study::loads
+  Reference<T> clock;                 ///< the time, if System::reads_time()
+  std::vector<Reference<T>> motion;   ///< order of Study::motion, theory (8b)
+  Vector3<T> gravity;                 ///< [m/s^2], in the root link's axes
 
   /// Evaluates all members at `values`, one value per named parameter. A later design of the same
   /// system allocates nothing.
@@ -52,28 +53,26 @@ struct Design {
   MassWorkspace<T> mass_workspace;  ///< workspace of set()
 };
 
-/// Evaluates Design::efforts and Design::wrenches, theory (13g), from the design's parameters and
-/// link constants, which must be set before.
+/// Evaluates Design::loads, theory (13g), from the design's parameters and link constants, which
+/// must be set before.
 template <class T>
-void set_constant_loads(const System& system, Design<T>* design) {
-  const std::vector<T>& parameters = design->parameters;
-  design->efforts.clear();
-  for (const LoadDescription& load : system.study().loads)
-    design->efforts.push_back(load.effort.at(parameters));
-  design->wrenches.clear();
-  for (const LinkLoad& on_link : system.link_loads()) {
-    const LoadDescription& load = system.study().loads[to_index(on_link.load)];
-    const LinkConstants<T>& link = design->constants.links[to_index(on_link.link)];
-    const auto vector = [&parameters](const QuantityVector& q) {
-      return Vector3<T>(q[0].at(parameters), q[1].at(parameters), q[2].at(parameters));
-    };
-    ConstantWrench<T> wrench{vector(load.force), vector(load.torque),
-                             link.R * vector(load.point) + link.s};
-    if (on_link.turns) {
-      wrench.force = link.R * wrench.force;
-      wrench.torque = link.R * wrench.torque + cross<T>(wrench.point, wrench.force);
+void set_loads(const System& system, Design<T>* design) {
+  const std::vector<LoadDescription>& loads = system.study().loads;
+  design->loads.resize(loads.size());
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    LoadNumbers<T>& numbers = design->loads[k];
+    numbers.effort.set(loads[k].effort.of_time, design->parameters);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      numbers.force[axis].set(loads[k].force[axis].of_time, design->parameters);
+      numbers.torque[axis].set(loads[k].torque[axis].of_time, design->parameters);
     }
-    design->wrenches.push_back(wrench);
+  }
+  for (const LinkLoad& on_link : system.link_loads()) {
+    const QuantityVector& point = loads[to_index(on_link.load)].point;
+    const LinkConstants<T>& link = design->constants.links[to_index(on_link.link)];
+    const Vector3<T> in_link(point[0].at(design->parameters), point[1].at(design->parameters),
+                             point[2].at(design->parameters));
+    design->loads[to_index(on_link.load)].point = link.R * in_link + link.s;
   }
 }
 
@@ -82,7 +81,8 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   parameters = values;
   for (int k = 0; k < 3; ++k) gravity[k] = T(system.study().gravity[to_index(k)]);
   evaluate_constants(system.robot(), system.topology(), parameters, &mass_workspace, &constants);
-  set_constant_loads(system, this);
+  set_loads(system, this);
+  if (system.reads_time()) clock.set(clock_function(), parameters);
   rows.resize(constants.pairs.size());
   for (std::size_t k = 0; k < rows.size(); ++k)
     pair_rows(system.topology().pairs[k].kind, constants.pairs[k], &rows[k]);
@@ -101,6 +101,9 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   };
   evaluate(study.integral, &integral);
   evaluate(study.terminal, &terminal);
+  motion.resize(study.motion.size());
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    motion[k].set(study.motion[k].position, parameters);
   watched.resize(study.watched.size());
   for (std::size_t k = 0; k < watched.size(); ++k)
     watched[k].set(study.watched[k].reference, parameters);

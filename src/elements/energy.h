@@ -18,8 +18,8 @@ enum class PowerKind {
   kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
   kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the
               ///< dissipation of stops
-  kActuator,  ///< controllers, as applied within the effort limits
-  kLoad       ///< the study's constant efforts and wrenches
+  kActuator,  ///< controllers, as applied within the effort limits, and motions that are given
+  kLoad       ///< the study's efforts and wrenches
 };
 
 // The powers [W] of theory (14c), positive where energy goes into the mechanism. A load L opposes
@@ -40,11 +40,11 @@ T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, 
       return load.stop ? T(value + stop_dissipation(view, load, rate)) : value;
     }
     case PowerKind::kActuator:
-      return -applied_effort(view, load);
+      return -actuator_effort(view, load);
     case PowerKind::kLoad:
       break;
   }
-  return -constant_effort(view, load);
+  return -given_effort(view, load);
 }
 
 /// The power of one kind along one joint coordinate; zero if no load of that kind acts there.
@@ -52,8 +52,8 @@ template <class T>
 T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
   const bool acts = kind == PowerKind::kFriction   ? load.has_friction()
                     : kind == PowerKind::kDamping  ? load.passive || load.stop
-                    : kind == PowerKind::kActuator ? !load.controllers.empty()
-                                                   : !load.constant.empty();
+                    : kind == PowerKind::kActuator ? !load.controllers.empty() || load.drive >= 0
+                                                   : !load.given.empty();
   if (!acts) return T(0.0);
   const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
   return -load_of_kind(view, kind, load, rate) * rate;

@@ -27,9 +27,9 @@ void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* 
   for (std::size_t k = 0; k < view.design.rows.size(); ++k) pair_residual(view, workspace, k, G);
   for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
     add_spring_load(view, workspace, k, spring_at(view, k));
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k) add_link_load(view, workspace, k);
+  for (std::size_t k = 0; k < system.link_loads().size(); ++k) add_link_load(view, workspace, k);
   for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, workspace, to_index(b), G);
-  for (std::size_t k = 0; k < view.design.wrenches.size(); ++k)
+  for (std::size_t k = 0; k < system.link_loads().size(); ++k)
     link_load_residual(view, workspace, k, G);
   for (const Rotor& rotor : system.rotors()) rotor_residual(view, workspace, rotor, G);
   for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k)

@@ -61,14 +61,16 @@ T annotated_friction(const StateView<T>& view, const JointLoad& load, const T& r
 }
 
 // Loads along joint coordinates [N or N m], theory (13). A load L is positive against the
-// coordinate, so that J^T L is added to the rows of motion; an effort (of a controller, or a
-// constant one) is positive along the coordinate and counts as -L.
+// coordinate, so that J^T L is added to the rows of motion; an effort (of a controller, or of a
+// load) is positive along the coordinate and counts as -L.
 
-/// The sum of the study's constant efforts on a coordinate, theory (13g).
+/// The sum of the study's efforts on a coordinate, theory (13g).
 template <class T>
-T constant_effort(const StateView<T>& view, const JointLoad& load) {
+T given_effort(const StateView<T>& view, const JointLoad& load) {
   T sum(0.0);
-  for (int k : load.constant) sum += view.design.efforts[to_index(k)];
+  for (int k : load.given)
+    sum += load_value(view, view.design.loads[to_index(k)].effort,
+                      view.system.load_signals()[to_index(k)].effort);
   return sum;
 }
 
@@ -124,8 +126,18 @@ T applied_effort(const StateView<T>& view, const JointLoad& load) {
   return saturate(demand, limit).value;
 }
 
+/// The effort of the actuators along a coordinate, for observers: what controllers apply, and what
+/// a motion that is given needs, (8b).
+template <class T>
+T actuator_effort(const StateView<T>& view, const JointLoad& load) {
+  const T applied = applied_effort(view, load);
+  if (load.drive < 0) return applied;
+  const T& lambda = view.state->z[view.layout.lambda_column(view.layout.coupling_row(load.drive))];
+  return applied - view.design.constants.couplings[to_index(load.drive)].coefficients[0] * lambda;
+}
+
 /// What acts on the joint's own side of a gear: friction of the bearing, damping, spring and stop
-/// minus constant efforts.
+/// minus efforts of loads.
 template <class T>
 T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value(0.0);
@@ -133,7 +145,7 @@ T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   if (load.passive || load.constant_friction)
     value += passive_load(view, load.pair, load.element, load, rate);
   if (load.stop) value += stop_load(view, load, rate, view.system.study().limits.dissipation);
-  if (!load.constant.empty()) value -= constant_effort(view, load);
+  if (!load.given.empty()) value -= given_effort(view, load);
   return value;
 }
 
@@ -188,8 +200,8 @@ T gear_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   return value;
 }
 
-/// The whole load L along a coordinate: friction, damping, spring, stop and gear minus constant and
-/// applied efforts.
+/// The whole load L along a coordinate: friction, damping, spring, stop and gear minus efforts of
+/// loads and of controllers. The effort of a given motion is not part of it: it is a multiplier.
 template <class T>
 T joint_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value = link_load(view, load, rate);
@@ -264,13 +276,13 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   return state;
 }
 
-/// The effort that controllers apply along a coordinate, within the actuator's limit; positive
-/// along the coordinate.
+/// The effort of the actuators along a coordinate, of controllers within the actuator's limit;
+/// positive along the coordinate.
 template <class T>
 T joint_effort(const StateView<T>& view, int pair, int element) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads())
-    if (load.pair == pair && load.element == element) sum += applied_effort(view, load);
+    if (load.pair == pair && load.element == element) sum += actuator_effort(view, load);
   return sum;
 }
 

@@ -95,21 +95,65 @@ T spring_energy_at(const StateView<T>& view, std::size_t k) {
   return codesign::spring_energy<T>(d, c.stiffness, c.free_length);
 }
 
-/// The power -c l'^2 of the damper [W], never positive.
+/// The rate l' of the length of a spring-damper [m/s].
 template <class T>
-T spring_power(const StateView<T>& view, std::size_t k) {
+T spring_speed(const StateView<T>& view, std::size_t k) {
   using std::sqrt;
   const SpringDamperConstants<T>& c = view.design.constants.springs[k];
   const VectorMotion<T> d =
       displacement_motion(view.body(c.body_i), c.s_i, view.body(c.body_j), c.s_j);
   const T inverse = T(1.0) / sqrt(dot<T>(d.x, d.x) + T(kSpringSmoothing * kSpringSmoothing));
-  const T rate = dot<T>(Vector3<T>(inverse * d.x), d.xd);
-  return -c.damping * rate * rate;
+  return dot<T>(Vector3<T>(inverse * d.x), d.xd);
 }
 
-// The study's constant loads on links, theory (13g). A force with components in the root's axes is
-// added to the loads of its body, (7), with b = -F; torques, and loads that turn with their link,
-// are added to the rows of motion directly.
+/// The power -c l'^2 of the damper [W], never positive.
+template <class T>
+T spring_power(const StateView<T>& view, std::size_t k) {
+  const T rate = spring_speed(view, k);
+  return -view.design.constants.springs[k].damping * rate * rate;
+}
+
+// The study's loads on links, theory (13g). A force with components in the root's axes is added to
+// the loads of its body, (7), with b = -F; torques, and loads that turn with their link, are added
+// to the rows of motion directly.
+
+template <class T>
+T signal_value(const StateView<T>& view, const Signal& signal);
+
+/// A component of a load at the loaded state: of its signal if it has one, else of time.
+template <class T>
+T load_value(const StateView<T>& view, const Reference<T>& of_time, const Signal& of_signals) {
+  return of_signals.formula ? signal_value(view, of_signals) : of_time.at(view.state->t).value;
+}
+
+/// A load on a link at the loaded state. Components are in the root link's axes, or in the axes of
+/// the body if LinkLoad::turns.
+template <class T>
+struct LinkWrench {
+  /// [N], acting at `point`; [N m]. If LinkLoad::turns the torque includes the moment of the force
+  /// about the centre of mass.
+  Vector3<T> force, torque;
+  Vector3<T> point;  ///< point of action in body coordinates, from the centre of mass [m]
+};
+
+template <class T>
+LinkWrench<T> link_wrench(const StateView<T>& view, const LinkLoad& load) {
+  const LoadNumbers<T>& numbers = view.design.loads[to_index(load.load)];
+  const LoadSignals& signals = view.system.load_signals()[to_index(load.load)];
+  LinkWrench<T> wrench;
+  wrench.point = numbers.point;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = to_index(k);
+    wrench.force[k] = load_value(view, numbers.force[axis], signals.force[axis]);
+    wrench.torque[k] = load_value(view, numbers.torque[axis], signals.torque[axis]);
+  }
+  if (load.turns) {
+    const Matrix3<T>& R = view.design.constants.links[to_index(load.link)].R;
+    wrench.force = R * wrench.force;
+    wrench.torque = R * wrench.torque + cross<T>(wrench.point, wrench.force);
+  }
+  return wrench;
+}
 
 /// Adds the force in the root's axes to Workspace::loads, f = -F and W = -F s^T; nothing for a load
 /// that turns with its link. Must be called before body_residual().
@@ -117,9 +161,10 @@ template <class T>
 void add_link_load(const StateView<T>& view, Workspace<T>* workspace, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
   if (load.turns) return;
+  const LinkWrench<T> wrench = link_wrench(view, load);
   BodyLoad<T>& on_body = workspace->loads[to_index(load.body)];
-  on_body.force -= view.design.wrenches[k].force;
-  on_body.W -= view.design.wrenches[k].force * view.design.wrenches[k].point.transpose();
+  on_body.force -= wrench.force;
+  on_body.W -= wrench.force * wrench.point.transpose();
 }
 
 /// Adds the terms that add_link_load() leaves out to the rows of motion of a free body, or to
@@ -129,7 +174,7 @@ template <class T>
 void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::size_t k,
                         VectorX<T>* G) {
   const LinkLoad& load = view.system.link_loads()[k];
-  const ConstantWrench<T>& wrench = view.design.wrenches[k];
+  const LinkWrench<T> wrench = link_wrench(view, load);
   const BodyKinematics<T>& on = view.body(load.body);
   if (on.in_forest) {
     Wrench<T>& own = workspace->own[to_index(load.body)];
@@ -151,7 +196,7 @@ void link_load_residual(const StateView<T>& view, Workspace<T>* workspace, std::
 template <class T>
 T link_load_power(const StateView<T>& view, std::size_t k) {
   const LinkLoad& load = view.system.link_loads()[k];
-  const ConstantWrench<T>& wrench = view.design.wrenches[k];
+  const LinkWrench<T> wrench = link_wrench(view, load);
   const BodyKinematics<T>& on = view.body(load.body);
   // The torque of a load that turns with its link includes the moment of its force about the centre
   // of mass.

@@ -73,18 +73,27 @@ void pair_errors(const StateView<T>& view, int pair, const BodyKinematics<T>& i,
   }
 }
 
-// Constraint rows between joint coordinates, Phi = sum of c_k theta_k - b, theory (8a). The row is
-// linear in the coordinates, so its multiplier lambda is a load c_k lambda along each of them.
+// Constraint rows between joint coordinates, Phi = sum of c_k theta_k - b, theory (8a), with b a
+// function of time for a motion that is given, (8b). The row is linear in the coordinates, so its
+// multiplier lambda is a load c_k lambda along each of them.
 
-/// Sets the coupling's entries of Phi and Phi_q v. Positions count whole turns.
+/// The motion that the study gives to a driven coordinate; at rest in zero for all other couplings.
+template <class T>
+ReferenceMotion<T> given_motion(const StateView<T>& view, const Coupling& coupling) {
+  if (coupling.motion < 0) return {};
+  return view.design.motion[to_index(coupling.motion)].at(view.state->t);
+}
+
+/// Sets the coupling's entries of Phi and of its rate. Positions count whole turns.
 template <class T>
 void coupling_error(const StateView<T>& view, std::size_t k, VectorX<T>* Phi,
                     VectorX<T>* Phi_rate) {
   const Coupling& coupling = view.system.topology().couplings[k];
   const CouplingConstants<T>& c = view.design.constants.couplings[k];
   const int row = view.layout.coupling_row(static_cast<int>(k));
-  (*Phi)[row] = -c.offset;
-  (*Phi_rate)[row] = T(0.0);
+  const ReferenceMotion<T> given = given_motion(view, coupling);
+  (*Phi)[row] = -c.offset - given.value;
+  (*Phi_rate)[row] = -given.rate;
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     (*Phi)[row] += c.coefficients[t] * view.coordinate_value(term.pair, term.element);
@@ -107,7 +116,8 @@ void coupling_residual(const StateView<T>& view, Workspace<T>* workspace, std::s
   const Coupling& coupling = view.system.topology().couplings[k];
   const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
   const T lambda = view.state->z[row];
-  (*G)[row] = T(-compliance_in(view, coupling)) * lambda;
+  (*G)[row] =
+      T(-compliance_in(view, coupling)) * lambda - given_motion(view, coupling).acceleration;
   for (std::size_t t = 0; t < coupling.terms.size(); ++t) {
     const CouplingTerm& term = coupling.terms[t];
     const T coefficient = view.design.constants.couplings[k].coefficients[t];

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "description/formula.h"
 #include "elements/controllers.h"
 #include "elements/effort_rate.h"
 #include "elements/energy.h"
@@ -66,7 +67,7 @@ T load_term(const StateView<T>& view, const SignalReference& term) {
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
     if (term.kind == SignalKind::kJointEffort)
-      sum += applied_effort(view, load);
+      sum += actuator_effort(view, load);
     else if (term.kind == SignalKind::kJointEffortRate)
       sum += applied_effort_rate(view, load);
     else if (term.kind == SignalKind::kGearTorque)
@@ -83,6 +84,24 @@ T load_term(const StateView<T>& view, const SignalReference& term) {
 template <class T>
 T power_term(const StateView<T>& view, const SignalReference& term, PowerKind kind) {
   return term.pair < 0 ? total_power(view, kind) : joint_power(view, kind, term.pair, term.element);
+}
+
+/// Tension, length or its rate of a spring-damper, theory (13b).
+template <class T>
+T spring_term(const StateView<T>& view, const SignalReference& term) {
+  const auto spring = to_index(term.spring);
+  if (term.kind == SignalKind::kSpringSpeed) return spring_speed(view, spring);
+  const SpringForce<T> force = spring_at(view, spring);
+  return term.kind == SignalKind::kSpringForce ? force.tension : force.length;
+}
+
+/// Torque or speed of the actuator of a joint, on the motor's side of its gear.
+template <class T>
+T motor_term(const StateView<T>& view, const SignalReference& term) {
+  const T& ratio = view.dynamics(term.pair, term.element).gear_ratio;
+  if (term.kind == SignalKind::kMotorTorque)
+    return joint_effort(view, term.pair, term.element) / ratio;
+  return ratio * view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
 }
 
 /// Any term of a signal.
@@ -137,14 +156,33 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
       return load_term(view, term);
     case SignalKind::kJointNormalForce:
       return normal_force(view, term.pair);
+    case SignalKind::kSpringForce:
+    case SignalKind::kSpringLength:
+    case SignalKind::kSpringSpeed:
+      return spring_term(view, term);
+    case SignalKind::kMotorTorque:
+    case SignalKind::kMotorSpeed:
+      return motor_term(view, term);
     default:
       return joint_term(view, term);
   }
 }
 
-/// A signal, the sum of its terms times their factors.
+/// An expression of signals, parameters and the time.
+template <class T>
+T formula_value(const StateView<T>& view, const Signal& signal) {
+  std::vector<T> variables;
+  for (const ResolvedFormula::Variable& variable : signal.formula->variables)
+    variables.push_back(variable.term >= 0   ? term_value(view, signal[to_index(variable.term)])
+                        : variable.parameter ? value_at(*variable.parameter, view.design.parameters)
+                                             : view.design.clock.at(view.state->t).value);
+  return evaluate_formula<T>(signal.formula->steps, variables);
+}
+
+/// A signal, the sum of its terms times their factors, or an expression of them.
 template <class T>
 T signal_value(const StateView<T>& view, const Signal& signal) {
+  if (signal.formula) return formula_value(view, signal);
   T sum(0.0);
   for (const SignalReference& term : signal) sum += T(term.factor) * term_value(view, term);
   return sum;

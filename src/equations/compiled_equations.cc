@@ -348,7 +348,7 @@ void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* 
                                              VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
   Phi_rate->resize(system_.layout().m);
-  run(EquationFunction::kConstraintErrors, 0.0, state.turns, {state.q, state.v, {}, {}},
+  run(EquationFunction::kConstraintErrors, state.t, state.turns, {state.q, state.v, {}, {}},
       {*Phi, *Phi_rate, {}, {}});
 }
 

@@ -9,6 +9,26 @@
 
 namespace codesign {
 
+namespace {
+
+/// The scaled error of the objective's integral over the last attempt, as RosenbrockStep::error().
+/// A given motion does not feel its effort, of which the objective is often made: friction that
+/// turns round would be stepped over.
+double psi_error(const RosenbrockStep<double>& step, const SolverOptions& options) {
+  const RosenbrockTableau& tableau = step.tableau();
+  const int psi = step.increment_layout().psi();
+  double end = step.psi(), estimate = 0.0;
+  for (std::size_t j = 0; j < to_index(tableau.stages); ++j) {
+    const double increment = step.increments()[j][psi];
+    end += tableau.weights[j] * increment;
+    estimate = tableau.is_explicit() ? estimate + tableau.estimate[j] * increment : increment;
+  }
+  const double size = std::max(std::abs(step.psi()), std::abs(end));
+  return std::abs(estimate) / (options.absolute_tolerance + options.relative_tolerance * size);
+}
+
+}  // namespace
+
 RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
     : system_(system),
       options_(system.study().solver),
@@ -169,6 +189,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     }
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
+    if (!system_.study().motion.empty()) error = std::max(error, psi_error(step_, options_));
     if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;

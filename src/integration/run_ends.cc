@@ -226,12 +226,13 @@ MotionWatch::Speeds MotionWatch::speeds(const State<double>& state) const {
   return fastest;
 }
 
-// The largest speed that setpoints and references ask for. Angles and lengths are not
-// distinguished: it counts for both kinds of speed.
+// The largest speed that given motions, setpoints and references ask for. Angles and lengths are
+// not distinguished: it counts for both kinds of speed.
 double MotionWatch::target(const Equations<double>& equations) const {
   const MotionStudy& study = system_.study();
   double largest = 0.0;
   const auto look = [&](const Signal& signal, const Reference<double>& reference) {
+    if (signal.formula) return;
     const bool velocity = reads(signal, kVelocities), position = reads(signal, kPositions);
     for (int k = 0; (velocity || position) && k <= kInstants; ++k) {
       const ReferenceMotion<double> asked = reference.at(study.duration * k / kInstants);
@@ -239,6 +240,9 @@ double MotionWatch::target(const Equations<double>& equations) const {
     }
   };
   const Design<double>& design = equations.formulas().view().design;
+  for (const Reference<double>& motion : design.motion)
+    for (int k = 0; k <= kInstants; ++k)
+      largest = std::max(largest, std::abs(motion.at(study.duration * k / kInstants).rate));
   for (std::size_t c = 0; c < study.controllers.size(); ++c)
     look(system_.controllers()[c].input, design.controllers[c].setpoint);
   for (const ResolvedTerm& term : system_.integral())

@@ -17,6 +17,12 @@ BreakTimes::BreakTimes(const MotionStudy& study) : apart_(1e-12 * study.duration
       times_.push_back(basis.support(k)[0]);
     if (basis.count() > 0) times_.push_back(basis.duration);
   }
+  for (const LoadDescription& load : study.loads) {
+    add(load.effort.of_time);
+    for (const auto* components : {&load.force, &load.torque})
+      for (const LoadFunction& component : *components) add(component.of_time);
+  }
+  for (const GivenMotion& motion : study.motion) add(motion.position);
   for (const ObjectiveTerm& term : study.integral) add(term.reference);
   for (const WatchedSignal& watched : study.watched) add(watched.reference);
   std::sort(times_.begin(), times_.end());
@@ -27,6 +33,7 @@ void BreakTimes::add(const ReferenceDescription& reference) {
     for (double time : reference.sampled.samples->times())
       times_.push_back(time - reference.sampled.delay.nominal());
   if (reference.kind == ReferenceDescription::Kind::kLive) add(*reference.live.planned);
+  if (reference.kind == ReferenceDescription::Kind::kIntegral) add(*reference.integral.rate);
   if (reference.kind == ReferenceDescription::Kind::kWaypoints)
     times_.insert(times_.end(), reference.waypoints.times.begin(), reference.waypoints.times.end());
 }

@@ -80,7 +80,8 @@ void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watch
   Json whole = Json::object(), friction = Json::object();
   const std::string power = "_power";
   for (std::size_t k = 0; k < shown.size(); ++k) {
-    if (shown[k].unit != "W" || shown[k].signal.terms.size() != 1) continue;
+    if (shown[k].unit != "W" || shown[k].signal.terms.size() != 1 || shown[k].signal.formula)
+      continue;
     const SignalTerm& term = shown[k].signal.terms[0];
     const double energy = watched[k].integral(duration);
     if (is_of_mechanism(term))

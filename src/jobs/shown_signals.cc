@@ -29,7 +29,11 @@ const char* fixed_unit(const std::string& quantity) {
   if (ends_with(quantity, "_power")) return "W";
   if (quantity == "normal_force" || quantity == "reaction_force") return "N";
   if (quantity == "reaction_torque") return "N m";
-  if (quantity == "angular_velocity") return "rad/s";
+  if (quantity == "angular_velocity" || quantity == "motor_speed") return "rad/s";
+  if (quantity == "motor_torque") return "N m";
+  if (quantity == "force") return "N";
+  if (quantity == "length") return "m";
+  if (quantity == "speed") return "m/s";
   return nullptr;
 }
 
@@ -50,7 +54,9 @@ std::string link_unit(const std::string& quantity) {
 /// Adds the limits of a joint that apply to one of its signals.
 void add_limits(const RobotDescription& robot, const std::vector<double>& parameters,
                 ShownSignal* shown) {
-  if (shown->signal.terms.size() != 1 || shown->signal.terms[0].factor < 0.0) return;
+  if (shown->signal.formula || shown->signal.terms.size() != 1 ||
+      shown->signal.terms[0].factor < 0.0)
+    return;
   const SignalTerm& term = shown->signal.terms[0];
   const JointDescription* joint = find_named(robot.joints, term.object);
   if (joint == nullptr || !joint->limit) return;
@@ -66,15 +72,15 @@ void add_limits(const RobotDescription& robot, const std::vector<double>& parame
 }
 
 /// Candidates beyond default_signals(); some of them do not exist in every mechanism.
-std::vector<std::string> further_signals(const RobotDescription& robot,
-                                         const std::vector<ControllerDescription>& controllers) {
+std::vector<std::string> further_signals(const RobotDescription& robot, const MotionStudy& study) {
   std::vector<std::string> texts;
-  for (const ControllerDescription& controller : controllers) {
+  for (const ControllerDescription& controller : study.controllers) {
     if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
     if (!controller.kind->has_error()) continue;
     for (const char* quantity : {"/setpoint", "/error"})
       texts.push_back(controller.name + quantity);
   }
+  for (const GivenMotion& motion : study.motion) texts.push_back(motion.joint + "/effort");
   for (const JointDescription& joint : robot.joints)
     if (has_friction(joint) && has_one_coordinate(joint.type))
       texts.push_back(joint.name + "/friction_power");
@@ -108,6 +114,7 @@ Json place(const ScenarioResult& scenario) {
 
 std::string unit_of(const SignalDescription& signal, const RobotDescription& robot,
                     const std::vector<ControllerDescription>& controllers) {
+  if (signal.formula) return "";
   const SignalTerm& term = signal.terms.front();
   if (const char* unit = fixed_unit(term.quantity)) return unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
@@ -137,7 +144,7 @@ std::vector<ShownSignal> shown_signals(const Problem& problem,
     add_limits(robot, parameters, &shown.back());
   };
   std::vector<std::string> texts = default_signals(robot, controllers);
-  for (const std::string& text : further_signals(robot, controllers)) texts.push_back(text);
+  for (const std::string& text : further_signals(robot, problem.study())) texts.push_back(text);
   for (const std::string& text : texts) add(parse_signal(text, {}, ""));
   for (const SignalDescription& signal : signals_of(problem.study())) add(signal);
   return shown;

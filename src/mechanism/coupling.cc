@@ -196,6 +196,7 @@ class TreeBuilder {
 }  // namespace
 
 std::string Coupling::element() const {
+  if (motion >= 0) return "motion." + name;
   if (is_drive) return "<joint name=\"" + name + "\">";
   return is_mimic ? "<joint name=\"" + name + "\"> <mimic>" : "<coupling name=\"" + name + "\">";
 }

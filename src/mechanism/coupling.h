@@ -27,13 +27,16 @@ struct Coupling {
   std::string name;       ///< of the joint with the `<mimic>`, or of the `<coupling>`
   bool is_mimic = false;  ///< from `<mimic>`, else from URDF+ `<coupling>`, or a drive
   bool is_drive =
-      false;  ///< made by drive_of(): the row prescribes the motion of one joint coordinate
+      false;        ///< made by drive_of(): the row prescribes the motion of one joint coordinate
+  int motion = -1;  ///< of a drive: index into Study::motion, which gives the motion; -1: it comes
+                    ///< from outside
   std::vector<CouplingTerm>
       terms;             ///< first the coordinate that follows the others, with coefficient 1
   Quantity offset{0.0};  ///< [rad or m]
   SourceLocation where;
 
-  /// The element for messages: `<joint name="finger"> <mimic>` or `<coupling name="gear">`.
+  /// The element for messages: `<joint name="finger"> <mimic>`, `<coupling name="gear">` or
+  /// `motion.crank`.
   std::string element() const;
 };
 
@@ -47,9 +50,9 @@ struct Coupling {
 /// the links of a coupling has several coordinates, or if no joint moves the successor.
 std::vector<Coupling> derive_couplings(const RobotDescription& robot, const Topology& topology);
 
-/// The row theta = 0 of one joint coordinate, whose motion is prescribed from outside;
-/// doc/theory.md (28). Its multiplier is minus the effort that the motion needs. The row has no
-/// compliance.
+/// The row theta = 0 of one joint coordinate, whose motion is prescribed: by a study, theory (8b),
+/// or from outside, theory (28). Its multiplier is minus the effort that the motion needs. The row
+/// has no compliance.
 /// @param joint index of a revolute, continuous or prismatic joint.
 /// @throws InputError if the joint moves only a link without `<inertial>`.
 Coupling drive_of(const RobotDescription& robot, const Topology& topology, int joint);

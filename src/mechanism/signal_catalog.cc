@@ -39,6 +39,10 @@ const Names& reactions() {
   static const Names kReactions{"reaction_force", "reaction_torque"};
   return kReactions;
 }
+const Names& spring_quantities() {
+  static const Names kQuantities{"force", "length", "speed"};
+  return kQuantities;
+}
 const Names& powers() {
   static const Names kPowers{"friction_power", "damping_power", "actuator_power", "load_power"};
   return kPowers;
@@ -57,6 +61,9 @@ void add_joint(const JointDescription& joint, Offer* offer) {
   if (has_one_coordinate(joint.type))
     offer->scalars = {"position",    "velocity",       "acceleration",  "effort",
                       "effort_rate", "actuator_power", "damping_power", "load_power"};
+  if (joint.actuator)
+    for (const char* quantity : {"motor_torque", "motor_speed"})
+      offer->scalars.emplace_back(quantity);
   if (has_friction(joint)) {
     offer->scalars.emplace_back("friction");
     if (has_normal_force(joint)) offer->scalars.emplace_back("normal_force");
@@ -87,6 +94,12 @@ Offer offer_of(const std::string& name, const RobotDescription& robot,
       offer.vectors.emplace_back(quantity);
     offer.quaternions = {"orientation"};
   }
+  for (const SpringDamperDescription& spring : robot.spring_dampers) {
+    if (spring.name != name) continue;
+    offer.exists = true;
+    offer.scalars.insert(offer.scalars.end(), spring_quantities().begin(),
+                         spring_quantities().end());
+  }
   if (name == kMechanism) {
     offer.exists = true;
     for (const std::string& quantity : mechanism_quantities())
@@ -101,6 +114,7 @@ Names all_names(const RobotDescription& robot,
   for (const JointDescription& joint : robot.joints) names.push_back(joint.name);
   for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
   for (const LinkDescription& link : robot.links) names.push_back(link.name);
+  for (const SpringDamperDescription& spring : robot.spring_dampers) names.push_back(spring.name);
   names.emplace_back(kMechanism);
   return names;
 }
@@ -167,6 +181,8 @@ bool is_of_mechanism(const SignalTerm& term) {
          contains(mechanism_quantities(), term.quantity);
 }
 
+bool is_of_spring(const SignalTerm& term) { return contains(spring_quantities(), term.quantity); }
+
 bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
 
 bool has_friction(const JointDescription& joint) {
@@ -179,7 +195,7 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
   for (const SignalTerm& term : signal.terms) {
     const Offer offer = offer_of(term.object, robot, controllers);
     if (!offer.exists)
-      throw unknown_name(signal.where, element, "joint, link or controller", term.object,
+      throw unknown_name(signal.where, element, "joint, link, spring or controller", term.object,
                          all_names(robot, controllers));
     check_term(term, offer, signal.where, element);
   }

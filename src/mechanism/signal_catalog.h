@@ -17,6 +17,8 @@ bool has_friction(const JointDescription& joint);
 /// quantity distinguishes it from a joint, link or controller named `mechanism`; check_signal()
 /// rejects the terms that stay ambiguous.
 bool is_of_mechanism(const SignalTerm& term);
+/// Whether a term is a quantity of a spring-damper: no other object has one of these.
+bool is_of_spring(const SignalTerm& term);
 /// Whether a term is a reaction force or torque of a joint. The quantity distinguishes the joint
 /// from a link of the same name.
 bool is_reaction(const SignalTerm& term);

@@ -13,8 +13,8 @@ namespace codesign {
 Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescription>& signals)
     : system_(system), tree_(system.robot()) {
   for (const SignalDescription& signal : signals) {
-    signals_.push_back(
-        resolve_signal(signal, system.robot(), system.topology(), system.study().controllers));
+    signals_.push_back(resolve_signal(signal, system.robot(), system.topology(),
+                                      system.study().controllers, system.study().parameters));
     system.check_readable(signals_.back(), signal);
     names_.signals.push_back(signal.text);
   }

@@ -50,6 +50,8 @@ std::pair<Extremum, Extremum> extremes_of(const Reference<double>& function,
 
 void check(const ReferenceDescription& reference, const std::vector<double>& parameters,
            const SourceLocation& where, const std::string& element, Warnings* warnings) {
+  if (reference.kind == ReferenceDescription::Kind::kIntegral)
+    return check(*reference.integral.rate, parameters, where, element, warnings);
   if (reference.kind != ReferenceDescription::Kind::kWaypoints) return;
   std::vector<double> positions;
   for (const Quantity& position : reference.waypoints.positions)
@@ -133,6 +135,8 @@ Warnings waypoint_overshoots(const Study& study) {
     for (const FeedbackTerm& term : controller.feedback)
       look_at(term.reference, controller.where, element + ".feedback");
   }
+  for (const GivenMotion& motion : study.motion)
+    look_at(motion.position, motion.where, "motion." + motion.joint);
   for (const ObjectiveTerm& term : study.integral)
     look_at(term.reference, term.signal.where, "objective.integral");
   for (const ObjectiveTerm& term : study.terminal)

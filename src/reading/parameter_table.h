@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -28,20 +29,38 @@ struct ParameterTable {
   /// The expression that stands inside `${...}`; from now on its parameters are used. @throws
   /// std::invalid_argument as Expression.
   std::shared_ptr<const Expression> parse(const std::string& text) const {
-    const auto index_of = [this](const std::string& name) {
-      const auto found = index.find(name);
-      return found == index.end() ? -1 : found->second;
-    };
-    auto expression = std::make_shared<const Expression>(
-        text, ExpressionScope{index_of, [this] { return names; }});
-    used.insert(expression->dependencies().begin(), expression->dependencies().end());
-    return expression;
+    return parse(text, {index_of(), [this] { return names; }});
   }
+  /// The same, where the name t is the time unless a parameter has this name; its index is
+  /// time_index().
+  std::shared_ptr<const Expression> parse_with_time(const std::string& text) const {
+    const auto find = [this, parameter = index_of()](const std::string& name) {
+      const int found = parameter(name);
+      return found < 0 && name == "t" ? time_index() : found;
+    };
+    return parse(text, {find, [this] { return names; }});
+  }
+  int time_index() const { return static_cast<int>(names.size()); }
 
   std::vector<std::string> names;
   std::vector<double> values;
   std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
   mutable std::set<int> used;  ///< indices of the parameters on which a parsed expression depends
+
+ private:
+  std::function<int(const std::string&)> index_of() const {
+    return [this](const std::string& name) {
+      const auto found = index.find(name);
+      return found == index.end() ? -1 : found->second;
+    };
+  }
+  std::shared_ptr<const Expression> parse(const std::string& text,
+                                          const ExpressionScope& scope) const {
+    auto expression = std::make_shared<const Expression>(text, scope);
+    for (const int k : expression->dependencies())
+      if (k != time_index()) used.insert(k);
+    return expression;
+  }
 };
 
 }  // namespace codesign

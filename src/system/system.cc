@@ -30,14 +30,14 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
       motion_(study_.get()),
       topology_(derive_topology(robot_)),
       sharing_(std::move(sharing)) {
-  for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
-  drives_ = static_cast<int>(drives.size());
+  add_drives(drives);
   refuse_unsupported();
   choose_forest();
   lay_out();
   find_coordinates();
   check_couplings();
   resolve_objective();
+  resolve_load_signals();
   resolve_controllers();
   check_signals();
   collect_loads();
@@ -50,6 +50,24 @@ std::vector<double> System::parameters() const { return start_parameters(study()
 
 std::vector<double> System::parameters(const Eigen::VectorXd& rho) const {
   return parameters_at(study(), rho);
+}
+
+void System::add_drives(const std::vector<int>& drives) {
+  for (std::size_t k = 0; k < study().motion.size(); ++k) {
+    const GivenMotion& motion = study().motion[k];
+    const int joint = joint_named(robot_, motion.joint);
+    if (topology_.joint_pair[to_index(joint)] < 0)
+      throw InputError({motion.where, "motion." + motion.joint,
+                        "the joint moves only a link without <inertial>, so that its motion has no "
+                        "effect",
+                        motion.joint, "a joint whose child link has an <inertial>"});
+    Coupling drive = drive_of(robot_, topology_, joint);
+    drive.motion = static_cast<int>(k);
+    drive.where = motion.where;
+    topology_.couplings.push_back(std::move(drive));
+  }
+  for (int joint : drives) topology_.couplings.push_back(drive_of(robot_, topology_, joint));
+  drives_ = static_cast<int>(drives.size());
 }
 
 void System::choose_forest() {
@@ -142,14 +160,20 @@ void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms,
                               std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      resolved->push_back({resolve_signal(terms[k].signal, robot_, topology_, study().controllers),
-                           static_cast<int>(k)});
+      resolved->push_back({resolve_named(terms[k].signal), static_cast<int>(k)});
     }
   };
   resolve(study().integral, &integral_);
   resolve(study().terminal, &terminal_);
   for (const WatchedSignal& watched : study().watched)
-    watched_.push_back(resolve_signal(watched.signal, robot_, topology_, study().controllers));
+    watched_.push_back(resolve_named(watched.signal));
+}
+
+Signal System::resolve_named(const SignalDescription& signal) {
+  Signal resolved =
+      resolve_signal(signal, robot_, topology_, study().controllers, study().parameters);
+  reads_time_ = reads_time_ || codesign::reads_time(resolved);
+  return resolved;
 }
 
 void System::resolve_controllers() {
@@ -222,6 +246,14 @@ void System::check_couplings() const {
 
 void System::check_effort_rate(const SignalReference& term,
                                const SignalDescription& description) const {
+  for (const Coupling& drive : topology_.couplings)
+    if (drive.motion >= 0 && drive.terms.front().pair == term.pair &&
+        drive.terms.front().element == term.element)
+      throw InputError(
+          {description.where, "signal",
+           "the motion of the joint is given, and the rate of the effort that it needs "
+           "is not available",
+           description.text, drive.name + "/effort"});
   for (std::size_t c = 0; c < controllers_.size(); ++c) {
     if (controllers_[c].pair != term.pair || controllers_[c].element != term.element ||
         controllers_[c].has_output_rate)

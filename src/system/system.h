@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -41,8 +42,9 @@ struct JointLoad {
   bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
   bool saturated = false;          ///< `<limit effort>` bounds the effort of the controllers
-  std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
-  std::vector<int> constant;       ///< indices into Study::loads
+  int drive = -1;  ///< the coupling that gives the motion of this coordinate, (8b), or -1
+  std::vector<int> controllers;  ///< indices of the controllers that drive this coordinate
+  std::vector<int> given;        ///< indices into Study::loads
 
   /// Whether the load depends on the position of the coordinate, not on its rate alone.
   bool needs_position() const { return spring || stop; }
@@ -55,7 +57,13 @@ struct Rotor {
   int body = -1;                ///< body that carries it; -1: the ground
 };
 
-/// A constant load on a link, theory (13g).
+/// The expressions of signals of a load with their names resolved; empty for functions of time.
+struct LoadSignals {
+  Signal effort;
+  std::array<Signal, 3> force, torque;
+};
+
+/// A load on a link, theory (13g).
 struct LinkLoad {
   int load = -1;             ///< index into Study::loads
   int body = -1, link = -1;  ///< the link and the body that it is part of
@@ -68,8 +76,8 @@ struct LinkLoad {
 class System {
  public:
   /// @param sharing how redundant constraints are treated, theory (23); by default there are none.
-  /// @param drives joints (indices in `robot`) whose motion is prescribed: each gets a row after
-  /// the rows of the couplings, theory (28).
+  /// @param drives joints (indices in `robot`) whose motion is prescribed from outside: each gets a
+  /// row after the rows of the couplings and of the motions that the study gives, theory (28).
   /// @throws InputError for a mechanism without moving mass, loads or actuators on joints without a
   /// coordinate of their own, and signals, controllers or couplings that cannot be resolved.
   System(const RobotDescription& robot, const Study& study, ReactionSharing sharing = {},
@@ -97,6 +105,10 @@ class System {
   /// One entry per joint coordinate on which anything acts.
   const std::vector<JointLoad>& loads() const { return loads_; }
   const std::vector<LinkLoad>& link_loads() const { return link_loads_; }
+  /// One entry per entry of Study::loads.
+  const std::vector<LoadSignals>& load_signals() const { return load_signals_; }
+  /// Whether an expression of signals contains the time.
+  bool reads_time() const { return reads_time_; }
   const std::vector<Rotor>& rotors() const { return rotors_; }
   /// Indices of the pairs with isotropic friction, theory (13a).
   const std::vector<int>& contacts() const { return contacts_; }
@@ -136,6 +148,7 @@ class System {
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;
 
  private:
+  void add_drives(const std::vector<int>& drives);
   void choose_forest();
   std::vector<const SignalDescription*> controller_inputs() const;
   const SignalDescription* mechanism_friction() const;
@@ -154,6 +167,8 @@ class System {
   void refuse_load(int pair, int element) const;
   void check_couplings() const;
   void resolve_objective();
+  void resolve_load_signals();
+  Signal resolve_named(const SignalDescription& signal);
   void refuse_unsupported() const;
 
   RobotDescription robot_;
@@ -168,6 +183,8 @@ class System {
   std::vector<Controller> controllers_;
   std::vector<JointLoad> loads_;
   std::vector<LinkLoad> link_loads_;
+  std::vector<LoadSignals> load_signals_;
+  bool reads_time_ = false;
   std::vector<Rotor> rotors_;
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;

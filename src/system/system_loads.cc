@@ -6,6 +6,32 @@
 
 namespace codesign {
 
+// A load must not depend on what it determines: on accelerations and reactions, nor on controllers
+// that may read these.
+void System::resolve_load_signals() {
+  const auto resolve_function = [this](const LoadFunction& function) {
+    if (!function.of_signals) return Signal();
+    Signal signal = resolve_named(*function.of_signals);
+    for (const SignalReference& term : signal)
+      if (!is_of_motion(term.kind))
+        throw InputError({function.of_signals->where, "loads",
+                          "a load cannot depend on accelerations, efforts, reactions, friction, "
+                          "powers and outputs of controllers, which depend on the loads",
+                          function.of_signals->text,
+                          "positions, velocities, orientations, energies, lengths, speeds and "
+                          "forces of springs, setpoints, parameters and the time t"});
+    return signal;
+  };
+  for (const LoadDescription& load : study().loads) {
+    LoadSignals& signals = load_signals_.emplace_back();
+    signals.effort = resolve_function(load.effort);
+    for (std::size_t k = 0; k < 3; ++k) {
+      signals.force[k] = resolve_function(load.force[k]);
+      signals.torque[k] = resolve_function(load.torque[k]);
+    }
+  }
+}
+
 void System::collect_loads() {
   int unknowns = 0;
   for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
@@ -39,12 +65,17 @@ void System::collect_loads() {
         load.stop = study().limits.position && has_stops(joint);
         load.saturated = study().limits.effort && joint.limit && joint.limit->bounds_effort();
         for (std::size_t k = 0; k < study().loads.size(); ++k)
-          if (study().loads[k].joint == joint.name) load.constant.push_back(static_cast<int>(k));
+          if (study().loads[k].joint == joint.name) load.given.push_back(static_cast<int>(k));
       }
+      for (std::size_t c = 0; c < topology_.couplings.size(); ++c)
+        if (const Coupling& drive = topology_.couplings[c];
+            drive.motion >= 0 && drive.terms.front().pair == load.pair &&
+            drive.terms.front().element == load.element)
+          load.drive = static_cast<int>(c);
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element)
           load.controllers.push_back(static_cast<int>(c));
-      const bool driven = !load.controllers.empty() || !load.constant.empty();
+      const bool driven = !load.controllers.empty() || !load.given.empty() || load.drive >= 0;
       if (!load.has_friction() && !load.passive && !load.stop && !driven) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);

@@ -69,6 +69,9 @@ TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
   EXPECT_EQ(arguments.samples, 11);
   expect_usage_error({"simulate", "m", "s", "--samples", "1"}, "less than 2");
   expect_usage_error({"simulate", "m", "s", "--samples", "ten"}, "not a number");
+  EXPECT_EQ(
+      parse_arguments({"simulate", "m", "s", "--signals", "${max(a/x, 1)},b/velocity"}).signals,
+      (std::vector<std::string>{"${max(a/x, 1)}", "b/velocity"}));
   expect_usage_error({"simulate", "m", "s", "--signals", "a/velocity,"}, "empty name");
   expect_usage_error({"simulate", "m", "s", "--signals="}, "needs a value");
 }

@@ -323,71 +323,55 @@ TEST(ShapedInput, DerivativesByCoefficientsAreTheWeights) {
               1e-15);
 }
 
-/// A course as a function: the last piece that has begun.
-ReferenceMotion<double> at(const Course& course, double t) {
-  auto function = std::make_shared<LiveFunction>();
-  for (const LiveFunction& piece : course)
-    if (piece.start <= t) *function = piece;
+/// start + the integral of a rate.
+Reference<double> integral_of(const ReferenceDescription& rate, double start) {
   ReferenceDescription description;
-  description.kind = ReferenceDescription::Kind::kLive;
-  description.live = {function, std::make_shared<const ReferenceDescription>(-7.0)};
-  return Reference<double>(description, {}).at(t);
+  description.kind = ReferenceDescription::Kind::kIntegral;
+  description.integral = {std::make_shared<const ReferenceDescription>(rate), start};
+  return Reference<double>(description, {});
 }
 
-TEST(TrajectoryCourse, AHeldValueBeginsWhereItBegins) {
-  const Course course = held(0.4, 2.0);
-  EXPECT_EQ(at(course, 1.9).value, -7.0) << "the planned function";
-  EXPECT_EQ(at(course, 2.0).value, 0.4);
-  EXPECT_EQ(at(course, 9.0).rate, 0.0);
-}
+TEST(Reference, AnIntegralIsExactForEveryRate) {
+  const Reference<double> constant = integral_of(-10.0, 0.3);
+  EXPECT_NEAR(constant.at(2.0).value, -19.7, 1e-14);
+  EXPECT_EQ(constant.at(2.0).rate, -10.0);
 
-TEST(TrajectoryCourse, IsLinearWithoutVelocities) {
-  const Course course =
-      trajectory_course({{1.0, 2.0, {}, {}}, {3.0, 6.0, {}, {}}}, 0.0, {0.0, 5.0, 0.0});
-  EXPECT_EQ(at(course, 0.0).value, 0.0);
-  EXPECT_EQ(at(course, 0.5).value, 1.0);
-  EXPECT_EQ(at(course, 0.5).rate, 2.0);
-  EXPECT_EQ(at(course, 2.0).value, 4.0);
-  EXPECT_EQ(at(course, 3.0).value, 6.0);
-  EXPECT_EQ(at(course, 3.0).rate, 0.0);
-}
-
-TEST(TrajectoryCourse, IsCubicBetweenVelocitiesAndBeginsWithTheMotionInEffect) {
-  const Course course =
-      trajectory_course({{1.0, 1.0, 0.0, {}}, {2.0, 0.0, -1.0, {}}}, 0.0, {0.0, 3.0, 8.0});
-  EXPECT_EQ(at(course, 0.0).rate, 3.0);
-  // 3 t - 3 t^2 + t^3 meets (1, slope 0); t^2 (-2 + t) from (1, 0) meets (0, -1).
-  EXPECT_NEAR(at(course, 0.5).value, 1.5 - 0.75 + 0.125, 1e-15);
-  EXPECT_NEAR(at(course, 1.0).rate, 0.0, 1e-15);
-  EXPECT_NEAR(at(course, 1.5).value, 1.0 - 2.0 * 0.25 + 0.125, 1e-15);
-  EXPECT_EQ(at(course, 2.5).value, 0.0);
-}
-
-TEST(TrajectoryCourse, IsOfFifthDegreeBetweenAccelerations) {
-  const Course course = trajectory_course({{0.0, 0.0, 0.0, 0.0}, {2.0, 4.0, 0.0, 0.0}}, 0.0, {});
-  EXPECT_NEAR(at(course, 1.0).value, 2.0, 1e-14);
-  EXPECT_NEAR(at(course, 1.0).rate, 1.875 * 2.0, 1e-14);
-  EXPECT_NEAR(at(course, 1.0).acceleration, 0.0, 1e-13);
-}
-
-TEST(TrajectoryCourse, WhatIsPastIsLeftOutAndTheRestStaysWhereItWas) {
-  const std::vector<CoursePoint> points{{0.0, 0.0, {}, {}}, {1.0, 1.0, {}, {}}, {2.0, 3.0, {}, {}}};
-  const Course late = trajectory_course(points, 1.5, {-9.0, 0.0, 0.0});
-  ASSERT_EQ(late.size(), 2U);
-  EXPECT_EQ(at(late, 1.5).value, 2.0);
-  EXPECT_EQ(at(late, 2.5).value, 3.0);
-  const Course over = trajectory_course(points, 5.0, {});
-  ASSERT_EQ(over.size(), 1U);
-  EXPECT_EQ(at(over, 5.0).value, 3.0);
-}
-
-TEST(TrajectoryCourse, TheRateOfACourseIsItsDerivative) {
-  const Course course = trajectory_course({{0.0, 1.0, 2.0, -1.0}, {1.5, 4.0, 0.5, 3.0}}, 0.0, {});
-  const Course rate = rate_of(course);
-  for (double t : {0.0, 0.4, 1.1, 2.0}) {
-    EXPECT_NEAR(at(rate, t).value, at(course, t).rate, 1e-12);
-    EXPECT_NEAR(at(rate, t).rate, at(course, t).acceleration, 1e-12);
+  ReferenceDescription sine;
+  sine.kind = ReferenceDescription::Kind::kSine;
+  sine.sine = {2.0, 0.4, 0.5, 0.25, false};
+  ReferenceDescription points;
+  points.kind = ReferenceDescription::Kind::kWaypoints;
+  points.waypoints.times = {0.4, 1.0, 1.7};
+  points.waypoints.positions = {1.0, -2.0, 0.5};
+  for (const ReferenceDescription& rate : {sine, points}) {
+    const Reference<double> integral = integral_of(rate, 0.3);
+    EXPECT_NEAR(integral.at(0.0).value, 0.3, 1e-15);
+    for (double t : {0.2, 0.7, 1.3, 2.5}) {
+      const double difference =
+          ridders_derivative([&](double x) { return integral.at(x).value; }, t, 1e-2).value;
+      EXPECT_NEAR(difference, Reference<double>(rate, {}).at(t).value, 1e-9) << t;
+      expect_derivatives(integral, t);
+    }
   }
+}
+
+TEST(Reference, AnExpressionHasThreeDerivatives) {
+  ReferenceDescription description;
+  description.kind = ReferenceDescription::Kind::kExpression;
+  const std::vector<std::string> names{"A", "t"};
+  description.expression = {
+      std::make_shared<const Expression>("A*sin(3*t)*exp(-t) + (t < 1 ? t^2 : 2*t - 1)", names), 1};
+  const Reference<double> reference(description, {0.7});
+  for (double t : {0.4, 1.6}) {
+    expect_derivatives(reference, t);
+    EXPECT_NEAR(reference.at(t).value,
+                0.7 * std::sin(3.0 * t) * std::exp(-t) + (t < 1.0 ? t * t : 2.0 * t - 1.0), 1e-15);
+  }
+  using L = Lanes<4>;
+  const Reference<L> lanes(description, {L(0.7, L::Vector{1.0, 0.0, 0.0, 0.0})});
+  EXPECT_NEAR(lanes.at(0.4).rate.v[0], std::exp(-0.4) * (3.0 * std::cos(1.2) - std::sin(1.2)),
+              1e-14);
+  EXPECT_EQ(dependencies(description), std::vector<int>{0});
 }
 
 }  // namespace

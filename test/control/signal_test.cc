@@ -122,5 +122,42 @@ TEST(Differentiate, AForceHasNoRate) {
     EXPECT_THROW(fixture.rate(text), InputError) << text;
 }
 
+TEST(ResolveSignal, AnExpressionHasItsSignalsInOrderParametersAndTheTime) {
+  const Fixture fixture;
+  const std::vector<Parameter> parameters{{"a", 0.5, 0.0, 1.0, "", {}}};
+  const Signal signal =
+      resolve_signal(parse_signal("${a*pitch/velocity*t + yaw/position}", {}, "signal"),
+                     fixture.robot, fixture.topology, fixture.controllers, parameters);
+  ASSERT_EQ(signal.size(), 2U);
+  EXPECT_EQ(signal[1].kind, SignalKind::kJointPosition);
+  ASSERT_TRUE(signal.formula);
+  ASSERT_EQ(signal.formula->variables.size(), 4U);
+  EXPECT_TRUE(signal.formula->variables[0].parameter);
+  EXPECT_EQ(signal.formula->variables[1].term, 0);
+  EXPECT_EQ(signal.formula->variables[3].term, 1);
+  EXPECT_TRUE(reads_time(signal));
+  EXPECT_FALSE(reads_time(fixture.resolve("${yaw/position^2}")));
+  EXPECT_FALSE(differentiate(signal));
+  EXPECT_NE(fixture.refusal("${b*pitch/velocity}").find("unknown parameter"), std::string::npos);
+  EXPECT_NE(fixture.refusal("${pich/velocity^2}").find("did you mean"), std::string::npos);
+}
+
+TEST(ResolveSignal, ASpringHasForceLengthAndSpeed) {
+  Fixture fixture;
+  fixture.robot.spring_dampers.push_back({"strut", 0, 2, {}, {}, 1.0, 1.0, 1.0, {}});
+  EXPECT_EQ(fixture.resolve("strut/force").front().kind, SignalKind::kSpringForce);
+  EXPECT_EQ(fixture.resolve("strut/length").front().spring, 0);
+  EXPECT_EQ(fixture.rate("strut/length").front().kind, SignalKind::kSpringSpeed);
+  EXPECT_NE(fixture.refusal("strut/effort").find("force"), std::string::npos);
+}
+
+TEST(ResolveSignal, AnActuatorHasTorqueAndSpeed) {
+  Fixture fixture;
+  EXPECT_NE(fixture.refusal("pitch/motor_speed").find("motor_speed"), std::string::npos);
+  fixture.robot.joints[1].actuator.emplace();
+  EXPECT_EQ(fixture.resolve("pitch/motor_speed").front().kind, SignalKind::kMotorSpeed);
+  EXPECT_EQ(fixture.resolve("pitch/motor_torque").front().kind, SignalKind::kMotorTorque);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -96,6 +96,34 @@ TEST(WatchedSignal, HasOrderedBounds) {
   EXPECT_THROW(require_ordered_bounds(watched, {}), InputError);
 }
 
+TEST(Signal, AnExpressionReadsSignalsParametersAndTheTime) {
+  const SignalDescription signal =
+      parse("${max(crank/effort * crank/velocity, 0) / crank_length - left/elbow-2/position/x*t}");
+  ASSERT_TRUE(signal.formula);
+  EXPECT_EQ(signal.formula->names,
+            (std::vector<std::string>{"crank/effort", "crank/velocity", "crank_length",
+                                      "left/elbow-2/position/x", "t"}));
+  ASSERT_EQ(signal.terms.size(), 3U);
+  expect_term(signal.terms[0], 1.0, "crank", "effort", "");
+  expect_term(signal.terms[2], 1.0, "left/elbow-2", "position", "x");
+  // With spaces a slash divides.
+  EXPECT_EQ(parse("${a / length}").formula->names, (std::vector<std::string>{"a", "length"}));
+  EXPECT_FALSE(parse("a/velocity - b/velocity").formula);
+}
+
+TEST(Signal, AnExpressionThatIsNoneIsRefused) {
+  for (const char* text :
+       {"${crank/effort *}", "${}", "${sine(crank/effort)}", "${crank/effort > 1}"}) {
+    try {
+      parse(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().value, text);
+      EXPECT_EQ(error.fault().where.line, 7);
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace codesign

@@ -168,8 +168,14 @@ std::vector<Wrench> demanded(Compiled* c) {
         on.turns ? Eigen::Matrix3d(k.A * link.R) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     const std::vector<double> none = c->system.parameters();
     const Eigen::Vector3d point = k.r + k.A * (link.s + link.R * vector_at(load.point, none));
-    sums[static_cast<std::size_t>(on.body)].add(point, axes * vector_at(load.force, none),
-                                                axes * vector_at(load.torque, none), -1.0);
+    const auto vector = [&none](const std::array<LoadFunction, 3>& components) {
+      Eigen::Vector3d result;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        result[static_cast<int>(axis)] = components[axis].of_time.constant.at(none);
+      return result;
+    };
+    sums[static_cast<std::size_t>(on.body)].add(point, axes * vector(load.force),
+                                                axes * vector(load.torque), -1.0);
   }
   for (std::size_t s = 0; s < c->equations.constants().springs.size(); ++s) {
     const SpringDamperConstants<double>& spring = c->equations.constants().springs[s];

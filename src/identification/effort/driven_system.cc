@@ -2,6 +2,7 @@
 #include "identification/effort/driven_system.h"
 
 #include <algorithm>
+#include <string>
 
 #include "assembly/assembly.h"
 #include "description/study.h"
@@ -52,6 +53,7 @@ Study without_control(Study study) {
   study.solver.integrator = IntegratorKind::kRosenbrock;
   study.solver.method = RosenbrockMethod::kAuto;
   study.controllers.clear();
+  study.motion.clear();
   study.integral.clear();
   study.terminal.clear();
   study.watched.clear();
@@ -71,6 +73,26 @@ void refuse_friction_states(const CompiledSystem& system) {
        "the friction law has states, which the motion at one instant does not determine",
        contact.model->name,
        "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
+}
+
+/// Efforts are computed instant by instant, without a time.
+void refuse_loads_of_time(const CompiledSystem& system) {
+  const auto varies = [](const LoadFunction& function, const Signal& signal) {
+    return reads_time(signal) ||
+           (!signal.formula && function.of_time.kind != ReferenceDescription::Kind::kConstant);
+  };
+  const std::vector<LoadDescription>& loads = system.study().loads;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const LoadSignals& signals = system.load_signals()[k];
+    bool any = varies(loads[k].effort, signals.effort);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      any = any || varies(loads[k].force[axis], signals.force[axis]) ||
+            varies(loads[k].torque[axis], signals.torque[axis]);
+    if (any)
+      throw InputError({loads[k].where, "loads[" + std::to_string(k) + "]",
+                        "the efforts of a recorded motion are computed without the time", "",
+                        "loads that are constant or depend on the motion"});
+  }
 }
 
 /// The study with a start near measured positions: the joints of `held` (indices in `joints`) have
@@ -223,6 +245,7 @@ DrivenSystem make_driven_system(const CompiledSystem& of,
                                 const Eigen::MatrixXd& positions) {
   const std::vector<int> joints = find_joints(of.robot(), measured);
   refuse_friction_states(of);
+  refuse_loads_of_time(of);
   DrivenSystem driven = choose_drives(of, measured, joints, positions);
   std::vector<int> drives;
   for (int k : driven.drives) drives.push_back(joints[to_index(k)]);

@@ -57,15 +57,21 @@ void read_constraints(const YamlValue& study_value, Study* study);
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
                         const ParameterTable& table, Study* study);
 
-/// Reads `loads:`, the constant efforts and wrenches. @param table of Study::parameters. @throws
-/// InputError
+/// Reads `loads:`, efforts and wrenches. Study::controllers must have been read. @param table of
+/// Study::parameters. @throws InputError
 void read_loads(const YamlValue& study_value, const RobotDescription& robot,
-                const ParameterTable& table, Study* study);
+                const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
-/// Reads a function of time: a quantity, or a map whose `type` is sine, waypoints or trajectory.
+/// Reads a function of time: a quantity, an expression of the time t, or a map whose `type` is
+/// sine, waypoints or trajectory.
 /// @param loader for trajectories; may be empty. @throws InputError
 ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table,
                                     const TrajectoryLoader& loader);
+
+/// Reads `motion:`, the joints whose motion is given. Study::duration, initial_state and
+/// controllers must have been read. @param table of Study::parameters. @throws InputError
+void read_motion(const YamlValue& study_value, const RobotDescription& robot,
+                 const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
 /// Reads `controllers:`. Study::duration must have been read.
 /// @param table of Study::parameters, with the coefficients of basis controllers. @throws

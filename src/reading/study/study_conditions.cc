@@ -2,8 +2,11 @@
 #include "reading/study/study_blocks.h"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "math/scalar.h"
+#include "mechanism/signal_catalog.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -123,40 +126,71 @@ void read_initial_state(const YamlValue& study_value, const RobotDescription& ro
 
 namespace {
 
-void read_effort(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table,
-                 LoadDescription* load) {
-  value.require_keys({"joint", "effort"}, {});
-  const YamlValue joint = value.at("joint");
-  load->joint = scalar_joint(joint.text(), robot, joint).name;
-  load->effort = read_quantity(value.at("effort"), table);
-}
+/// What the loads of a study are read with.
+struct LoadReader {
+  const RobotDescription& robot;
+  const ParameterTable& table;
+  const TrajectoryLoader& loader;
+  const Study& study;
 
-void read_wrench(const YamlValue& value, const RobotDescription& robot, const ParameterTable& table,
-                 LoadDescription* load) {
-  value.require_keys({"link"}, {"force", "torque", "point", "frame"});
-  const YamlValue link = value.at("link");
-  std::vector<std::string> known;
-  for (const LinkDescription& description : robot.links) known.push_back(description.name);
-  load->link = link.choice("link", known);
-  const auto force = value.find("force"), torque = value.find("torque"),
-             point = value.find("point"), frame = value.find("frame");
-  if (!force && !torque)
-    value.fail("a load on a link needs a force or a torque", "force: [x, y, z], torque: [x, y, z]");
-  if (point && !force)
-    point->fail("a point without a force has no meaning: it is where the force acts",
-                "force: [x, y, z]");
-  if (force) load->force = read_vector(*force, table);
-  if (torque) load->torque = read_vector(*torque, table);
-  if (point) load->point = read_vector(*point, table);
-  if (frame) load->in_link_frame = frame->choice("frame", {"root", "link"}) == "link";
-}
+  LoadFunction read(const YamlValue& value) const {
+    LoadFunction function;
+    if (!value.is_map() && is_expression(value.text())) {
+      SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
+      if (!signal.terms.empty()) {
+        check_signal(signal, robot, study.controllers, value.path());
+        use_parameters(signal, table);
+        function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
+        return function;
+      }
+    }
+    function.of_time = read_reference(value, table, loader);
+    return function;
+  }
+
+  std::array<LoadFunction, 3> read_components(const YamlValue& value) const {
+    if (!value.is_list()) value.fail("three components are needed", "[x, y, z]");
+    const std::vector<YamlValue> items = value.items();
+    if (items.size() != 3)
+      value.fail("three components are needed, found " + std::to_string(items.size()), "[x, y, z]");
+    return {read(items[0]), read(items[1]), read(items[2])};
+  }
+
+  void read_effort(const YamlValue& value, LoadDescription* load) const {
+    value.require_keys({"joint", "effort"}, {});
+    const YamlValue joint = value.at("joint");
+    load->joint = scalar_joint(joint.text(), robot, joint).name;
+    load->effort = read(value.at("effort"));
+  }
+
+  void read_wrench(const YamlValue& value, LoadDescription* load) const {
+    value.require_keys({"link"}, {"force", "torque", "point", "frame"});
+    const YamlValue link = value.at("link");
+    std::vector<std::string> known;
+    for (const LinkDescription& description : robot.links) known.push_back(description.name);
+    load->link = link.choice("link", known);
+    const auto force = value.find("force"), torque = value.find("torque"),
+               point = value.find("point"), frame = value.find("frame");
+    if (!force && !torque)
+      value.fail("a load on a link needs a force or a torque",
+                 "force: [x, y, z], torque: [x, y, z]");
+    if (point && !force)
+      point->fail("a point without a force has no meaning: it is where the force acts",
+                  "force: [x, y, z]");
+    if (force) load->force = read_components(*force);
+    if (torque) load->torque = read_components(*torque);
+    if (point) load->point = read_vector(*point, table);
+    if (frame) load->in_link_frame = frame->choice("frame", {"root", "link"}) == "link";
+  }
+};
 
 }  // namespace
 
 void read_loads(const YamlValue& study_value, const RobotDescription& robot,
-                const ParameterTable& table, Study* study) {
+                const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const auto loads = study_value.find("loads");
   if (!loads) return;
+  const LoadReader reader{robot, table, loader, *study};
   for (const YamlValue& value : loads->items()) {
     LoadDescription load;
     load.where = value.where();
@@ -167,7 +201,7 @@ void read_loads(const YamlValue& study_value, const RobotDescription& robot,
     if (on_joint == on_link)
       value.fail("a load acts on one joint or on one link",
                  "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
-    on_joint ? read_effort(value, robot, table, &load) : read_wrench(value, robot, table, &load);
+    on_joint ? reader.read_effort(value, &load) : reader.read_wrench(value, &load);
     study->loads.push_back(load);
   }
 }

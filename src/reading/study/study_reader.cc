@@ -18,6 +18,13 @@ void require_purpose_of_excite(const YamlValue& root) {
                  "a block identify; without data it may be {}");
 }
 
+/// An identification takes the motion from its recordings.
+void refuse_motion_of_recordings(const YamlValue& root) {
+  if (const auto motion = root.find("motion"); motion && root.find("identify"))
+    motion->fail("the recordings of `identify` give the motion of the joints",
+                 "no motion in a study that identifies");
+}
+
 /// A study that only identifies has no run of its own that could have a duration.
 double read_duration(const YamlValue& root) {
   const auto identify = root.find("identify");
@@ -75,13 +82,18 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   read_initial_state(root, robot, table, &study);
   read_controllers(root, robot, table, loader, &study);
   read_hardware(root, table, &study);
-  read_loads(root, robot, table, &study);
+  read_motion(root, robot, table, loader, &study);
+  read_loads(root, robot, table, loader, &study);
   read_objective(root, robot, table, loader, &study);
   read_watched(root, robot, table, loader, &study);
   study.used_parameters = robot.used_parameters;
   study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) read_options(*limits, &study.limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
+  // The efforts of given motions can vary faster than all motions, whose error is tested.
+  constexpr double kFewestSteps = 500.0;
+  if (!study.motion.empty() && study.solver.maximum_step == 0.0)
+    study.solver.maximum_step = study.duration / kFewestSteps;
   if (const auto optimizer = root.find("optimizer"))
     study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint(root, study);
@@ -94,11 +106,12 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
   root.require_keys(
-      {}, {"duration",  "gravity", "initial_state", "controllers", "loads",      "parameters",
-           "objective", "path",    "final",         "constraints", "limits",     "solver",
-           "optimizer", "runs",    "uncertain",     "robust",      "multistart", "engine",
-           "identify",  "excite",  "hardware"});
+      {}, {"duration",   "gravity",   "initial_state", "controllers", "loads",       "motion",
+           "parameters", "objective", "path",          "final",       "constraints", "limits",
+           "solver",     "optimizer", "runs",          "uncertain",   "robust",      "multistart",
+           "engine",     "identify",  "excite",        "hardware"});
   require_purpose_of_excite(root);
+  refuse_motion_of_recordings(root);
   const auto read_run = [&](const YamlValue& study_value) {
     return read_single_run(study_value, yaml.name, robot, loader);
   };

@@ -1,6 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_blocks.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
 #include "reading/study/study_values.h"
 
 namespace codesign {
@@ -113,10 +118,36 @@ ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoa
   return reference;
 }
 
+/// An expression of the time t; nothing if the text is no expression or does not contain t.
+std::optional<ReferenceDescription> read_expression(const YamlValue& value,
+                                                    const ParameterTable& table) {
+  constexpr const char* kAllowed = "\"${expression}\" of the parameters and of the time t";
+  const std::string text = value.text();
+  if (!is_expression(text)) return std::nullopt;
+  ReferenceDescription reference;
+  reference.kind = ReferenceDescription::Kind::kExpression;
+  TimeExpression& expression = reference.expression;
+  expression.time = table.time_index();
+  try {
+    expression.formula = table.parse_with_time(text.substr(2, text.size() - 3));
+  } catch (const std::invalid_argument& error) {
+    value.fail(error.what(), kAllowed);
+  }
+  const std::vector<int>& used = expression.formula->dependencies();
+  if (std::find(used.begin(), used.end(), expression.time) == used.end()) return std::nullopt;
+  std::vector<double> at_start = table.values;
+  at_start.push_back(0.0);
+  if (!std::isfinite(expression.formula->value(at_start)))
+    value.fail("not finite at t = 0 and the parameters' start", kAllowed);
+  return reference;
+}
+
 }  // namespace
 
 ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table,
                                     const TrajectoryLoader& loader) {
+  if (!value.is_map())
+    if (auto expression = read_expression(value, table)) return *std::move(expression);
   if (!value.is_map()) return read_quantity(value, table);
   const std::string type =
       value.at("type").choice("type of reference", {"sine", "waypoints", "trajectory"});

@@ -88,9 +88,11 @@ std::shared_ptr<const Study> read_changed(const YamlValue& study_value, const st
 RunDescription read_run_entry(const YamlValue& study_value, const std::string& name,
                               const YamlValue& value, const Study& study,
                               const RunReader& read_run) {
-  const std::vector<std::string> changes{"initial_state", "controllers", "loads", "gravity"};
+  const std::vector<std::string> changes{"initial_state", "controllers", "loads", "motion",
+                                         "gravity"};
   check_name(name, value);
-  value.require_keys({}, {"set", "weight", "initial_state", "controllers", "loads", "gravity"});
+  value.require_keys(
+      {}, {"set", "weight", "initial_state", "controllers", "loads", "motion", "gravity"});
   RunDescription run;
   run.name = name;
   run.where = value.where();

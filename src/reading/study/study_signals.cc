@@ -8,15 +8,22 @@
 namespace codesign {
 namespace {
 
+/// A signal whose names exist; an expression may contain parameters of the table.
+SignalDescription read_signal_of(const YamlValue& value, const RobotDescription& robot,
+                                 const ParameterTable& table, const Study& study) {
+  SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
+  check_signal(signal, robot, study.controllers, value.path());
+  use_parameters(signal, table);
+  return signal;
+}
+
 ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot,
                         const ParameterTable& table, const TrajectoryLoader& loader,
                         const Study& study) {
   value.require_keys({"signal"}, {"reference", "weight"});
   ObjectiveTerm term;
   term.where = value.where();
-  const YamlValue signal = value.at("signal");
-  term.signal = parse_signal(signal.text(), signal.where(), signal.path());
-  check_signal(term.signal, robot, study.controllers, signal.path());
+  term.signal = read_signal_of(value.at("signal"), robot, table, study);
   if (const auto reference = value.find("reference"))
     term.reference = read_reference(*reference, table, loader);
   if (const auto weight = value.find("weight")) term.weight = read_quantity(*weight, table);
@@ -91,9 +98,7 @@ struct Reader {
     watched.role = role;
     watched.where = value.where();
     watched.element = value.path();
-    const YamlValue signal = value.at(key);
-    watched.signal = parse_signal(signal.text(), signal.where(), signal.path());
-    check_signal(watched.signal, robot, study.controllers, signal.path());
+    watched.signal = read_signal_of(value.at(key), robot, table, study);
     if (const auto reference = value.find("reference"))
       watched.reference = read_reference(*reference, table, loader);
     if (role == Role::kFinal) {

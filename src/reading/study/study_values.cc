@@ -47,6 +47,10 @@ double read_above_zero(const YamlValue& value, const std::string& unit) {
   return number;
 }
 
+bool is_expression(const std::string& text) {
+  return text.size() >= 4 && text.compare(0, 2, "${") == 0 && text.back() == '}';
+}
+
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   constexpr const char* kAllowed = "a finite number or \"${expression}\" of the parameters";
   const std::string text = value.text();
@@ -54,8 +58,7 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
     if (!std::isfinite(*number)) value.fail("not finite", kAllowed);
     return *number;
   }
-  if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}')
-    value.fail("not a number", kAllowed);
+  if (!is_expression(text)) value.fail("not a number", kAllowed);
   std::shared_ptr<const Expression> expression;
   try {
     expression = table.parse(text.substr(2, text.size() - 3));
@@ -65,6 +68,13 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   const double nominal = expression->value(table.values);
   if (!std::isfinite(nominal)) value.fail("not finite at the parameters' start", kAllowed);
   return Quantity(nominal, std::move(expression));
+}
+
+void use_parameters(const SignalDescription& signal, const ParameterTable& table) {
+  if (!signal.formula) return;
+  for (const std::string& name : signal.formula->names)
+    if (const auto found = table.index.find(name); found != table.index.end())
+      table.used.insert(found->second);
 }
 
 QuantityVector read_vector(const YamlValue& value, const ParameterTable& table) {

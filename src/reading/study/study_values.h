@@ -28,9 +28,16 @@ double read_within_bounds(const YamlValue& value, const Parameter& parameter);
 /// A number above zero. @param unit for the message, for example " s". @throws InputError
 double read_above_zero(const YamlValue& value, const std::string& unit = "");
 
+/// Whether a text is `${...}`.
+bool is_expression(const std::string& text);
+
 /// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not
 /// finite at the parameters' start.
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
+
+/// Notes that the study depends on the parameters in an expression of signals. Names that are no
+/// parameters are left to resolve_signal().
+void use_parameters(const SignalDescription& signal, const ParameterTable& table);
 
 /// A list of three quantities. @throws InputError
 QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);

@@ -97,8 +97,8 @@ TEST(StudyLoads, ReadsAnEffort) {
       read_text(with("{joint: slider_joint, effort: \"${3*push}\"}")).loads.at(0);
   EXPECT_EQ(load.joint, "slider_joint");
   EXPECT_TRUE(load.link.empty());
-  EXPECT_EQ(load.effort.nominal(), 6.0);
-  EXPECT_EQ(load.effort.at(std::vector<double>{0.08, 0.3, 4.0}), 12.0);
+  EXPECT_EQ(load.effort.of_time.constant.nominal(), 6.0);
+  EXPECT_EQ(load.effort.of_time.constant.at(std::vector<double>{0.08, 0.3, 4.0}), 12.0);
   EXPECT_EQ(load.where.line, 5);
 }
 
@@ -109,12 +109,12 @@ TEST(StudyLoads, ReadsAWrench) {
                      "crank, torque: [1, 0, 0]}"));
   const LoadDescription& first = study.loads.at(0);
   EXPECT_EQ(first.link, "ball");
-  EXPECT_EQ(first.force[1].nominal(), 2.0);
-  EXPECT_EQ(first.torque[2].nominal(), 0.5);
+  EXPECT_EQ(first.force[1].of_time.constant.nominal(), 2.0);
+  EXPECT_EQ(first.torque[2].of_time.constant.nominal(), 0.5);
   EXPECT_EQ(first.point[1].nominal(), 0.1);
   EXPECT_TRUE(first.in_link_frame);
   EXPECT_FALSE(study.loads.at(1).in_link_frame);
-  EXPECT_EQ(study.loads.at(1).force[0].nominal(), 0.0);
+  EXPECT_EQ(study.loads.at(1).force[0].of_time.constant.nominal(), 0.0);
 }
 
 TEST(StudyLoads, RefusesWhatActsOnNothingOrTwice) {
@@ -140,6 +140,25 @@ TEST(StudyLoads, RefusesNamesAndNumbers) {
                "unknown frame", 5);
   expect_fault(with("{link: ball, force: [1, 0, 0], efort: 1}"), "loads[0].efort", "unknown key",
                5);
+}
+
+TEST(StudyLoads, ReadsFunctionsOfTimeAndExpressionsOfSignals) {
+  const Study study =
+      read_text(with("{link: ball, force: [{type: sine, amplitude: 1, period: 2}, \"${push*t}\", "
+                     "\"${-push*ball/velocity/x}\"]}\n  - {joint: slider_joint, effort: "
+                     "\"${slider_joint/position^2}\"}"));
+  const LoadDescription& wrench = study.loads.at(0);
+  EXPECT_EQ(wrench.force[0].of_time.kind, ReferenceDescription::Kind::kSine);
+  EXPECT_EQ(wrench.force[1].of_time.kind, ReferenceDescription::Kind::kExpression);
+  EXPECT_FALSE(wrench.force[1].of_signals);
+  ASSERT_TRUE(wrench.force[2].of_signals);
+  EXPECT_EQ(wrench.force[2].of_signals->terms.at(0).object, "ball");
+  EXPECT_TRUE(study.loads.at(1).effort.of_signals);
+  EXPECT_EQ(study.used_parameters.count(2), 1U);
+  expect_fault(with("{joint: slider_joint, effort: \"${slider_jont/position}\"}"),
+               "loads[0].effort", "did you mean \"slider_joint\"", 5);
+  expect_fault(with("{joint: slider_joint, effort: \"${slider_joint/positon}\"}"),
+               "loads[0].effort", "unknown name", 5);
 }
 
 }  // namespace

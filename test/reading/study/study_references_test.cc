@@ -111,5 +111,14 @@ TEST(StudyReferences, WithoutALoaderTheMessageSaysHowToConvertTheBag) {
       "rosrun mechanism_codesign trajectory_from_bag moves.bag /arm/command crank_joint");
 }
 
+TEST(StudyReferences, AnExpressionOfTime) {
+  const ReferenceDescription wave = read_reference_text("\"${A*sin(2*t)}\"");
+  EXPECT_EQ(wave.kind, ReferenceDescription::Kind::kExpression);
+  EXPECT_EQ(dependencies(wave), std::vector<int>{2});
+  EXPECT_EQ(read_reference_text("\"${2*A}\"").kind, ReferenceDescription::Kind::kConstant);
+  expect_bad_reference("\"${A*log(t)}\"", "", "not finite at t = 0");
+  expect_bad_reference("\"${B*t}\"", "", "unknown name 'B'");
+}
+
 }  // namespace
 }  // namespace codesign

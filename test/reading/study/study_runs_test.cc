@@ -93,7 +93,7 @@ TEST(StudyRuns, ListsAndOtherTypesReplaceWhatTheStudyHas) {
       "amplitude: 2.0, period: 1.0}}, "
       "shake: {feedforward: {type: waypoints, times: [0, 1], positions: [0, 3]}}}}");
   ASSERT_EQ(study.loads.size(), 1U);
-  EXPECT_EQ(study.loads[0].effort.nominal(), 7.0);
+  EXPECT_EQ(study.loads[0].effort.of_time.constant.nominal(), 7.0);
   EXPECT_TRUE(study.controllers[0].setpoint.sine.is_period);
   EXPECT_EQ(study.controllers[1].feedforward.waypoints.positions.at(1).nominal(), 3.0);
 }
