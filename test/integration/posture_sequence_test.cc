@@ -45,7 +45,7 @@ TEST(PostureSequence, FollowsTheListWithClosedLoops) {
   for (std::size_t k = 0; k < angles.size(); ++k) {
     EXPECT_EQ(run.times[k], static_cast<double>(k));
     EXPECT_DOUBLE_EQ(run.signals[k][0], angles[k]);
-    EXPECT_NEAR(opening(0.55464, 1.44084, 0.72463, angles[k], run.signals[k][1]), 0.0, 1e-13);
+    EXPECT_NEAR(opening(0.55464, 1.44084, 0.72463, angles[k], run.signals[k][1]), 0.0, 1e-12);
   }
 }
 
@@ -69,14 +69,16 @@ TEST(PostureSequence, GivenVelocitiesHoldInEachPosture) {
 TEST(PostureSequence, KeepsTheBranch) {
   const std::vector<std::string> signals{"crank_joint/position", "rocker_joint/position"};
   const auto side = [](const std::vector<double>& at) {
-    const std::complex<double> diagonal = std::polar(0.55464, at[0]) - 1.0;
+    const std::complex<double> diagonal = std::polar(0.4, at[0]) - 1.0;
     return (std::conj(diagonal) * std::polar(1.0, at[1])).imag();
   };
+  // With these lengths of crank and coupler the crank turns fully: here twice.
+  const std::vector<double> turning{0.4, 1.2, 0.72463};
   double last = 0.0;
   for (const std::string guess : {"1.0", "-2.0"}) {
     const Recorded fine = record(function_generator("{from: 1.7, to: 14.2, count: 60}", guess),
-                                 signals),
-                   coarse = record(function_generator("[1.7, 14.2]", guess), signals);
+                                 signals, turning),
+                   coarse = record(function_generator("[1.7, 14.2]", guess), signals, turning);
     ASSERT_TRUE(fine.status.ok() && coarse.status.ok()) << fine.status.cause << coarse.status.cause;
     for (const std::vector<double>& at : fine.signals)
       EXPECT_GT(side(at) * side(fine.signals.front()), 0.0);

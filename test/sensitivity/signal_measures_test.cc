@@ -19,7 +19,7 @@ Evaluation term(const std::string& measure, const std::string& keys, const std::
   return Evaluator(problem).evaluate(problem.start(), true);
 }
 
-void expect(const Evaluation& evaluation, double value, double by_k, double by_amplitude) {
+void expect_term(const Evaluation& evaluation, double value, double by_k, double by_amplitude) {
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective, value, 1e-9);
   EXPECT_NEAR(evaluation.gradient[0], by_k, 1e-8);
@@ -29,31 +29,31 @@ void expect(const Evaluation& evaluation, double value, double by_k, double by_a
 constexpr double kPi = 3.141592653589793;
 
 TEST(SignalMeasures, RangesOfAnOscillation) {
-  expect(term("stroke", "", "5"), 2.0, 0.0, 2.0);
-  expect(term("maximum", ", weight: -3, after: 1", "5"), -3.0, 0.0, -3.0);
-  expect(term("minimum", ", reference: 0.25", "5"), -1.25, 0.0, -1.0);
+  expect_term(term("stroke", "", "5"), 2.0, 0.0, 2.0);
+  expect_term(term("maximum", ", weight: -3, after: 1", "5"), -3.0, 0.0, -3.0);
+  expect_term(term("minimum", ", reference: 0.25", "5"), -1.25, 0.0, -1.0);
   // Until cos(2 t) = cos 1 only: no extremum inside.
-  expect(term("stroke", "", "0.5"), 1.0 - std::cos(1.0), std::sin(1.0) * 0.5 / 4.0,
-         1.0 - std::cos(1.0));
+  expect_term(term("stroke", "", "0.5"), 1.0 - std::cos(1.0), std::sin(1.0) * 0.5 / 4.0,
+              1.0 - std::cos(1.0));
 }
 
 // x = a cos(w t) passes e at acos(e/a)/w.
 TEST(SignalMeasures, TimesOfAnOscillation) {
   const double w = 2.0, at = std::acos(0.5) / w, by_a = 0.5 / std::sqrt(0.75) / w;
-  expect(term("arrival", ", band: [-0.5, 0.5]", "0.69"), at, -at / 8.0, by_a);
+  expect_term(term("arrival", ", band: [-0.5, 0.5]", "0.69"), at, -at / 8.0, by_a);
   const double dwell = kPi / w - 2.0 * at;
-  expect(term("dwell", ", band: [-0.5, 0.5]", "1.5707963"), dwell, -dwell / 8.0, -2.0 * by_a);
+  expect_term(term("dwell", ", band: [-0.5, 0.5]", "1.5707963"), dwell, -dwell / 8.0, -2.0 * by_a);
   // A period: two stays.
-  expect(term("dwell", ", band: [-0.5, 0.5], weight: -2", "3.14"), -4.0 * dwell, dwell / 2.0,
-         8.0 * by_a);
+  expect_term(term("dwell", ", band: [-0.5, 0.5], weight: -2", "3.14"), -4.0 * dwell, dwell / 2.0,
+              8.0 * by_a);
   // The edges move with the amplitude.
-  expect(term("arrival", ", band: [-1, \"${amplitude/2}\"]", "0.69"), at, -at / 8.0, 0.0);
+  expect_term(term("arrival", ", band: [-1, \"${amplitude/2}\"]", "0.69"), at, -at / 8.0, 0.0);
 }
 
 TEST(SignalMeasures, TimesThatAreMissed) {
   const double end = std::cos(1.0), by_k = -std::sin(1.0) * 0.5 / 4.0;
-  expect(term("arrival", ", band: [-0.1, 0.4]", "0.5"), 0.5 + (end - 0.4), by_k, end);
-  expect(term("dwell", ", band: [1.5, 2.0]", "5"), -5.0 * 0.5 / 0.5, 0.0, 10.0);
+  expect_term(term("arrival", ", band: [-0.1, 0.4]", "0.5"), 0.5 + (end - 0.4), by_k, end);
+  expect_term(term("dwell", ", band: [1.5, 2.0]", "5"), -5.0 * 0.5 / 0.5, 0.0, 10.0);
 }
 
 // Along a motion with friction and loops, against differences of runs with tight tolerances.
@@ -61,8 +61,8 @@ TEST(SignalMeasures, GradientsMeetDifferences) {
   GradientCase test = gradient_cases().front();
   test.study.integral.clear();
   test.study.terminal.clear();
-  test.study.solver.relative_tolerance = 1e-10;
-  test.study.solver.absolute_tolerance = 1e-11;
+  test.study.solver.relative_tolerance = 1e-12;
+  test.study.solver.absolute_tolerance = 1e-13;
   const std::string joint = "crank_joint";
   const auto add = [&](WatchedSignal::Measure measure, const std::string& text, double weight) {
     WatchedSignal& watched = test.study.watched.emplace_back();

@@ -22,7 +22,7 @@ int count_values(const YamlValue& value) {
   return static_cast<int>(count);
 }
 
-std::string text_of(const Quantity& quantity) {
+std::string in_parentheses(const Quantity& quantity) {
   return "(" +
          (quantity.is_constant() ? to_decimal(quantity.nominal()) : quantity.expression()->text()) +
          ")";
@@ -36,8 +36,8 @@ Quantity between(const Quantity& from, const Quantity& to, int k, int last,
   const double part = static_cast<double>(k) / last;
   const double value = from.nominal() + part * (to.nominal() - from.nominal());
   if (from.is_constant() && to.is_constant()) return Quantity(value);
-  return Quantity(value, table.parse(text_of(from) + " + " + to_decimal(part) + "*(" + text_of(to) +
-                                     " - " + text_of(from) + ")"));
+  return Quantity(value, table.parse(in_parentheses(from) + " + " + to_decimal(part) + "*(" +
+                                     in_parentheses(to) + " - " + in_parentheses(from) + ")"));
 }
 
 std::vector<Quantity> read_values(const YamlValue& value, const ParameterTable& table) {

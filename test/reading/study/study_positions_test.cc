@@ -60,7 +60,7 @@ TEST(StudyPositions, TakeThePlaceOfAMotion) {
   expect_fault(positions + "objective: {dwell: [{signal: slider/position/x, band: [0, 1]}]}\n",
                "objective.dwell[0]", "no times", 2);
   expect_fault(positions + "path: [{signal: slider/position/x, at_most: 1, after: 2}]\n", "path[0]",
-               "numbers of postures", 2);
+               "the interval from 2 to 1 is not part", 2);
 }
 
 TEST(StudyPositions, RefuseBadLists) {
@@ -68,7 +68,7 @@ TEST(StudyPositions, RefuseBadLists) {
   expect_fault("positions: {crank_joint: []}\n", "positions.crank_joint", "found 0 postures", 1);
   expect_fault("positions: {crank_jiont: [1]}\n", "positions.crank_jiont",
                "did you mean \"crank_joint\"", 1);
-  expect_fault("positions: {ball_joint: [1]}\n", "positions.ball_joint", "one coordinate", 1);
+  expect_fault("positions: {ball_joint: [1]}\n", "positions.ball_joint", "no single coordinate", 1);
   expect_fault("positions: {crank_joint: [0, x]}\n", "positions.crank_joint[1]", "not a number", 1);
   expect_fault("positions:\n  crank_joint: [0, 1]\n  slider_joint: [0, 1, 2]\n",
                "positions.slider_joint", "found 3 positions, and of joint 'crank_joint' 2", 3);

@@ -178,7 +178,7 @@ TEST(StudyWatched, ReadsMeasures) {
   EXPECT_EQ(study.watched[1].element, "constraints[1]");
   EXPECT_EQ(study.watched[1].after, 0.5);
   EXPECT_EQ(study.watched[2].measure, Measure::kDwell);
-  EXPECT_DOUBLE_EQ(study.watched[2].band_upper.at({0.08, 0.4}), 0.4);
+  EXPECT_DOUBLE_EQ(study.watched[2].band_upper.at(std::vector<double>{0.08, 0.4}), 0.4);
   // In the order of kMeasureNames.
   EXPECT_EQ(study.watched[3].measure, Measure::kMinimum);
   EXPECT_EQ(study.watched[3].role, WatchedSignal::Role::kTerm);
