@@ -72,7 +72,7 @@ void Assembly::set_start(const std::vector<double>& parameters) {
   }
   if (guess_.size() > 0) theta_ = guess_;
   if (guess_.size() == 0 && origin_.nudge.size() > 0) theta_ += origin_.nudge;
-  set_given_start(system_, tree_, parameters, &theta_, &theta_rate_);
+  set_given_start(system_, tree_, parameters, posture_, &theta_, &theta_rate_);
 }
 
 ReferenceMotion<double> Assembly::given_motion(const Equations<double>& equations,
@@ -314,6 +314,7 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
                                  Equations<double>* equations, State<double>* state) {
   warnings_.clear();
   contradicting_.clear();
+  posture_ = 0.0;
   state->resize(system_.layout());
   state->t = time_ = start_time_;
   set_extra_states(system_, parameters, &state->s);

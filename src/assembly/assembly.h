@@ -77,6 +77,14 @@ class Assembly {
   Status solve_from(const TreeCoordinates& from, const std::vector<double>& parameters,
                     Equations<double>* equations, State<double>* state);
 
+  /// Goes from the posture that was solved last to the next one of the study's list, doc/theory.md
+  /// (21f): along the straight line between the given positions, with the other coordinates
+  /// following, so that the branch stays. Fills `state` as solve() does, which finds the first
+  /// posture. @param state of the posture before. @returns kAssemblyFailed also where the loops
+  /// cannot be closed on the way.
+  Status solve_next(const std::vector<double>& parameters, Equations<double>* equations,
+                    State<double>* state);
+
   /// Exact initial sensitivities, doc/theory.md (20): carries the first-order parts of `parameters`
   /// (complex step or lanes) through the last solution of solve(). `state` receives that solution
   /// with its derivatives.
@@ -203,7 +211,11 @@ class Assembly {
   Status keep_branch(const Status& plain, const std::vector<double>& parameters,
                      Equations<double>* equations);
   bool follow(const std::vector<double>& parameters, Equations<double>* equations);
-  bool converges_at_once(const std::vector<double>& parameters, Equations<double>* equations);
+  template <class PlaceAt>
+  bool walk(const std::vector<int>& free, const PlaceAt& place_at, Equations<double>* equations);
+  bool converges_at_once(const std::vector<double>& parameters, const std::vector<int>& free,
+                         Equations<double>* equations);
+  void keep_loop_turns(const std::vector<double>& turns, State<double>* state) const;
   void note_origin();
   std::string guesses_for(const VectorX<double>& theta, const std::vector<int>& coordinates) const;
   void warn_of_branch(const char* code, const std::string& message, const VectorX<double>& theta,
@@ -261,6 +273,8 @@ class Assembly {
   VectorX<double> theta_, theta_rate_;
   double start_time_ = 0.0;               ///< [s]
   double time_ = 0.0;                     ///< of the positions that are sought [s]
+  double posture_ =
+      0.0;  ///< number of the posture that theta_ belongs to, or on the way to the next
   VectorX<double> guess_;                 ///< of theta_, instead of the study's; empty: none
   const std::vector<double> own_design_;  ///< the start values of the study's parameters
   Origin origin_;

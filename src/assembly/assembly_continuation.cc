@@ -79,6 +79,12 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
   }
   const std::vector<double> turns = state->turns;
   place(parameters, equations, state);
+  keep_loop_turns(turns, state);
+  return {};
+}
+
+/// The turns of loops, which do not follow from the tree's coordinates.
+void Assembly::keep_loop_turns(const std::vector<double>& turns, State<double>* state) const {
   for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
     if (!system_.topology().pairs[p].is_loop) continue;
     for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
@@ -86,7 +92,6 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
       state->turns[slot] = turns[slot];
     }
   }
-  return {};
 }
 
 void Assembly::note_origin() {
@@ -147,19 +152,36 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
   all_rows_count_ = !system_.sharing().drops();
   work_.followed = origin_.theta;
   bool is_held = true;  // whether `equations` hold the design at `parameters`
+  const bool reached = walk(
+      origin_.free,
+      [&](double part) -> const std::vector<double>& {
+        work_.between = parameters;
+        if (part < 1.0)
+          for (std::size_t k = 0; k < own_design_.size(); ++k)
+            work_.between[k] = own_design_[k] + part * (parameters[k] - own_design_[k]);
+        if (part < 1.0 || !is_held) equations->set_design(work_.between);
+        is_held = part == 1.0;
+        return work_.between;
+      },
+      equations);
+  if (!is_held) equations->set_design(parameters);
+  return reached;
+}
+
+/// Continues the position work_.followed along a line, with steps that are halved where Newton's
+/// method for the `free` coordinates does not converge at once. @param place_at (part of the way)
+/// -> the design there. @returns whether the end was reached; work_.followed is the last solution.
+template <class PlaceAt>
+bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
+                    Equations<double>* equations) {
   double reached = 0.0;
   for (double step = 1.0; reached < 1.0 && step >= kShortest && !cancelled();) {
     const double next = std::min(1.0, reached + step);
-    work_.between = parameters;
-    if (next < 1.0)
-      for (std::size_t k = 0; k < own_design_.size(); ++k)
-        work_.between[k] = own_design_[k] + next * (parameters[k] - own_design_[k]);
-    if (next < 1.0 || !is_held) equations->set_design(work_.between);
-    is_held = next == 1.0;
+    const std::vector<double>& design = place_at(next);
     theta_ = work_.followed;
-    set_given_start(system_, tree_, work_.between, &theta_, &theta_rate_);
+    set_given_start(system_, tree_, design, posture_, &theta_, &theta_rate_);
     follow_couplings(*equations);
-    if (converges_at_once(work_.between, equations)) {
+    if (converges_at_once(design, free, equations)) {
       work_.followed = theta_;
       reached = next;
       step *= 2.0;
@@ -167,29 +189,65 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
       step *= 0.5;
     }
   }
-  if (!is_held) equations->set_design(parameters);
   return reached == 1.0;
 }
 
-/// Newton's method for the dependent coordinates of the origin, from theta_. True if it converges
+Status Assembly::solve_next(const std::vector<double>& parameters, Equations<double>* equations,
+                            State<double>* state) {
+  warnings_.clear();
+  contradicting_.clear();
+  matrix_.reset_pivots();
+  const double from = posture_;
+  all_rows_count_ = !system_.sharing().drops();
+  work_.followed = theta_;
+  by_preference(position_given_, &work_.positions);
+  scale_loops(parameters, *equations);
+  work_.free = choose_columns(work_.positions);
+  double furthest = 0.0;
+  theta_rate_.setZero();
+  const bool reached = walk(
+      work_.free,
+      [&](double part) -> const std::vector<double>& {
+        posture_ = from + part;
+        furthest = part;
+        return parameters;
+      },
+      equations);
+  posture_ = from + 1.0;
+  state->t = posture_;
+  if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
+  if (!reached)
+    return {StatusCode::kAssemblyFailed, state->t,
+            "loop or coupling '" + std::string(worst_miss_.owner) +
+                "' cannot be closed on the way from posture " + readable(from) + ": it opens at " +
+                readable(100.0 * furthest, 2) + " % of the way"};
+  set_extra_states(system_, parameters, &state->s);
+  state->z.setZero();
+  const std::vector<double> turns = state->turns;
+  if (Status status = solve_velocities(parameters, equations, state); !status.ok()) return status;
+  set_turns(system_, tree_, theta_, state);
+  keep_loop_turns(turns, state);
+  equations->track_turns(state);
+  return solve_rates(equations, state);
+}
+
+/// Newton's method for the `free` coordinates, from theta_. True if it converges
 /// with contracting steps from the first one on, as it does in the neighbourhood of a regular
 /// solution only.
 bool Assembly::converges_at_once(const std::vector<double>& parameters,
-                                 Equations<double>* equations) {
+                                 const std::vector<int>& free, Equations<double>* equations) {
   double previous = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostCorrections && !cancelled(); ++iteration) {
     const double error = find_errors(parameters, equations),
                  size = 1.0 + theta_.cwiseAbs().maxCoeff();
     if (!std::isfinite(error)) return false;
     if (error == 0.0) return true;
-    const Eigen::MatrixXd& step =
-        newton_step(parameters, *equations, origin_.free, rank_tolerance_);
-    const double turn = largest_turn(origin_.free, step),
+    const Eigen::MatrixXd& step = newton_step(parameters, *equations, free, rank_tolerance_);
+    const double turn = largest_turn(free, step),
                  change = step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0.0;
     if (!(turn <= kFirstTurn)) return false;
     if (change <= kAtRest * size || change > kContraction * previous) return error < kClosed * size;
-    for (std::size_t k = 0; k < origin_.free.size(); ++k)
-      theta_[origin_.free[k]] -= step(to_signed(k), 0);
+    for (std::size_t k = 0; k < free.size(); ++k) theta_[free[k]] -= step(to_signed(k), 0);
     previous = change;
   }
   return false;

@@ -99,7 +99,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   set_extra_states(system_, parameters, &state->s);
   w.theta = theta_.template cast<T>();
   w.rate = theta_rate_.template cast<T>();
-  set_given_start(system_, tree_, parameters, &w.theta, &w.rate);
+  set_given_start(system_, tree_, parameters, posture_, &w.theta, &w.rate);
   const auto place_extended = [&] {
     equations->place(w.theta, w.rate, state);
     equations->constraint_errors(*state, &w.Phi, &w.Phi_rate);

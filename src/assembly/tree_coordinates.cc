@@ -117,6 +117,17 @@ void set_slides(const JointDescription& joint, const QuantityVector& vector,
   coordinates[1] = dot<T>(x, plane.y);
 }
 
+/// The position of a joint with a given one.
+template <class T>
+T position_at(const InitialJointState& initial, const std::vector<T>& parameters, double posture) {
+  if (initial.positions.empty()) return initial.position->at(parameters);
+  const auto before = static_cast<std::size_t>(posture);
+  const double part = posture - static_cast<double>(before);
+  const T from = initial.positions[before].at(parameters);
+  if (part == 0.0) return from;
+  return (1.0 - part) * from + part * initial.positions[before + 1].at(parameters);
+}
+
 }  // namespace
 
 std::string tree_coordinates(const System& system, const TreeLayout& tree,
@@ -167,7 +178,7 @@ GivenStart::GivenStart(const System& system, const TreeLayout& tree) {
 
 template <class T>
 void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters,
-                     VectorX<T>* theta, VectorX<T>* rate) {
+                     double posture, VectorX<T>* theta, VectorX<T>* rate) {
   for (const InitialJointState& initial : system.study().initial_state) {
     const int index = tree_joint(system.robot(), initial);
     if (index < 0) continue;
@@ -175,7 +186,7 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
     const int c = tree.offset[to_index(index)];
     const bool planar = joint.type == JointType::kPlanar;
     const int slides = planar ? 2 : 3;
-    if (initial.position) (*theta)[c] = initial.position->at(parameters);
+    if (initial.position) (*theta)[c] = position_at(initial, parameters, posture);
     if (initial.velocity) (*rate)[c] = initial.velocity->at(parameters);
     if (initial.translation)
       set_slides(joint, *initial.translation, parameters, Out<T>(*theta).subspan(c, slides));
@@ -196,9 +207,9 @@ void set_extra_states(const System& system, const std::vector<T>& parameters, Ve
   for (std::size_t k = 0; k < given.size(); ++k) (*s)[to_signed(k)] = given[k].at(parameters);
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                          \
-  template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, \
-                                VectorX<T>*, VectorX<T>*);                               \
+#define CODESIGN_INSTANTIATE(T)                                                                  \
+  template void set_given_start(const System&, const TreeLayout&, const std::vector<T>&, double, \
+                                VectorX<T>*, VectorX<T>*);                                       \
   template void set_extra_states(const System&, const std::vector<T>&, VectorX<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE

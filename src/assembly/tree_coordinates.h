@@ -38,9 +38,10 @@ struct GivenStart {
 /// values at `parameters`; other entries of `theta` and `rate`, both of tree.size, keep their
 /// values. A given rotation of a floating joint leaves its turning coordinates at zero:
 /// JointDescription::start_rotation holds the rotation.
+/// @param posture number of a posture of the study; between two of them positions are interpolated.
 template <class T>
 void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters,
-                     VectorX<T>* theta, VectorX<T>* rate);
+                     double posture, VectorX<T>* theta, VectorX<T>* rate);
 
 /// The extra states at the start, Study::initial_extra_states and then zeros; resized to
 /// Layout::states.

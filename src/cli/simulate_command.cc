@@ -28,7 +28,15 @@ Json series_json(const std::vector<std::string>& names,
   return series;
 }
 
-void summarize(const RunSummary& run, double duration, double setup_seconds, std::ostream& err) {
+void summarize(const RunSummary& run, const Problem& problem, std::ostream& err) {
+  if (problem.study().postures > 0) {
+    err << "assembled " << problem.study().postures << " postures, "
+        << readable(run.statistics.cpu_seconds) << " s of processor time, set-up "
+        << readable(problem.setup_seconds()) << " s" << std::endl;
+    for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
+    return;
+  }
+  const double duration = problem.study().duration, setup_seconds = problem.setup_seconds();
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps ("
       << run.statistics.rejected_steps << " rejected), " << readable(run.statistics.cpu_seconds)
       << " s of processor time, set-up " << readable(setup_seconds) << " s" << std::endl;
@@ -105,9 +113,7 @@ int simulate(const Arguments& arguments, const Console& console) {
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
   RunSummary run =
       record_run(problem, problem.parameters(), signals, arguments.samples, sink, &console.cancel);
-  if (run.status.ok())
-    summarize(run, problem.study().duration, problem.setup_seconds(),
-              progress_of(arguments, console));
+  if (run.status.ok()) summarize(run, problem, progress_of(arguments, console));
   Json object;
   if (arguments.json) {
     add_objective(problem, !arguments.result.empty(), run.objective, console, &run.status, &object);

@@ -24,6 +24,9 @@ struct InitialJointState {
   std::string joint;
   std::optional<Quantity> position;  ///< value of an independent coordinate [rad or m]
   std::optional<Quantity> velocity;  ///< [rad/s or m/s]
+  /// Values of `position` in the postures of the study, MotionStudy::postures of them; empty:
+  /// `position` is that of all.
+  std::vector<Quantity> positions;
   std::optional<double> guess;  ///< start of the assembly for a dependent coordinate, which selects
                                 ///< the branch [rad or m]
   // For planar and floating joints only, in the joint frame at zero position, which is fixed in the
@@ -117,7 +120,10 @@ struct MotionStudy {
   MotionStudy& operator=(MotionStudy&&) noexcept;
   ~MotionStudy();
 
-  double duration = 0.0;                           ///< [s]
+  double duration = 0.0;  ///< [s]; of a study with postures: the number of its last one
+  /// Number of postures that take the place of a motion, theory (21f); 0: a motion. Time is the
+  /// number of a posture, from 0.
+  int postures = 0;
   std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2], in the root link's frame
   std::vector<InitialJointState> initial_state;
   /// Extra states at the start, in the order of Layout::states; missing entries at the end are
@@ -133,7 +139,8 @@ struct MotionStudy {
   /// constraints does not count: a constraint alone has no effect on the motion.
   std::set<int> used_parameters;
   std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
-  std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g; theory (21)
+  std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g, or of the sum over postures;
+                                        ///< theory (21), (21f)
   std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)
   std::vector<WatchedSignal>
       watched;  ///< constraints on signals and peaks in the objective; theory (21a)

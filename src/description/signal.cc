@@ -215,6 +215,27 @@ SignalDescription parse_signal(const std::string& text, const SourceLocation& wh
   return {text, SignalParser(text, where, element).parse(), where, nullptr};
 }
 
+bool has_band(const WatchedSignal& watched) {
+  return watched.measure == WatchedSignal::Measure::kArrival ||
+         watched.measure == WatchedSignal::Measure::kDwell;
+}
+
+bool is_term(const WatchedSignal& watched) {
+  return watched.role == WatchedSignal::Role::kPeak || watched.role == WatchedSignal::Role::kTerm;
+}
+
+bool is_largest_of_many(const WatchedSignal& watched) {
+  if (watched.role != WatchedSignal::Role::kTerm) return watched.role == WatchedSignal::Role::kPeak;
+  if (watched.measure == WatchedSignal::Measure::kMinimum) return watched.weight < 0.0;
+  return !has_band(watched) && watched.weight > 0.0;
+}
+
+std::string describe(const WatchedSignal& watched) {
+  if (watched.measure == WatchedSignal::Measure::kNone) return watched.signal.text;
+  return kMeasureNames[static_cast<std::size_t>(watched.measure) - 1] +
+         (" of " + watched.signal.text);
+}
+
 bool is_equality(const WatchedSignal& watched) {
   if (watched.role != WatchedSignal::Role::kFinal || !watched.lower || !watched.upper) return false;
   return watched.lower->is_constant() && watched.upper->is_constant() &&

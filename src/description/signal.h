@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,23 +47,50 @@ SignalDescription parse_signal(const std::string& text, const SourceLocation& wh
 /// `final:`) or in the objective (`objective.peak`); theory (21a).
 struct WatchedSignal {
   enum class Role {
-    kPath,   ///< lower <= signal - reference <= upper at all times from `after` to `before`
-    kFinal,  ///< the same at the end of the study; equal bounds are an equality
-    kPeak    ///< the objective contains weight * max |signal - reference| over the interval
+    kPath,     ///< lower <= signal - reference <= upper at all times from `after` to `before`
+    kFinal,    ///< the same at the end of the study; equal bounds are an equality
+    kPeak,     ///< the objective contains weight * max |signal - reference| over the interval
+    kBounded,  ///< lower <= measure of signal - reference over the interval <= upper
+    kTerm      ///< the objective contains weight * measure
+  };
+  /// One number of the signal over the interval, theory (21e); of kBounded and kTerm.
+  enum class Measure {
+    kNone,
+    kStroke,   ///< largest minus smallest value
+    kMaximum,  ///< largest value
+    kMinimum,  ///< smallest value
+    kArrival,  ///< first time after which the signal stays within the band until `before` [s]
+    kDwell     ///< time within the band [s], the sum of all stays
   };
 
   Role role = Role::kPath;
+  Measure measure = Measure::kNone;
   SignalDescription signal;
   ReferenceDescription reference;  ///< 0 unless given
   std::optional<Quantity> lower,
-      upper;  ///< of kPath and kFinal, at least one of them; in the unit of the signal
+      upper;  ///< of kPath, kFinal and kBounded, at least one of them; in the unit of the signal,
+              ///< of arrival and dwell in s
+  Quantity band_lower, band_upper;   ///< of kArrival and kDwell, in the unit of the signal
   std::optional<double> tolerance;   ///< violation of a bound that counts as met, positive; empty:
                                      ///< from the range of the signal
-  double weight = 1.0;               ///< of kPeak, positive
+  double weight = 1.0;               ///< of kPeak, positive; of kTerm, not zero
   double after = 0.0, before = 0.0;  ///< the interval [s]; for kFinal both are the duration
   std::string element;               ///< its place in the study, for messages: `path[0]`
   SourceLocation where;
 };
+
+/// The measures as files name them, in the order of WatchedSignal::Measure without kNone.
+constexpr std::array<const char*, 5> kMeasureNames{"stroke", "maximum", "minimum", "arrival",
+                                                   "dwell"};
+/// Whether the signal's number follows from the times at which it enters and leaves a band.
+bool has_band(const WatchedSignal& watched);
+/// Whether the signal is a term of the objective.
+bool is_term(const WatchedSignal& watched);
+/// Whether the signal is a term of the objective that is the largest of many values, whose corners
+/// a slack variable takes away: peaks, strokes and maxima to minimize, minima to maximize.
+bool is_largest_of_many(const WatchedSignal& watched);
+/// The signal as written, with its measure: "stroke of slide/position".
+std::string describe(const WatchedSignal& watched);
 
 /// Whether a watched signal must have one value: `final:` with equal bounds, both constant.
 bool is_equality(const WatchedSignal& watched);

@@ -60,11 +60,8 @@ ParameterConstraint make_constraint(const std::string& text, const std::string& 
 }
 
 bool has_objective(const MotionStudy& study) {
-  const auto is_peak = [](const WatchedSignal& watched) {
-    return watched.role == WatchedSignal::Role::kPeak;
-  };
   return !study.integral.empty() || !study.terminal.empty() ||
-         std::any_of(study.watched.begin(), study.watched.end(), is_peak);
+         std::any_of(study.watched.begin(), study.watched.end(), is_term);
 }
 
 std::vector<double> start_parameters(const MotionStudy& study) {

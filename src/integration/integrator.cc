@@ -4,6 +4,7 @@
 #include "assembly/assembly.h"
 #include "equations/formulas.h"
 #include "integration/idas_integrator.h"
+#include "integration/posture_sequence.h"
 #include "integration/rosenbrock_integrator.h"
 
 namespace codesign {
@@ -14,6 +15,7 @@ void Integrator::obey(const std::atomic<bool>* cancel) {
 }
 
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {
+  if (system.study().postures > 0) return std::make_unique<PostureSequence>(system);
   if (system.study().solver.integrator == IntegratorKind::kIdas)
     return std::make_unique<IdasIntegrator>(system);
   return std::make_unique<RosenbrockIntegrator>(system);

@@ -2,6 +2,7 @@
 #include "integration/watch_layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "integration/step_control.h"
 
@@ -28,6 +29,13 @@ std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<
   return all;
 }
 
+std::vector<double> postures_of(const WatchedSignal& watched) {
+  std::vector<double> all;
+  for (double number = std::ceil(watched.after); number <= watched.before; ++number)
+    all.push_back(number);
+  return all;
+}
+
 }  // namespace
 
 WatchLayout::WatchLayout(const MotionStudy& study) {
@@ -36,7 +44,9 @@ WatchLayout::WatchLayout(const MotionStudy& study) {
   for (const WatchedSignal& watched : study.watched) {
     Entry& entry = entries_.emplace_back();
     entry.first = size_;
-    entry.instants = instants_of(watched, breaks_);
+    entry.is_list = study.postures > 0;
+    entry.instants = entry.is_list ? postures_of(watched) : instants_of(watched, breaks_);
+    entry.is_measured = watched.measure != WatchedSignal::Measure::kNone;
     size_ += entry.size();
   }
 }

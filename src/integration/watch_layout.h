@@ -12,8 +12,9 @@ struct MotionStudy;
 ///
 /// The interval of a signal is divided into windows by instants that do not depend on the design.
 /// The numbers of a signal are its values at the instants, then the largest value in each window,
-/// then the smallest. Their count therefore does not depend on the design, in contrast to the
-/// number of local extrema, and each is a continuous function of the design.
+/// then the smallest, and its measure if it has one. Their count therefore does not depend on the
+/// design, in contrast to the number of local extrema, and each is a continuous function of the
+/// design.
 ///
 /// A signal may jump at the break times of functions of time. If there are few break times, they
 /// are instants, so that windows end there. Many break times would give too many numbers; they then
@@ -24,13 +25,16 @@ class WatchLayout {
   struct Entry {
     int first = 0;  ///< place of the value at the first instant
     std::vector<double>
-        instants;  ///< [s], ascending; one for the end of the study, else at least two
+        instants;              ///< [s], ascending; one for the end of the study, else at least two
+    bool is_measured = false;  ///< whether the last number is a measure
+    bool is_list = false;      ///< of postures, between which there are no windows
 
-    int windows() const { return static_cast<int>(instants.size()) - 1; }
+    int windows() const { return is_list ? 0 : static_cast<int>(instants.size()) - 1; }
     int at_instant(int k) const { return first + k; }
     int largest(int window) const { return first + static_cast<int>(instants.size()) + window; }
     int smallest(int window) const { return largest(window) + windows(); }
-    int size() const { return static_cast<int>(instants.size()) + 2 * windows(); }
+    int measure() const { return smallest(windows()); }
+    int size() const { return measure() + (is_measured ? 1 : 0) - first; }
   };
 
   explicit WatchLayout(const MotionStudy& study);

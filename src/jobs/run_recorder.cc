@@ -213,16 +213,15 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
     return true;
   };
   RunSummary summary;
-  summary.status =
-      codesign::simulate(&simulation, problem.study().duration, samples, observer, cancel);
+  const int postures = problem.study().postures;
+  summary.status = codesign::simulate(&simulation, problem.study().duration,
+                                      postures > 0 ? postures : samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
   summary.warnings = simulation.warnings();
   if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
   const Study& study = problem.study();
-  const bool has_peak = std::any_of(
-      study.watched.begin(), study.watched.end(),
-      [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; });
+  const bool has_peak = std::any_of(study.watched.begin(), study.watched.end(), is_term);
   if (summary.status.ok() && has_objective(study) && !has_peak &&
       simulation.time() == study.duration)
     summary.objective = simulation.objective();
@@ -244,6 +243,7 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   Simulation simulation(problem.system(), parameters, signals);
   LimitWatch limits(problem, parameters, simulation.names());
   std::vector<Watched> watched(shown.size());
+  const int postures = problem.study().postures;
   PoseLog poses;
   std::ostringstream text;
   CsvWriter csv(text, column_names(signals));
@@ -252,8 +252,8 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
     limits.observe(frame);
     for (std::size_t k = 0; k < shown.size(); ++k)
       watched[k].observe(index, frame.time, frame.signals[k]);
-    if (index % kPoseEvery == 0) poses.observe(frame);
-    if (index % kRowEvery == 0) {
+    if (postures > 0 || index % kPoseEvery == 0) poses.observe(frame);
+    if (postures > 0 || index % kRowEvery == 0) {
       std::vector<double> row(1, frame.time);
       row.insert(row.end(), frame.signals.begin(), frame.signals.end());
       csv.write(row);
@@ -262,13 +262,14 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
     return true;
   };
   DesignRecord record;
-  record.status = simulate(&simulation, duration, kIntervals + 1, observer, cancel);
+  record.status =
+      simulate(&simulation, duration, postures > 0 ? postures : kIntervals + 1, observer, cancel);
   record.csv = text.str();
   record.summary = {{"status", to_json(record.status)}, {"signals", Json::array()}};
   for (std::size_t k = 0; k < shown.size(); ++k)
     record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
   // If the run ends early, the integrals would not cover the whole study.
-  if (record.status.ok()) add_energies(shown, watched, duration, &record.summary);
+  if (record.status.ok() && postures == 0) add_energies(shown, watched, duration, &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());
   record.summary["poses"] = poses.json(simulation.names().links);
   return record;

@@ -47,14 +47,17 @@ class SlackForm {
 };
 
 /// One smooth constraint on a watched signal in one scenario, theory (24d). With x the value at an
-/// instant or the extreme value in a window:
-///   sign x - sign bound <= 0, or = 0 for an equality    of `path:` and `final:`
-///   sign x - p <= 0                                      of a peak, p its slack variable
+/// instant, the extreme value in a window or the measure:
+///   sign x - sign bound <= 0, or = 0 for an equality    of a constraint
+///   sign (x - c) - bound/2 <= 0                          of the upper bound of a stroke
+///   sign x - p <= 0, sign (x - c) - p <= 0               of a peak and of a stroke to minimize
+/// p and c are slack variables: the peak, or half the stroke, and the centre of the stroke.
 struct SignalRow {
   std::size_t watched = 0;  ///< index in Study::watched
   int place = 0;            ///< index of x among the numbers of WatchLayout
   double sign = 1.0;
-  int peak = -1;  ///< number of the peak among the study's peaks; -1: a constraint
+  int peak = -1;    ///< number of p among SignalRows::peaks(); -1: a constraint
+  int centre = -1;  ///< number of c among SignalRows::centres(); -1: none
 };
 
 /// The rows of all watched signals of a study, which are the same at every design.
@@ -64,11 +67,19 @@ class SignalRows {
 
   const std::vector<SignalRow>& inequalities() const { return inequalities_; }
   const std::vector<SignalRow>& equalities() const { return equalities_; }
-  /// Indices in Study::watched of the peaks.
+  /// Indices in Study::watched of the terms that have a slack variable p: is_largest_of_many().
   const std::vector<std::size_t>& peaks() const { return peaks_; }
+  /// Indices in Study::watched of the strokes that have a slack variable c.
+  const std::vector<std::size_t>& centres() const { return centres_; }
   const WatchLayout& layout() const { return layout_; }
+  /// The least p, and the centre and half of the range, of the present values.
+  struct Centre {
+    double value, half_range;
+  };
+  double peak(int peak, const Extremes& extremes) const;
+  Centre centre(int centre, const Extremes& extremes) const;
 
-  /// The left side of the row of a constraint, or of a peak's row without p. @param parameters all
+  /// The left side of a row without p and c. @param parameters all
   /// named parameters of the scenario.
   double value(const SignalRow& row, const Extremes& extremes,
                const std::vector<double>& parameters) const;
@@ -80,13 +91,16 @@ class SignalRows {
                    const std::vector<double>& parameters) const;
 
  private:
-  void add(std::size_t watched, double sign, int peak);
+  void add(std::size_t watched, double sign, int peak, int centre = -1);
+  void add_term(std::size_t watched);
+  void add_measure(std::size_t watched);
   const Quantity& bound(const SignalRow& row) const;
+  static double bound_factor(const SignalRow& row);
 
   const MotionStudy& study_;
   const WatchLayout layout_;
   std::vector<SignalRow> inequalities_, equalities_;
-  std::vector<std::size_t> peaks_;
+  std::vector<std::size_t> peaks_, centres_;
 };
 
 }  // namespace codesign

@@ -21,7 +21,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 WatchedResult describe_bounds(const WatchedSignal& signal, const std::vector<double>& parameters) {
   WatchedResult result;
   result.element = signal.element;
-  result.signal = signal.signal.text;
+  result.signal = describe(signal);
   if (signal.lower) result.lower = signal.lower->at(parameters);
   if (signal.upper) result.upper = signal.upper->at(parameters);
   result.after = signal.after;
@@ -31,25 +31,26 @@ WatchedResult describe_bounds(const WatchedSignal& signal, const std::vector<dou
   return result;
 }
 
-/// Extends the ranges of a watched signal by the ranges of one scenario.
+/// Extends the ranges of a watched signal, or of its measure, by those of one scenario.
 void widen(const WatchLayout::Entry& entry, const Extremes& extremes, const Extremes& initial,
            int scenario, WatchedResult* result) {
-  const auto now = extremes.values.segment(entry.first, entry.size()),
-             before = initial.values.segment(entry.first, entry.size());
-  Eigen::Index low = 0, high = 0;
-  const double smallest = now.minCoeff(&low), largest = now.maxCoeff(&high);
-  if (smallest < result->smallest) {
-    result->smallest = smallest;
-    result->smallest_time = extremes.times[entry.first + low];
+  const auto range_of = [&entry](const Eigen::VectorXd& values) {
+    return entry.is_measured ? RangePlaces{entry.measure(), entry.measure()}
+                             : find_range(entry, values);
+  };
+  const RangePlaces now = range_of(extremes.values), before = range_of(initial.values);
+  if (extremes.values[now.smallest] < result->smallest) {
+    result->smallest = extremes.values[now.smallest];
+    result->smallest_time = extremes.times[now.smallest];
     result->smallest_scenario = scenario;
   }
-  if (largest > result->largest) {
-    result->largest = largest;
-    result->largest_time = extremes.times[entry.first + high];
+  if (extremes.values[now.largest] > result->largest) {
+    result->largest = extremes.values[now.largest];
+    result->largest_time = extremes.times[now.largest];
     result->largest_scenario = scenario;
   }
-  result->initial_smallest = std::min(result->initial_smallest, before.minCoeff());
-  result->initial_largest = std::max(result->initial_largest, before.maxCoeff());
+  result->initial_smallest = std::min(result->initial_smallest, initial.values[before.smallest]);
+  result->initial_largest = std::max(result->initial_largest, initial.values[before.largest]);
 }
 
 }  // namespace
@@ -60,14 +61,24 @@ SmoothProgram::SmoothProgram(const Ensemble& ensemble)
   rows_.reserve(scenarios.size());
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const SignalRows& rows = rows_.emplace_back(scenarios[i].system->whole_study());
-    first_peak_.push_back(peaks_);
-    peaks_ += static_cast<int>(rows.peaks().size());
+    first_.push_back(static_cast<int>(is_free_.size()));
+    for (std::size_t k : rows.peaks()) {
+      const WatchedSignal::Measure measure = scenarios[i].system->whole_study().watched[k].measure;
+      is_free_.push_back(measure == WatchedSignal::Measure::kMaximum ||
+                         measure == WatchedSignal::Measure::kMinimum);
+    }
+    is_free_.insert(is_free_.end(), rows.centres().size(), true);
     for (const SignalRow& row : rows.inequalities()) inequality_places_.push_back({i, &row});
     for (const SignalRow& row : rows.equalities()) equality_places_.push_back({i, &row});
   }
   inequality_rows_ = static_cast<int>(inequality_places_.size());
   equality_rows_ = static_cast<int>(equality_places_.size());
-  peak_units_.setOnes(peaks_);
+  units_.setOnes(to_signed(is_free_.size()));
+}
+
+double SmoothProgram::lower(int slack) const {
+  if (slack < slack_.variables()) return slack_.lower(slack);
+  return is_free_[to_index(slack - slack_.variables())] ? -kUnbounded : 0.0;
 }
 
 bool SmoothProgram::bounds_read(int parameter) const {
@@ -79,7 +90,7 @@ bool SmoothProgram::bounds_read(int parameter) const {
   const std::vector<WatchedSignal>& watched =
       ensemble_.scenarios().front().system->whole_study().watched;
   return std::any_of(watched.begin(), watched.end(), [&](const WatchedSignal& one) {
-    return reads(one.lower) || reads(one.upper);
+    return reads(one.lower) || reads(one.upper) || reads(one.band_lower) || reads(one.band_upper);
   });
 }
 
@@ -89,15 +100,20 @@ Eigen::VectorXd SmoothProgram::start(const EnsembleEvaluation& at, double unit) 
   if (!at.total.status.ok()) return y;
   if (slack_.variables() > 0)
     y.head(slack_.variables()) = slack_.start(at.values, at.threshold) / unit_;
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    for (std::size_t j = 0; j < rows_[i].peaks().size(); ++j) {
-      const int variable = peak_variable(i, static_cast<int>(j));
-      const Eigen::VectorXd& values = at.extremes[i].values;
-      const double peak = std::abs(
-          values[find_peak(rows_[i].layout().entries()[rows_[i].peaks()[j]], values).place]);
-      peak_units_[variable - slack_.variables()] = peak > 0.0 ? peak : 1.0;
-      y[variable] = peak > 0.0 ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto set = [&](int variable, double value, double size) {
+      unit_of(variable) = size > 0.0 ? size : 1.0;
+      y[variable] = value / unit_of(variable);
+    };
+    for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
+      const double peak = rows_[i].peak(j, at.extremes[i]);
+      set(peak_variable(i, j), peak, std::abs(peak));
     }
+    for (int j = 0; j < static_cast<int>(rows_[i].centres().size()); ++j) {
+      const SignalRows::Centre centre = rows_[i].centre(j, at.extremes[i]);
+      set(centre_variable(i, j), centre.value, centre.half_range);
+    }
+  }
   return y;
 }
 
@@ -110,12 +126,14 @@ void SmoothProgram::take(const EnsembleEvaluation& all, const Eigen::VectorXd& r
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Scenario& scenario = ensemble_.scenarios()[i];
     parameters_.push_back(scenario.parameters(rho));
-    if (rows_[i].peaks().empty()) continue;
     const auto column = to_signed(i);
-    Eigen::VectorXd of_peaks = Eigen::VectorXd::Zero(rho.size());
-    smooth_values_[column] -=
-        peak_terms(scenario.system->whole_study(), all.extremes[i], &of_peaks);
-    smooth_gradients_.col(column) -= of_peaks;
+    for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
+      Eigen::VectorXd of_peak = Eigen::VectorXd::Zero(rho.size());
+      const std::size_t watched = rows_[i].peaks()[to_index(j)];
+      smooth_values_[column] -= watched_term(
+          peak_signal(i, j), rows_[i].layout().entries()[watched], all.extremes[i], &of_peak);
+      smooth_gradients_.col(column) -= of_peak;
+    }
   }
 }
 
@@ -146,11 +164,17 @@ SmoothProgram::Value SmoothProgram::objective(const Eigen::VectorXd& slack) cons
   return result;
 }
 
+const WatchedSignal& SmoothProgram::peak_signal(std::size_t scenario, int peak) const {
+  return ensemble_.scenarios()[scenario]
+      .system->whole_study()
+      .watched[rows_[scenario].peaks()[to_index(peak)]];
+}
+
 double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
-  const std::size_t watched = rows_[scenario].peaks()[to_index(peak)];
-  const double weight =
-      ensemble_.scenarios()[scenario].system->whole_study().watched[watched].weight;
-  return weight * peak_units_[first_peak_[scenario] + peak] / unit_;
+  const WatchedSignal& watched = peak_signal(scenario, peak);
+  const bool is_stroke = watched.measure == WatchedSignal::Measure::kStroke;
+  return (is_stroke ? 2.0 : 1.0) * std::abs(watched.weight) *
+         unit_of(peak_variable(scenario, peak)) / unit_;
 }
 
 SmoothProgram::Value SmoothProgram::signal_value(const WatchedRow& place) const {
@@ -169,12 +193,21 @@ SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& s
   if (row >= slack_.constraints()) {
     const WatchedRow& place = inequality_places_[to_index(row - slack_.constraints())];
     Value result = signal_value(place);
-    if (place.row->peak < 0) return result;
-    const int variable = peak_variable(place.scenario, place.row->peak);
-    const double unit = peak_units_[variable - slack_.variables()];
-    result.value = result.value / unit - slack[variable];
-    result.by_rho /= unit;
-    result.by_slack[variable] = -1.0;
+    const SignalRow& of = *place.row;
+    if (of.centre >= 0) {
+      const int variable = centre_variable(place.scenario, of.centre);
+      result.by_slack[variable] = -of.sign * unit_of(variable);
+    }
+    if (of.peak >= 0)
+      result.by_slack[peak_variable(place.scenario, of.peak)] =
+          -unit_of(peak_variable(place.scenario, of.peak));
+    if (of.peak < 0 && of.centre < 0) return result;
+    result.value += result.by_slack.dot(slack);
+    if (of.peak < 0) return result;
+    const double size = unit_of(peak_variable(place.scenario, of.peak));
+    result.value /= size;
+    result.by_rho /= size;
+    result.by_slack /= size;
     return result;
   }
   Value result = blank();

@@ -11,23 +11,24 @@ namespace codesign {
 
 /// The smooth problem that stands for a robust measure, peaks and constraints on signals; theory
 /// (24b)-(24d). Its variables are rho and slack variables: the variables of SlackForm, then one p
-/// per scenario and peak, for which
-///   psi_i = integral and terminal terms + sum_j weight_j p_ij,
-///   |signal_j - reference_j| <= p_ij in scenario i.
+/// per scenario and term that is the largest of many values, and one c per scenario and centre of a
+/// stroke, for which
+///   psi_i = other terms + sum_j factor_j p_ij,
+///   |signal_j - reference_j - c_ij| <= p_ij in scenario i.
 /// The units of all numbers are chosen at the start: the unit of each psi is the unit of the scaled
-/// objective, the unit of each p is its magnitude.
+/// objective, the unit of each p is its magnitude, that of c half the stroke.
 class SmoothProgram {
  public:
   explicit SmoothProgram(const Ensemble& ensemble);
 
-  int slacks() const { return slack_.variables() + peaks_; }
+  int slacks() const { return slack_.variables() + static_cast<int>(units_.size()); }
   int inequalities() const { return slack_.constraints() + inequality_rows_; }
   int equalities() const { return equality_rows_; }
   bool has_signals() const { return inequality_rows_ + equality_rows_ > 0; }
   /// Whether a bound of a signal is an expression of a parameter (index in Study::parameters).
   bool bounds_read(int parameter) const;
   bool has_robust_slack() const { return slack_.variables() > 0; }
-  double lower(int slack) const { return slack < slack_.variables() ? slack_.lower(slack) : 0.0; }
+  double lower(int slack) const;
 
   /// Chooses the units and returns slack variables that are feasible. @param unit of psi.
   Eigen::VectorXd start(const EnsembleEvaluation& at, double unit);
@@ -61,22 +62,30 @@ class SmoothProgram {
 
   Value blank() const;
   Value signal_value(const WatchedRow& place) const;
-  /// Number of the slack variable p of a scenario's peak.
+  /// Number of the slack variables p and c of a scenario.
   int peak_variable(std::size_t scenario, int peak) const {
-    return slack_.variables() + first_peak_[scenario] + peak;
+    return slack_.variables() + first_[scenario] + peak;
   }
+  int centre_variable(std::size_t scenario, int centre) const {
+    return peak_variable(scenario, static_cast<int>(rows_[scenario].peaks().size()) + centre);
+  }
+  double& unit_of(int variable) { return units_[variable - slack_.variables()]; }
+  double unit_of(int variable) const { return units_[variable - slack_.variables()]; }
+  const WatchedSignal& peak_signal(std::size_t scenario, int peak) const;
   /// Derivative of psi_i by that variable, both in their units.
   double peak_factor(std::size_t scenario, int peak) const;
 
   const Ensemble& ensemble_;
   SlackForm slack_;
   std::vector<SignalRows> rows_;  ///< one per scenario
-  std::vector<int> first_peak_;   ///< per scenario
+  std::vector<int> first_;        ///< per scenario: its first p
+  std::vector<bool> is_free_;     ///< per p and c: whether it may be negative
   std::vector<WatchedRow> inequality_places_, equality_places_;
-  int peaks_ = 0, inequality_rows_ = 0, equality_rows_ = 0;
+  int inequality_rows_ = 0, equality_rows_ = 0;
   double unit_ = 1.0;
-  Eigen::VectorXd peak_units_;
-  // The evaluation that was taken over: psi without peaks and its gradients, one per scenario.
+  Eigen::VectorXd units_;  ///< per p and c
+  // The evaluation that was taken over: psi without the terms of p and its gradients, one per
+  // scenario.
   const EnsembleEvaluation* all_ = nullptr;
   Eigen::VectorXd smooth_values_;
   Eigen::MatrixXd smooth_gradients_;

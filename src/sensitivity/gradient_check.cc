@@ -63,8 +63,7 @@ void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times,
   State<Complex> state;
   Complex psi;
   for (std::size_t k = 0; k < layout.entries().size(); ++k)
-    for (int place = layout.entries()[k].first;
-         place < layout.entries()[k].first + layout.entries()[k].size(); ++place) {
+    for (int place = layout.entries()[k].first; place < layout.entries()[k].measure(); ++place) {
       const double time = times[place];
       if (h > 0.0 ? !(time > from && time <= to) : time > 0.0) continue;
       step->interpolate(h > 0.0 ? (time - from) / h : 1.0, &state, &psi);
@@ -74,6 +73,27 @@ void replay_watched(const CompiledSystem& system, const Eigen::VectorXd& times,
       integrator->assembly().extend_rates(real.z, &step->equations(), &state);
       (*watched)[place] = step->equations().watched(k, state);
     }
+}
+
+/// The measures and the terms of the objective that follow from the other numbers of a complex run.
+/// Times in a band do not: their studies are checked by differences.
+void replay_measures(const MotionStudy& study, const Extremes& extremes, Replayed* run) {
+  const WatchLayout layout(study);
+  for (std::size_t k = 0; k < study.watched.size(); ++k) {
+    const WatchedSignal& watched = study.watched[k];
+    const WatchLayout::Entry& entry = layout.entries()[k];
+    const RangePlaces range = find_range(entry, extremes.values);
+    const bool minimum = watched.measure == WatchedSignal::Measure::kMinimum;
+    if (entry.is_measured)
+      run->watched[entry.measure()] = run->watched[minimum ? range.smallest : range.largest];
+    if (watched.measure == WatchedSignal::Measure::kStroke)
+      run->watched[entry.measure()] -= run->watched[range.smallest];
+    const Peak peak = find_peak(entry, extremes.values);
+    if (watched.role == WatchedSignal::Role::kPeak)
+      run->objective += watched.weight * peak.sign * run->watched[peak.place];
+    if (watched.role == WatchedSignal::Role::kTerm)
+      run->objective += watched.weight * run->watched[entry.measure()];
+  }
 }
 
 /// Carries a complex run over the events of sampled controllers.
@@ -116,13 +136,7 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
       replay_watched(system, extremes.times, integrator, &step, &result.watched);
   }
   result.objective = step.psi() + step.equations().terminal(step.state());
-  const WatchLayout layout(system.study());
-  for (std::size_t k = 0; k < layout.entries().size(); ++k) {
-    const WatchedSignal& watched = system.study().watched[k];
-    if (watched.role != WatchedSignal::Role::kPeak) continue;
-    const Peak peak = find_peak(layout.entries()[k], extremes.values);
-    result.objective += watched.weight * peak.sign * result.watched[peak.place];
-  }
+  replay_measures(system.study(), extremes, &result);
   return result;
 }
 
@@ -293,8 +307,10 @@ GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
       directions.size() > 0 ? directions.cols() : to_signed(system->study().tuned.size());
   GradientCheck check;
   check.directions = directions;
-  check.method =
-      system->study().solver.integrator == IntegratorKind::kIdas ? CheckMethod::kRidders : method;
+  const MotionStudy& study = system->study();
+  const bool by_differences = study.postures > 0 || study.solver.integrator == IntegratorKind::kIdas ||
+                              std::any_of(study.watched.begin(), study.watched.end(), has_band);
+  check.method = by_differences ? CheckMethod::kRidders : method;
   check.reference.setZero(count);
   check.reference_error.setZero(count);
   check.evaluation = Evaluator(system).evaluate_design(parameters, true, cancel);

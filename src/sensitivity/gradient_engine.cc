@@ -11,6 +11,7 @@
 #include "mechanism_codesign/gradient.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/idas_gradient.h"
+#include "sensitivity/posture_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
 #include "sensitivity/signal_watch.h"
 #include "text/cancel.h"
@@ -43,6 +44,7 @@ bool prefers_adjoint(const CompiledSystem& system) {
 
 std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system,
                                                      Derivatives derivatives) {
+  if (system.study().postures > 0) return std::make_unique<PostureGradient>(system);
   if (system.study().solver.integrator == IntegratorKind::kIdas)
     return std::make_unique<IdasGradient>(system);
   if (derivatives == Derivatives::kGaussNewton) return std::make_unique<RosenbrockGradient>(system);
@@ -89,7 +91,8 @@ class Evaluator::Implementation {
     const double time = engine->time();
     evaluation->objective = engine->objective();
     evaluation->extremes = engine->extremes();
-    evaluation->objective += peak_terms(system_->study(), watched_, evaluation->extremes, nullptr);
+    evaluation->objective +=
+        watched_terms(system_->study(), watched_, evaluation->extremes, nullptr);
     if (!std::isfinite(evaluation->objective)) {
       evaluation->status = {StatusCode::kNonFinite, time, "the objective is not finite"};
       return;
@@ -97,7 +100,7 @@ class Evaluator::Implementation {
     if (derivatives == Derivatives::kNone) return;
     engine->gradient(&evaluation->gradient);
     if (derivatives == Derivatives::kGaussNewton) engine->jacobian_root(&evaluation->jacobian_root);
-    peak_terms(system_->study(), watched_, evaluation->extremes, &evaluation->gradient);
+    watched_terms(system_->study(), watched_, evaluation->extremes, &evaluation->gradient);
     if (is_set(cancel)) {
       evaluation->status = {StatusCode::kCancelled, time, "cancelled"};
       return;

@@ -53,9 +53,14 @@ void ResidualRows::look() {
   for (const double point : kGaussPoints) {
     double psi = 0.0;
     integrator_->interpolate(from + point * (to - from), &state_, &psi);
-    differentiate_(ObjectivePart::kIntegral, state_, &integral_rows_);
-    add(kGaussWeight * (to - from), &integral_rows_);
+    look_at(state_, kGaussWeight * (to - from));
   }
+}
+
+void ResidualRows::look_at(const State<double>& state, double weight) {
+  if (system_.integral().empty()) return;
+  differentiate_(ObjectivePart::kIntegral, state, &integral_rows_);
+  add(weight, &integral_rows_);
 }
 
 void ResidualRows::finish(const State<double>& state, Eigen::MatrixXd* root) {

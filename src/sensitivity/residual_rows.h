@@ -29,6 +29,8 @@ class ResidualRows {
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Adds the rows of the step that the integrator has just taken.
   void look();
+  /// Adds the rows of the integrand at a state, times the root of `weight`.
+  void look_at(const State<double>& state, double weight);
   /// R of a study that ends at `state`, the consistent state at the end of the last step. Adds the
   /// terminal rows; look() must not be called afterwards.
   void finish(const State<double>& state, Eigen::MatrixXd* root);

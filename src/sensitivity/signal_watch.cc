@@ -30,32 +30,51 @@ bool jumps(double before, double after) {
 }  // namespace
 
 Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
-  Peak peak{entry.first, values[entry.first] < 0.0 ? -1.0 : 1.0};
-  for (int k = entry.first; k < entry.first + entry.size(); ++k)
-    if (std::abs(values[k]) > std::abs(values[peak.place]))
-      peak = {k, values[k] < 0.0 ? -1.0 : 1.0};
-  return peak;
+  const RangePlaces range = find_range(entry, values);
+  if (std::abs(values[range.smallest]) > std::abs(values[range.largest]))
+    return {range.smallest, -1.0};
+  return {range.largest, values[range.largest] < 0.0 ? -1.0 : 1.0};
 }
 
-double peak_terms(const MotionStudy& study, const Extremes& extremes, Eigen::VectorXd* gradient) {
-  return peak_terms(study, WatchLayout(study), extremes, gradient);
-}
-
-double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
-                  Eigen::VectorXd* gradient) {
-  const auto is_peak = [](const WatchedSignal& watched) {
-    return watched.role == WatchedSignal::Role::kPeak;
-  };
-  if (std::none_of(study.watched.begin(), study.watched.end(), is_peak)) return 0.0;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < study.watched.size(); ++k) {
-    if (!is_peak(study.watched[k])) continue;
-    const Peak peak = find_peak(layout.entries()[k], extremes.values);
-    const double factor = study.watched[k].weight * peak.sign;
-    sum += factor * extremes.values[peak.place];
-    if (gradient) *gradient += factor * extremes.gradients.col(peak.place);
+RangePlaces find_range(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
+  RangePlaces range{entry.first, entry.first};
+  for (int k = entry.first; k < entry.measure(); ++k) {
+    if (values[k] > values[range.largest]) range.largest = k;
+    if (values[k] < values[range.smallest]) range.smallest = k;
   }
+  return range;
+}
+
+double watched_term(const WatchedSignal& watched, const WatchLayout::Entry& entry,
+                    const Extremes& extremes, Eigen::VectorXd* gradient) {
+  if (!is_term(watched)) return 0.0;
+  const Peak number = watched.role == WatchedSignal::Role::kPeak ? find_peak(entry, extremes.values)
+                                                                 : Peak{entry.measure(), 1.0};
+  const double factor = watched.weight * number.sign;
+  if (gradient) *gradient += factor * extremes.gradients.col(number.place);
+  return factor * extremes.values[number.place];
+}
+
+double watched_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
+                     Eigen::VectorXd* gradient) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < study.watched.size(); ++k)
+    sum += watched_term(study.watched[k], layout.entries()[k], extremes, gradient);
   return sum;
+}
+
+void set_measure(const WatchedSignal& watched, const WatchLayout::Entry& entry,
+                 Extremes* extremes) {
+  const RangePlaces range = find_range(entry, extremes->values);
+  const bool minimum = watched.measure == WatchedSignal::Measure::kMinimum,
+             stroke = watched.measure == WatchedSignal::Measure::kStroke;
+  const int from = minimum ? range.smallest : range.largest, place = entry.measure();
+  extremes->times[place] = extremes->times[from];
+  extremes->values[place] =
+      extremes->values[from] - (stroke ? extremes->values[range.smallest] : 0.0);
+  if (extremes->gradients.rows() == 0) return;
+  extremes->gradients.col(place) = extremes->gradients.col(from);
+  if (stroke) extremes->gradients.col(place) -= extremes->gradients.col(range.smallest);
 }
 
 SignalWatch::SignalWatch(const CompiledSystem& system)
@@ -83,6 +102,9 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
     state_ = integrator->state();
     integrator->equations().watched_gradient(k, state_, &sparse_);
     curves_[k].reads_rates = !sparse_.rate.empty();
+    if (has_band(system_.study().watched[k]))
+      curves_[k].band.start(system_.study(), system_.study().watched[k],
+                            integrator->equations().parameters(), parameters);
     if (layout_.entries()[k].instants.front() <= time_) reach_instant(k, time_);
   }
   return status_;
@@ -164,12 +186,14 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   reach(begin, begin);
   if (!status_.ok()) return;
   Sample last = sample(k, inside(begin));
+  pass_gap(k, last);
   // Where one step ends and the next begins, the slope may jump.
   if (last.slope * curve.end_slope < 0.0 || begins_at_jump_) offer(k, last.time);
   for (double point : points_) {
     if (!status_.ok()) return;
     const Sample next = sample(k, inside(point));
     if (next.time > last.time) search(k, last, next);
+    pass(k, next);
     const bool is_break = break_time && point >= to - 2.0 * slack;
     // Functions of time are those behind a break time from that time on, which rounding may have
     // put behind the end of the step.
@@ -207,7 +231,68 @@ void SignalWatch::search(std::size_t k, const Sample& from, const Sample& to) {
   const auto found = boost::math::tools::toms748_solve(
       slope, from.time, to.time, from.slope, to.slope,
       boost::math::tools::eps_tolerance<double>(kBits), iterations);
-  if (status_.ok()) offer(k, 0.5 * (found.first + found.second));
+  if (!status_.ok()) return;
+  const double time = 0.5 * (found.first + found.second);
+  offer(k, time);
+  if (has_band(system_.study().watched[k])) pass(k, sample(k, time));
+}
+
+/// From the end of one step to just inside the next, where the signal may jump.
+void SignalWatch::pass_gap(std::size_t k, const Sample& to) {
+  if (!has_band(system_.study().watched[k])) return;
+  Curve& curve = curves_[k];
+  const double change = std::abs(to.value - curve.last.value),
+               smooth = 2.0 * std::abs(to.slope) * (to.time - curve.last.time) +
+                        1e-12 * (std::abs(to.value) + std::abs(curve.last.value));
+  if (change <= smooth) return pass(k, to);
+  curve.band.cross(to.time, Eigen::VectorXd::Zero(extremes_.gradients.rows()),
+                   curve.band.holds(to.value));
+  curve.last = to;
+}
+
+/// Compares a piece of the signal, on which it rises or falls, with the edges of its band, in the
+/// order in which it meets them.
+void SignalWatch::pass(std::size_t k, const Sample& to) {
+  if (!status_.ok() || !has_band(system_.study().watched[k])) return;
+  Curve& curve = curves_[k];
+  const Sample from = curve.last;
+  curve.last = to;
+  const bool rises = to.value > from.value;
+  for (const bool upper : {!rises, rises}) {
+    const double edge = curve.band.edge(upper);
+    if ((from.value < edge) == (to.value < edge)) continue;
+    std::uintmax_t iterations = kMostIterations;
+    double time = from.value == edge ? from.time : to.time;
+    if (from.value != edge && to.value != edge && to.time > from.time) {
+      const auto found = boost::math::tools::toms748_solve(
+          [&](double at) { return value(k, at) - edge; }, from.time, to.time, from.value - edge,
+          to.value - edge, boost::math::tools::eps_tolerance<double>(kBits), iterations);
+      time = 0.5 * (found.first + found.second);
+    }
+    const Sample at = sample(k, time);
+    if (!status_.ok()) return;
+    gradient_.setZero(extremes_.gradients.rows());
+    if (differentiate_) {
+      differentiate_(k, state_, curve.reads_rates, &gradient_);
+      gradient_ = curve.band.by_crossing(upper, at.slope, gradient_);
+    }
+    curve.band.cross(time, gradient_, rises != upper);
+  }
+}
+
+/// The measure of a signal whose last instant is reached, with its gradient there in gradient_.
+void SignalWatch::finish(std::size_t k, double time) {
+  const WatchedSignal& watched = system_.study().watched[k];
+  const WatchLayout::Entry& entry = layout_.entries()[k];
+  if (!has_band(watched)) return set_measure(watched, entry, &extremes_);
+  const RangePlaces range = find_range(entry, extremes_.values);
+  const auto number = [&](int place) {
+    return Differentiated{extremes_.values[place], extremes_.gradients.col(place)};
+  };
+  const Differentiated result = curves_[k].band.end(time, number(entry.at_instant(entry.windows())),
+                                                    number(range.smallest), number(range.largest));
+  gradient_ = result.gradient;
+  set(entry.measure(), time, result.value);
 }
 
 /// Takes the value at the next instant, which ends one window and begins another.
@@ -226,7 +311,12 @@ void SignalWatch::reach_instant(std::size_t k, double time) {
     set(entry.largest(instant), time, number);
     set(entry.smallest(instant), time, number);
   }
+  if (instant == 0 && has_band(system_.study().watched[k])) {
+    curves_[k].last = {time, number, 0.0};
+    curves_[k].band.begin(time, number);
+  }
   ++curves_[k].next;
+  if (instant > 0 && instant == entry.windows() && entry.is_measured) finish(k, time);
 }
 
 /// Compares the value at an extremum with the extreme values of its window.

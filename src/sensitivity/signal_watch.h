@@ -8,6 +8,7 @@
 #include "integration/integrator.h"
 #include "integration/watch_layout.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/band_stays.h"
 
 namespace codesign {
 
@@ -18,11 +19,22 @@ struct Peak {
 };
 Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values);
 
-/// The peaks in the objective, sum of weight max |signal - reference|, theory (21a); 0 without
-/// peaks. @param gradient if not null, their gradient is added to it. @param layout of the study.
-double peak_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
-                  Eigen::VectorXd* gradient);
-double peak_terms(const MotionStudy& study, const Extremes& extremes, Eigen::VectorXd* gradient);
+/// The places of the largest and the smallest value of a signal.
+struct RangePlaces {
+  int largest = 0, smallest = 0;
+};
+RangePlaces find_range(const WatchLayout::Entry& entry, const Eigen::VectorXd& values);
+
+/// A signal's term of the objective, theory (21a), (21e): weight max |signal - reference| or weight
+/// measure. @param gradient if not null, its gradient is added to it.
+double watched_term(const WatchedSignal& watched, const WatchLayout::Entry& entry,
+                    const Extremes& extremes, Eigen::VectorXd* gradient);
+/// The sum of the terms of all signals; 0 without any. @param layout of the study.
+double watched_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
+                     Eigen::VectorXd* gradient);
+
+/// Sets the measure of a signal that is a stroke, a maximum or a minimum from its other numbers.
+void set_measure(const WatchedSignal& watched, const WatchLayout::Entry& entry, Extremes* extremes);
 
 /// Finds the numbers of the watched signals, doc/theory.md (21a), while an integration runs: their
 /// values at given instants and the largest and smallest values between them, with derivatives by
@@ -53,15 +65,17 @@ class SignalWatch {
   const Extremes& extremes() const { return extremes_; }
 
  private:
+  struct Sample {
+    double time = 0.0, value = 0.0, slope = 0.0;  ///< [s], [unit of the signal], [per s]
+  };
   /// The state of the search for one watched signal.
   struct Curve {
     bool reads_rates = false;  ///< whether the signal depends on accelerations or multipliers
     std::size_t next = 0;      ///< the next instant
     double end_slope =
         0.0;  ///< slope at the end of the previous step, if that was inside the interval; else 0
-  };
-  struct Sample {
-    double time = 0.0, value = 0.0, slope = 0.0;  ///< [s], [unit of the signal], [per s]
+    BandStays band;  ///< only of signals with a band, as `last`
+    Sample last;     ///< the last point that was compared with the band
   };
 
   bool go_to(std::size_t k, double time);
@@ -69,6 +83,9 @@ class SignalWatch {
   Sample sample(std::size_t k, double time);
   void follow(std::size_t k, double from, double to);
   void search(std::size_t k, const Sample& from, const Sample& to);
+  void pass_gap(std::size_t k, const Sample& to);
+  void pass(std::size_t k, const Sample& to);
+  void finish(std::size_t k, double time);
   void reach_instant(std::size_t k, double time);
   void look_for_jump(std::size_t k, const Sample& before, double behind, bool is_instant);
   void offer(std::size_t k, double time);

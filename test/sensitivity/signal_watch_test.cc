@@ -33,14 +33,14 @@ TEST(Peaks, AreTheGreatestMagnitudeTimesTheWeight) {
   extremes.gradients.col(place) = Eigen::Vector2d(0.5, -1.0);
   EXPECT_EQ(find_peak(layout.entries()[0], extremes.values).place, place);
   Eigen::VectorXd gradient = Eigen::Vector2d(1.0, 1.0);
-  EXPECT_EQ(peak_terms(study, extremes, &gradient), 6.0);
+  EXPECT_EQ(watched_terms(study, layout, extremes, &gradient), 6.0);
   EXPECT_EQ(gradient, Eigen::VectorXd(Eigen::Vector2d(1.0 - 1.5, 1.0 + 3.0)));
 }
 
 TEST(Peaks, ConstraintsAddNothingToTheObjective) {
   Study study = watched_study();
   study.watched[0].role = WatchedSignal::Role::kPath;
-  EXPECT_EQ(peak_terms(study, {}, nullptr), 0.0);
+  EXPECT_EQ(watched_terms(study, WatchLayout(study), {}, nullptr), 0.0);
 }
 
 class SignalWatchTest : public ::testing::TestWithParam<std::size_t> {

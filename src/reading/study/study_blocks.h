@@ -42,9 +42,9 @@ void declare_coefficients(const YamlValue& study_value, Study* study);
 BasisDescription read_basis(const std::string& controller, const YamlValue& value,
                             const ParameterTable& table, double study_duration);
 
-/// Whether an item of `constraints:` is a bound on the peak of a signal, which read_watched()
-/// reads, and not on parameters.
-bool bounds_a_peak(const YamlValue& item);
+/// The key, `peak` or a measure, by which an item of `constraints:` bounds a signal and not
+/// parameters; read_watched() reads such items. Null for others.
+const char* bounded_measure(const YamlValue& item);
 
 /// Reads the constraints among parameters in the list `constraints:`, each `left >= right`, `left
 /// <= right` or
@@ -56,6 +56,16 @@ void read_constraints(const YamlValue& study_value, Study* study);
 /// Reads `initial_state:`. @param table of Study::parameters. @throws InputError
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
                         const ParameterTable& table, Study* study);
+
+/// The number of postures of `positions:`, or 0 without it. @throws InputError for a study that has
+/// blocks of a motion, too.
+int count_postures(const YamlValue& study_value);
+
+/// Reads `positions:`, the positions of joints in each posture: a list of quantities or `{from, to,
+/// count}`. read_initial_state() must have been called. @param table of Study::parameters. @throws
+/// InputError
+void read_positions(const YamlValue& study_value, const RobotDescription& robot,
+                    const ParameterTable& table, Study* study);
 
 /// Reads `loads:`, efforts and wrenches. Study::controllers must have been read. @param table of
 /// Study::parameters. @throws InputError
@@ -94,12 +104,18 @@ void read_realization(const YamlValue& value, const ParameterTable& table,
 /// `i_clamp`.
 void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study);
 
+/// read_reference(), or in a study with postures a list of quantities, one for each of them.
+/// @throws InputError
+ReferenceDescription read_target(const YamlValue& value, const ParameterTable& table,
+                                 const TrajectoryLoader& loader, const Study& study);
+
 /// Reads `objective:`, which may be missing or empty. Study::controllers must have been read.
 /// @param table of Study::parameters. @throws InputError
 void read_objective(const YamlValue& study_value, const RobotDescription& robot,
                     const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
-/// Reads `path:`, `final:` and `objective.peak:`, each a list that may be missing.
+/// Reads `path:`, `final:`, `objective.peak:` and the measures in `objective:` and `constraints:`,
+/// each a list that may be missing.
 /// Study::controllers and Study::duration must have been read. @param table of Study::parameters.
 /// @throws InputError
 void read_watched(const YamlValue& study_value, const RobotDescription& robot,

@@ -124,14 +124,20 @@ void read_bounded_expression(const YamlValue& item, const ParameterTable& table,
 
 }  // namespace
 
-bool bounds_a_peak(const YamlValue& item) { return item.is_map() && item.find("peak"); }
+const char* bounded_measure(const YamlValue& item) {
+  if (!item.is_map()) return nullptr;
+  if (item.find("peak")) return "peak";
+  for (const char* measure : kMeasureNames)
+    if (item.find(measure)) return measure;
+  return nullptr;
+}
 
 void read_constraints(const YamlValue& study_value, Study* study) {
   const auto constraints = study_value.find("constraints");
   if (!constraints) return;
   const ParameterTable table(study->parameters);
   for (const YamlValue& item : constraints->items()) {
-    if (bounds_a_peak(item)) continue;
+    if (bounded_measure(item)) continue;
     if (item.is_list() || (item.is_map() && !item.find("expression")))
       item.fail("not a constraint", kFormsOfConstraints);
     if (item.is_map())

@@ -61,13 +61,23 @@ void refuse_adjoint(const YamlValue& root, const Study& study) {
             "auto, direct");
 }
 
+/// Postures are not integrated, and their derivatives need no choice of a method.
+void refuse_integrator_of_postures(const YamlValue& root, const Study& study) {
+  if (study.postures == 0) return;
+  if (study.solver.integrator == IntegratorKind::kIdas)
+    root.at("solver").at("integrator").fail("postures are not integrated", "rosenbrock");
+  if (study.solver.gradient == GradientMethod::kAdjoint)
+    root.at("solver").at("gradient").fail("postures have no adjoint", "auto, direct");
+}
+
 /// Reads all blocks of one run and its optimization, that is all except the blocks of
 /// read_ensemble(). Does not check the keys of the root.
 Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot,
                       const TrajectoryLoader& loader) {
   Study study;
   study.file = file;
-  study.duration = read_duration(root);
+  study.postures = count_postures(root);
+  study.duration = study.postures > 0 ? study.postures - 1.0 : read_duration(root);
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
   declare_coefficients(root, &study);
@@ -80,6 +90,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   read_constraints(root, &study);
   const ParameterTable table(study.parameters);
   read_initial_state(root, robot, table, &study);
+  read_positions(root, robot, table, &study);
   read_controllers(root, robot, table, loader, &study);
   read_hardware(root, table, &study);
   read_motion(root, robot, table, loader, &study);
@@ -97,6 +108,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   if (const auto optimizer = root.find("optimizer"))
     study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint(root, study);
+  refuse_integrator_of_postures(root, study);
   return study;
 }
 
@@ -109,7 +121,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
       {}, {"duration",   "gravity",   "initial_state", "controllers", "loads",       "motion",
            "parameters", "objective", "path",          "final",       "constraints", "limits",
            "solver",     "optimizer", "runs",          "uncertain",   "robust",      "multistart",
-           "engine",     "identify",  "excite",        "hardware"});
+           "engine",     "identify",  "excite",        "hardware",    "positions"});
   require_purpose_of_excite(root);
   refuse_motion_of_recordings(root);
   const auto read_run = [&](const YamlValue& study_value) {

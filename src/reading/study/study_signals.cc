@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_blocks.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "mechanism/signal_catalog.h"
 #include "reading/study/study_values.h"
 #include "text/number_text.h"
@@ -25,7 +28,7 @@ ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot,
   term.where = value.where();
   term.signal = read_signal_of(value.at("signal"), robot, table, study);
   if (const auto reference = value.find("reference"))
-    term.reference = read_reference(*reference, table, loader);
+    term.reference = read_target(*reference, table, loader, study);
   if (const auto weight = value.find("weight")) term.weight = read_quantity(*weight, table);
   return term;
 }
@@ -46,8 +49,14 @@ void read_objective(const YamlValue& study_value, const RobotDescription& robot,
                     const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const auto objective = study_value.find("objective");
   if (!objective) return;
-  objective->require_keys({}, {"integral", "terminal", "peak"});
-  study->integral = read_terms(*objective, "integral", robot, table, loader, *study);
+  objective->require_keys({}, {"integral", "sum", "terminal", "peak", "stroke", "maximum",
+                               "minimum", "arrival", "dwell"});
+  const bool has_postures = study->postures > 0;
+  if (const auto other = objective->find(has_postures ? "integral" : "sum"))
+    other->fail(has_postures ? "postures have no integral" : "a motion has no postures",
+                has_postures ? "sum, over the postures" : "integral, over time");
+  study->integral =
+      read_terms(*objective, has_postures ? "sum" : "integral", robot, table, loader, *study);
   study->terminal = read_terms(*objective, "terminal", robot, table, loader, *study);
 }
 
@@ -77,15 +86,21 @@ struct Reader {
                       "more than 0, in the unit of the signal");
   }
 
+  /// Times, or numbers of postures.
   void read_interval(const YamlValue& value, WatchedSignal* watched) const {
     watched->before = study.duration;
     if (const auto after = value.find("after")) watched->after = after->number();
     if (const auto before = value.find("before")) watched->before = before->number();
-    if (watched->after < 0.0 || !(watched->after < watched->before) ||
-        watched->before > study.duration)
-      value.fail("the interval from " + to_decimal(watched->after) + " s to " +
-                     to_decimal(watched->before) + " s is not part of the study",
-                 "0 <= after < before <= " + to_decimal(study.duration) + " s");
+    const bool has_postures = study.postures > 0;
+    const double first = has_postures ? std::ceil(watched->after) : watched->after;
+    const bool is_ordered =
+        has_postures ? first <= watched->before : watched->after < watched->before;
+    if (watched->after >= 0.0 && is_ordered && watched->before <= study.duration) return;
+    const std::string unit = has_postures ? "" : " s";
+    value.fail("the interval from " + to_decimal(watched->after) + unit + " to " +
+                   to_decimal(watched->before) + unit + " is not part of the study",
+               std::string("0 <= after ") + (has_postures ? "<=" : "<") + " before <= " +
+                   to_decimal(study.duration) + (has_postures ? ", numbers of postures" : unit));
   }
 
   /// A signal, found under `key`, and its reference. @param optional further keys.
@@ -100,7 +115,7 @@ struct Reader {
     watched.element = value.path();
     watched.signal = read_signal_of(value.at(key), robot, table, study);
     if (const auto reference = value.find("reference"))
-      watched.reference = read_reference(*reference, table, loader);
+      watched.reference = read_target(*reference, table, loader, study);
     if (role == Role::kFinal) {
       watched.after = watched.before = study.duration;
     } else {
@@ -145,6 +160,62 @@ struct Reader {
     return watched;
   }
 
+  /// The measure that a key names.
+  static WatchedSignal::Measure measure_of(const std::string& key) {
+    const auto found = std::find(kMeasureNames.begin(), kMeasureNames.end(), key);
+    return static_cast<WatchedSignal::Measure>(found - kMeasureNames.begin() + 1);
+  }
+
+  void read_band(const YamlValue& value, WatchedSignal* watched) const {
+    const YamlValue band = value.at("band");
+    const std::vector<YamlValue> edges = band.items();
+    if (edges.size() != 2)
+      band.fail("a band has two edges, found " + std::to_string(edges.size()), "[lower, upper]");
+    watched->band_lower = read_quantity(edges[0], table);
+    watched->band_upper = read_quantity(edges[1], table);
+    if (!(watched->band_lower.nominal() < watched->band_upper.nominal()))
+      band.fail("the lower edge of the band must be less than the upper one", "lower < upper");
+  }
+
+  WatchedSignal read_measured(const YamlValue& value, const char* key, const char* measure,
+                              Role role, std::vector<std::string> optional) const {
+    const bool with_band = measure_of(measure) >= WatchedSignal::Measure::kArrival;
+    if (with_band && study.postures > 0)
+      value.fail("postures have no times at which a signal enters a band",
+                 "stroke, maximum, minimum, peak");
+    if (with_band) optional.emplace_back("band");
+    WatchedSignal watched = read_signal(value, key, role, std::move(optional));
+    watched.measure = measure_of(measure);
+    if (with_band) read_band(value, &watched);
+    return watched;
+  }
+
+  /// `{stroke: signal, at_most: bound}` and the like.
+  WatchedSignal read_bounded_measure(const YamlValue& value, const char* measure) const {
+    WatchedSignal watched = read_measured(value, measure, measure, Role::kBounded,
+                                          {"between", "at_least", "at_most", "tolerance"});
+    read_bounds(value, &watched);
+    read_tolerance(value, &watched);
+    const bool is_difference = watched.measure != WatchedSignal::Measure::kMaximum &&
+                               watched.measure != WatchedSignal::Measure::kMinimum;
+    if (is_difference && watched.upper && !(watched.upper->nominal() > 0.0))
+      value.fail("the " + std::string(measure) +
+                     " of a signal is not negative, so its upper bound " + "must be positive",
+                 "more than 0");
+    return watched;
+  }
+
+  WatchedSignal read_objective_measure(const YamlValue& value, const char* measure) const {
+    WatchedSignal watched = read_measured(value, "signal", measure, Role::kTerm, {"weight"});
+    if (const auto weight = value.find("weight")) {
+      watched.weight = weight->number();
+      if (watched.weight == 0.0)
+        weight->fail("a term with the weight 0 has no effect",
+                     "more than 0 to minimize, less than 0 to maximize");
+    }
+    return watched;
+  }
+
   /// Adds what `read` makes of the items of a list that `is_meant`.
   template <class Read, class IsMeant>
   static void add_items(const YamlValue& parent, const char* key, std::vector<WatchedSignal>* list,
@@ -170,11 +241,22 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot,
       [&](const YamlValue& item) { return reader.read_bounded(item, Role::kFinal); }, every);
   Reader::add_items(
       study_value, "constraints", &watched,
-      [&](const YamlValue& item) { return reader.read_bounded_peak(item); }, bounds_a_peak);
-  if (const auto objective = study_value.find("objective"))
+      [&](const YamlValue& item) {
+        const std::string measure = bounded_measure(item);
+        return measure == "peak" ? reader.read_bounded_peak(item)
+                                 : reader.read_bounded_measure(item, bounded_measure(item));
+      },
+      bounded_measure);
+  if (const auto objective = study_value.find("objective")) {
     Reader::add_items(
         *objective, "peak", &watched,
         [&](const YamlValue& item) { return reader.read_objective_peak(item); }, every);
+    for (const char* measure : kMeasureNames)
+      Reader::add_items(
+          *objective, measure, &watched,
+          [&](const YamlValue& item) { return reader.read_objective_measure(item, measure); },
+          every);
+  }
   study->watched = std::move(watched);
 }
 

@@ -161,5 +161,48 @@ TEST(StudyWatched, RefusesBadConstraints) {
                "solver.gradient", "adjoint", 4);
 }
 
+TEST(StudyWatched, ReadsMeasures) {
+  const Study study = read_text(with_watched_text(
+      "constraints: [{stroke: speed/output, at_most: 2}, {maximum: speed/output, at_least: 1, "
+      "after: 0.5}, \"rod_length >= 0.1\", {dwell: speed/output, band: [0, \"${rod_length}\"], "
+      "between: [0.5, 1]}]\n"
+      "objective: {arrival: [{signal: crank_joint/velocity, band: [-1, 1]}], minimum: [{signal: "
+      "speed/output, weight: -2, reference: 1}]}"));
+  ASSERT_EQ(study.watched.size(), 5U);
+  using Measure = WatchedSignal::Measure;
+  EXPECT_EQ(study.constraints.size(), 1U);
+  EXPECT_EQ(study.watched[0].role, WatchedSignal::Role::kBounded);
+  EXPECT_EQ(study.watched[0].measure, Measure::kStroke);
+  EXPECT_EQ(study.watched[0].upper->nominal(), 2.0);
+  EXPECT_FALSE(study.watched[0].lower);
+  EXPECT_EQ(study.watched[1].element, "constraints[1]");
+  EXPECT_EQ(study.watched[1].after, 0.5);
+  EXPECT_EQ(study.watched[2].measure, Measure::kDwell);
+  EXPECT_DOUBLE_EQ(study.watched[2].band_upper.at(std::vector<double>{0.08, 0.4}), 0.4);
+  // In the order of kMeasureNames.
+  EXPECT_EQ(study.watched[3].measure, Measure::kMinimum);
+  EXPECT_EQ(study.watched[3].role, WatchedSignal::Role::kTerm);
+  EXPECT_EQ(study.watched[3].weight, -2.0);
+  EXPECT_EQ(study.watched[4].measure, Measure::kArrival);
+  EXPECT_TRUE(has_objective(study));
+}
+
+TEST(StudyWatched, RefusesBadMeasures) {
+  const auto refuse = [](const std::string& item, const std::string& element,
+                         const std::string& message) {
+    expect_fault(with_watched_text("constraints: [{" + item + "}]"), element, message, 3);
+  };
+  refuse("stroke: speed/output", "constraints[0]", "needs bounds");
+  refuse("stroke: speed/output, at_most: 0", "constraints[0]", "must be positive");
+  refuse("stroke: speed/output, at_most: 1, band: [0, 1]", "constraints[0].band", "unknown key");
+  refuse("dwell: speed/output, at_least: 1", "constraints[0].band", "required key is missing");
+  refuse("dwell: speed/output, at_least: 1, band: [1, 0]", "constraints[0].band",
+         "must be less than the upper one");
+  refuse("dwell: speed/output, at_least: 1, band: [0, 1, 2]", "constraints[0].band", "found 3");
+  refuse("maximum: speed/outptu, at_least: 1", "constraints[0].maximum", "did you mean");
+  expect_fault(with_watched_text("objective: {stroke: [{signal: speed/output, weight: 0}]}"),
+               "objective.stroke[0].weight", "has no effect", 3);
+}
+
 }  // namespace
 }  // namespace codesign

@@ -1,0 +1,121 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/posture_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanism_codesign/simulation.h"
+#include "sensitivity/postures.h"
+
+namespace codesign {
+namespace {
+
+struct Recorded {
+  Status status;
+  std::vector<double> times;
+  std::vector<std::vector<double>> signals;
+  Warnings warnings;
+};
+
+Recorded record(const Problem& problem, const std::vector<std::string>& signals,
+                const std::vector<double>& parameters = {}) {
+  Simulation simulation(problem, parameters.empty() ? problem.parameters() : parameters, signals);
+  Recorded result;
+  const int count = static_cast<int>(problem.duration()) + 1;
+  result.status = simulate(&simulation, problem.duration(), count, [&](const Frame& frame) {
+    result.times.push_back(frame.time);
+    result.signals.push_back(frame.signals);
+    return true;
+  });
+  result.warnings = simulation.warnings();
+  return result;
+}
+
+Problem function_generator(const std::string& crank, const std::string& guess) {
+  return postures("four_bar_function", "positions: {crank_joint: " + crank +
+                                           "}\ninitial_state: {rocker_joint: {guess: " + guess +
+                                           "}, crank_joint: {velocity: 2.0}}\n");
+}
+
+TEST(PostureSequence, FollowsTheListWithClosedLoops) {
+  const std::vector<double> angles{1.7, 2.0, 2.5, 3.1, 3.7, 2.2};
+  const Recorded run = record(function_generator("[1.7, 2.0, 2.5, 3.1, 3.7, 2.2]", "1.0"),
+                              {"crank_joint/position", "rocker_joint/position"});
+  ASSERT_TRUE(run.status.ok()) << run.status.cause;
+  ASSERT_EQ(run.signals.size(), angles.size());
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    EXPECT_EQ(run.times[k], static_cast<double>(k));
+    EXPECT_DOUBLE_EQ(run.signals[k][0], angles[k]);
+    EXPECT_NEAR(opening(0.55464, 1.44084, 0.72463, angles[k], run.signals[k][1]), 0.0, 1e-12);
+  }
+}
+
+// The rate of the rocker for the given rate of the crank, by the angles of the velocity triangle.
+TEST(PostureSequence, GivenVelocitiesHoldInEachPosture) {
+  const Recorded run =
+      record(function_generator("[1.7, 2.5, 3.7]", "1.0"),
+             {"crank_joint/position", "rocker_joint/position", "rocker_joint/velocity"});
+  ASSERT_TRUE(run.status.ok()) << run.status.cause;
+  for (const std::vector<double>& at : run.signals) {
+    const std::complex<double> i(0.0, 1.0), crank = std::polar(0.55464, at[0]),
+                                            rocker = std::polar(0.72463, at[1]),
+                                            coupler = crank - 1.0 - rocker;
+    const double expected =
+        2.0 * (std::conj(coupler) * i * crank).real() / (std::conj(coupler) * i * rocker).real();
+    EXPECT_NEAR(at[2], expected, 1e-12);
+  }
+}
+
+// Both branches, and a branch that does not depend on the length of the steps.
+TEST(PostureSequence, KeepsTheBranch) {
+  const std::vector<std::string> signals{"crank_joint/position", "rocker_joint/position"};
+  const auto side = [](const std::vector<double>& at) {
+    const std::complex<double> diagonal = std::polar(0.4, at[0]) - 1.0;
+    return (std::conj(diagonal) * std::polar(1.0, at[1])).imag();
+  };
+  // With these lengths of crank and coupler the crank turns fully: here twice.
+  const std::vector<double> turning{0.4, 1.2, 0.72463};
+  double last = 0.0;
+  for (const std::string guess : {"1.0", "-2.0"}) {
+    const Recorded fine = record(function_generator("{from: 1.7, to: 14.2, count: 60}", guess),
+                                 signals, turning),
+                   coarse = record(function_generator("[1.7, 14.2]", guess), signals, turning);
+    ASSERT_TRUE(fine.status.ok() && coarse.status.ok()) << fine.status.cause << coarse.status.cause;
+    for (const std::vector<double>& at : fine.signals)
+      EXPECT_GT(side(at) * side(fine.signals.front()), 0.0);
+    EXPECT_NEAR(fine.signals.back()[1], coarse.signals.back()[1], 1e-12);
+    EXPECT_NE(last, fine.signals.back()[1]);
+    last = fine.signals.back()[1];
+  }
+}
+
+TEST(PostureSequence, APostureThatCannotBeReachedIsNamed) {
+  // With a crank of 1.3 m the linkage opens before the crank lies on the far side.
+  const Problem problem = function_generator("[1.0, 1.3, 3.1]", "1.0");
+  std::vector<double> longer = problem.parameters();
+  longer[0] = 1.3;
+  const Recorded run = record(problem, {}, longer);
+  EXPECT_EQ(run.status.code, StatusCode::kAssemblyFailed);
+  EXPECT_EQ(run.status.time, 2.0);
+  EXPECT_NE(run.status.cause.find("posture 2: loop or coupling 'coupler' cannot be closed on the "
+                                  "way from posture 1"),
+            std::string::npos)
+      << run.status.cause;
+}
+
+TEST(PostureSequence, StaysAtItsEndAndCanGoOnWithOtherValues) {
+  const Problem problem = function_generator("[1.7, 2.0]", "1.0");
+  Simulation simulation(problem, problem.parameters(), {"rocker_joint/position"});
+  ASSERT_TRUE(simulation.start().ok());
+  ASSERT_TRUE(simulation.advance(4.5).ok());
+  Frame frame;
+  simulation.sample(4.5, &frame);
+  EXPECT_NEAR(opening(0.55464, 1.44084, 0.72463, 2.0, frame.signals[0]), 0.0, 1e-13);
+  std::vector<double> other = problem.parameters();
+  other[1] = 1.3;
+  ASSERT_TRUE(simulation.go_on(4.5, other).ok());
+  simulation.sample(simulation.time(), &frame);
+  EXPECT_NEAR(opening(0.55464, 1.3, 0.72463, 2.0, frame.signals[0]), 0.0, 1e-13);
+}
+
+}  // namespace
+}  // namespace codesign
