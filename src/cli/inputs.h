@@ -28,8 +28,8 @@ void require_no_input(const std::string& path, const std::string& option, const 
 void make_folder(const std::string& path, const std::string& option);
 
 /// Loads the problem from the files that a command line names, and calls Console::loaded if it is
-/// set. Without a study the mechanism is loaded alone. @throws InputError as load_problem(), and
-/// for files that cannot be read.
+/// set. Without a study the mechanism is loaded alone; with --run its problem is that of the run.
+/// @throws InputError as load_problem(), and for files that cannot be read.
 Problem load(const Arguments& arguments, const Console* console = nullptr);
 
 /// load() for commands that need a gradient. @throws InputError also if the study has no objective
@@ -43,5 +43,9 @@ std::vector<std::string> input_files(const Problem& problem);
 /// The signals of the option `--signals`, or default_signals() without it. @throws InputError for a
 /// signal that does not exist.
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem);
+/// The same with `standard` in place of default_signals(). @param controllers whose signals exist.
+std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem,
+                                              const std::vector<ControllerDescription>& controllers,
+                                              const std::vector<std::string>& standard);
 
 }  // namespace codesign::cli

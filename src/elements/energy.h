@@ -18,7 +18,7 @@ enum class PowerKind {
   kFriction,  ///< `<codesign:friction>` with its viscous part, and `<dynamics friction>`
   kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the
               ///< dissipation of stops
-  kActuator,  ///< controllers, as applied within the effort limits
+  kActuator,  ///< controllers, as applied within the effort limits, and drives
   kLoad       ///< the study's constant efforts and wrenches
 };
 
@@ -59,11 +59,23 @@ T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
   return -load_of_kind(view, kind, load, rate) * rate;
 }
 
+/// The power of the drives of one pair's coordinate, or of all drives (pair -1); theory (28).
+template <class T>
+T drive_power(const StateView<T>& view, int pair, int element) {
+  T sum(0.0);
+  for_each_drive(view, [&](const CouplingTerm& at, const T& effort) {
+    if (pair >= 0 && (at.pair != pair || at.element != element)) return;
+    sum += effort * view.coordinate(at.pair, at.element, CoordinateDetail::kRate).rate;
+  });
+  return sum;
+}
+
 /// The power of one kind summed over the whole mechanism.
 template <class T>
 T total_power(const StateView<T>& view, PowerKind kind) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads()) sum += load_power(view, kind, load);
+  if (kind == PowerKind::kActuator) sum += drive_power(view, -1, -1);
   if (kind == PowerKind::kFriction)
     for (int pair : view.system.contacts()) sum -= contact_at(view, pair).power();
   if (kind == PowerKind::kDamping)
@@ -87,6 +99,7 @@ T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
   for (const JointLoad& load : view.system.loads())
     if (load.pair == pair && (load.element == element || load.element >= elements))
       sum += load_power(view, kind, load);
+  if (kind == PowerKind::kActuator) sum += drive_power(view, pair, element);
   const bool holds_friction = p.chain[to_index(element)].joint == p.friction_joint;
   if (kind == PowerKind::kFriction && holds_friction && slips_isotropically(p.kind))
     sum -= contact_at(view, pair).power();

@@ -55,16 +55,15 @@ T orientation_term(const StateView<T>& view, const SignalReference& term) {
                                euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
 }
 
-/// The applied effort of a joint or its rate, positive along its coordinate, or its friction on the
-/// child, -L of theory (13).
+/// The effort of a joint or its rate, positive along its coordinate, or its friction on the child,
+/// -L of theory (13).
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term) {
+  if (term.kind == SignalKind::kJointEffort) return joint_effort(view, term.pair, term.element);
   T sum(0.0);
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
-    if (term.kind == SignalKind::kJointEffort)
-      sum += applied_effort(view, load);
-    else if (term.kind == SignalKind::kJointEffortRate)
+    if (term.kind == SignalKind::kJointEffortRate)
       sum += applied_effort_rate(view, load);
     else
       sum -= joint_load<T>(view, friction_part(load),

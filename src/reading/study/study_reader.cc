@@ -97,7 +97,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
       {}, {"duration",  "gravity", "initial_state", "controllers", "loads",      "parameters",
            "objective", "path",    "final",         "constraints", "limits",     "solver",
            "optimizer", "runs",    "uncertain",     "robust",      "multistart", "engine",
-           "identify",  "excite",  "hardware"});
+           "identify",  "excite",  "hardware",      "efforts"});
   require_purpose_of_excite(root);
   const auto read_run = [&](const YamlValue& study_value) {
     return read_single_run(study_value, yaml.name, robot, loader);
@@ -108,6 +108,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
     const bool is_planned = root.find("excite").has_value();
     study.identification = read_identification(*identify, robot, study, is_planned);
   }
+  if (const auto efforts = root.find("efforts")) study.grid = read_posture_grid(*efforts, robot);
   if (const auto excite = root.find("excite")) study.excitation = read_excitation(*excite, robot);
   return study;
 }

@@ -128,6 +128,10 @@ const std::vector<ElementRule>& rules() {
 
 }  // namespace
 
+std::size_t words_of(const std::string& attribute) {
+  return attribute == "xyz" || attribute == "rpy" || attribute == "size" ? 3 : 1;
+}
+
 const ElementRule* find_rule(const std::string& path) {
   const auto found = std::find_if(rules().begin(), rules().end(),
                                   [&](const ElementRule& rule) { return rule.path == path; });
