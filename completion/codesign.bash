@@ -18,7 +18,7 @@ _codesign() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-} options
   shopt -q extglob || return 0
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite new report apply help --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate efforts equilibrium gradient optimize identify excite new report apply help --help --version" -- "$word")
     return
   fi
   # readline splits --verify=ridders in three.
@@ -27,7 +27,7 @@ _codesign() {
     return
   fi
   if [ "$command" = help ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate gradient optimize identify excite new report apply" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate efforts equilibrium gradient optimize identify excite new report apply" -- "$word")
     return
   fi
   if [ "$previous" = --from ]; then
@@ -35,15 +35,16 @@ _codesign() {
     return
   fi
   case $previous in
-    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
+    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | --run | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
       _codesign_value "$previous" "$word"
       return
       ;;
   esac
   options="--overlay --result --set --json --quiet --help"
   case $command in
-    urdf) options+=" --sticks" ;;
-    simulate) options+=" --signals --csv --samples" ;;
+    urdf) options+=" --sticks --fill" ;;
+    simulate | efforts) options+=" --signals --csv --samples --run" ;;
+    equilibrium) options+=" --signals --run" ;;
     gradient) options+=" --verify" ;;
     optimize) options+=" --output --resume" ;;
     identify | excite) options+=" --output" ;;

@@ -9,18 +9,20 @@ _codesign() {
           '--json[one JSON object on standard output]' '--quiet[no progress]' '--help[the options]')
   if (( CURRENT == 2 )); then
     _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
+      'efforts[the efforts that a motion or postures need]' 'equilibrium[a posture at rest and its stability]' \
       'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' 'excite[find the motion to record]' \
       'new[a project from the gallery]'       'report[a page of what a job has found]' 'apply[send gains to a running robot]' 'help[the options]' '--help' '--version'
     return
   fi
   case ${words[2]} in
-    urdf) options=('--sticks[sticks for links without visual]') ;;
-    simulate) options=('--signals[the signals to print]:signals:' '--csv[the file to write]:file:_files' '--samples[number of instants]:number:') ;;
+    urdf) options=('--sticks[sticks for links without visual]' '--fill[write the plain numbers beside expressions]') ;;
+    simulate|efforts) options=('--signals[the signals to print]:signals:' '--csv[the file to write]:file:_files' '--samples[number of instants]:number:' '--run[one run of the study]:run:') ;;
+    equilibrium) options=('--signals[the signals to print]:signals:' '--run[one run of the study]:run:') ;;
     gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)') ;;
     optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;
     identify|excite) options=('--output[folder of the results]:folder:_files -/') ;;
     help)
-      _arguments '1:command:' '2:command:(check urdf simulate gradient optimize identify excite new report apply)'
+      _arguments '1:command:' '2:command:(check urdf simulate efforts equilibrium gradient optimize identify excite new report apply)'
       return
       ;;
     new)

@@ -27,6 +27,7 @@ enum class StatusCode {
   kAlgorithmFailed,        ///< the optimization algorithm gave up
   kWorkerLost,             ///< a worker process has ended or does not answer
   kNonFiniteGradient,      ///< the objective is finite, its gradient is not
+  kNoEquilibrium,          ///< no posture was found in which the mechanism rests
   kNotIdentifiable,        ///< the recordings do not determine all numbers to be identified
 };
 

@@ -99,12 +99,18 @@ const std::map<std::string, Option>& options() {
       {"--quiet", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->quiet = true; }}},
       {"--sticks",
        {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
-      {"--signals", {Value::kRequired, {"simulate"}, add_signals}},
+      {"--fill",
+       {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->fill = true; }}},
+      {"--run",
+       {Value::kRequired,
+        {"simulate", "efforts", "equilibrium"},
+        [](const std::string& text, Arguments* to) { to->run = text; }}},
+      {"--signals", {Value::kRequired, {"simulate", "efforts", "equilibrium"}, add_signals}},
       {"--csv",
        {Value::kRequired,
-        {"simulate"},
+        {"simulate", "efforts"},
         [](const std::string& text, Arguments* to) { to->csv = text; }}},
-      {"--samples", {Value::kRequired, {"simulate"}, set_samples}},
+      {"--samples", {Value::kRequired, {"simulate", "efforts"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
       {"--output",
        {Value::kRequired,
@@ -189,11 +195,26 @@ const CommandHelp kCommands[] = {
      R"(  urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
     --sticks               for viewers: links without <visual>, or whose meshes are not here,
                            get sticks and spheres
+    --fill                 first write each plain number that an expression beside it gives
 )"},
     {"simulate", R"(  simulate MODEL STUDY     one run as CSV
     --signals A,B          the signals to print; by default of all joints, frictions, controllers
     --csv FILE             the file to write; by default standard output
     --samples N            number of equally spaced instants, at least 2; by default 101
+    --run NAME             one of the study's runs, in place of the study itself
+)"},
+    {"efforts",
+     R"(  efforts MODEL STUDY      the efforts that the set-points of the study need, or the postures of
+                           efforts.grid, there with those at which friction gives way; as CSV
+    --signals A,B          further signals, such as reactions
+    --csv FILE             the file to write; by default standard output
+    --samples N            along set-points: number of equally spaced instants; by default 101
+    --run NAME             one of the study's runs, in place of the study itself
+)"},
+    {"equilibrium",
+     R"(  equilibrium MODEL STUDY  a posture near the start in which everything rests, and its stability
+    --signals A,B          further signals there, such as reactions
+    --run NAME             one of the study's runs, in place of the study itself
 )"},
     {"gradient",
      R"(  gradient MODEL STUDY     the objective and its gradient by direct sensitivities
@@ -252,8 +273,9 @@ the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check",  "urdf", "simulate", "gradient", "optimize", "identify",
-                          "excite", "new",  "report",   "apply",    "help"};
+  const Names commands = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
+                          "gradient", "optimize", "identify", "excite",  "new",
+                          "report",   "apply",    "help"};
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];

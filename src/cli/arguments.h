@@ -19,20 +19,22 @@ class UsageError : public std::runtime_error {
 /// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options
 /// name their command.
 struct Arguments {
-  std::string topic;  ///< help; the command that it is about, empty: all
-  std::string
-      command;  ///< check, urdf, simulate, gradient, optimize, identify, excite, new, help, version
-  std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
-  std::string study;  ///< path; empty: none given
+  std::string topic;    ///< help; the command that it is about, empty: all
+  std::string command;  ///< check, urdf, simulate, efforts, equilibrium, gradient, optimize,
+                        ///< identify, excite, new, help or version
+  std::string model;    ///< path; new: of the folder to be made, empty: the machines are listed
+  std::string study;    ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
   std::string result;          ///< path of the result.json with the design to use; empty: none
   ParameterSettings settings;  ///< --set NAME=VALUE, in order; they replace the values of `result`
   bool json = false;
   bool quiet = false;                ///< no progress on the error stream
   bool sticks = false;               ///< urdf; with_sticks()
-  std::vector<std::string> signals;  ///< simulate
-  std::string csv;                   ///< simulate; empty: standard output
-  int samples = 101;                 ///< simulate; number of equally spaced instants, at least 2
+  bool fill = false;                 ///< urdf; write_filled_urdf()
+  std::string run;                   ///< of the study's runs; empty: the study itself
+  std::vector<std::string> signals;  ///< simulate, efforts, equilibrium
+  std::string csv;                   ///< simulate, efforts; empty: standard output
+  int samples = 101;                 ///< simulate, efforts; equally spaced instants, at least 2
   bool verify = false;               ///< gradient
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;

@@ -13,6 +13,8 @@ namespace codesign::cli {
 /// OutputError for output that cannot be written.
 int check(const Arguments& arguments, const Console& console);
 int simulate(const Arguments& arguments, const Console& console);
+int efforts(const Arguments& arguments, const Console& console);
+int equilibrium(const Arguments& arguments, const Console& console);
 int urdf(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);
 int optimize(const Arguments& arguments, const Console& console);

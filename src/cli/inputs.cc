@@ -6,6 +6,7 @@
 #include "jobs/saved_result.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
+#include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
 
@@ -26,7 +27,12 @@ Problem load(const Arguments& arguments, const Console* console) {
   if (!arguments.study.empty()) inputs.study = read_source(arguments.study);
   if (!arguments.result.empty()) inputs.design = read_design(read_source(arguments.result));
   inputs.settings = arguments.settings;
+  if (arguments.fill) {
+    inputs.urdf.text = write_filled_urdf(inputs.urdf, inputs.overlays);
+    inputs.overlays.clear();
+  }
   Problem problem = codesign::load(inputs);
+  if (!arguments.run.empty()) problem = run_of(problem, arguments.run);
   if (console != nullptr && console->loaded != nullptr) console->loaded();
   return problem;
 }
@@ -40,10 +46,15 @@ Problem load_tunable(const Arguments& arguments, const Console* console) {
 
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem) {
   const std::vector<ControllerDescription>& controllers = problem.study().controllers;
-  const std::vector<std::string> texts =
-      arguments.signals.empty() ? default_signals(problem.robot(), controllers) : arguments.signals;
+  return select_signals(arguments, problem, controllers,
+                        default_signals(problem.robot(), controllers));
+}
+
+std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem,
+                                              const std::vector<ControllerDescription>& controllers,
+                                              const std::vector<std::string>& standard) {
   std::vector<SignalDescription> signals;
-  for (const std::string& text : texts) {
+  for (const std::string& text : arguments.signals.empty() ? standard : arguments.signals) {
     signals.push_back(parse_signal(text, {"command line", 0}, "--signals"));
     check_signal(signals.back(), problem.robot(), controllers, "--signals");
   }

@@ -1,32 +1,18 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 #include "assembly/reaction_advice.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
-#include "cli/table.h"
-#include "jobs/csv_writer.h"
-#include "jobs/job_files.h"
+#include "cli/series.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
-
-Json series_json(const std::vector<std::string>& names,
-                 const std::vector<std::vector<double>>& rows) {
-  Json series = Json::object();
-  for (std::size_t column = 0; column < names.size(); ++column) {
-    Json values = Json::array();
-    for (const std::vector<double>& row : rows) values.push_back(row[column]);
-    series[names[column]] = std::move(values);
-  }
-  return series;
-}
 
 void summarize(const RunSummary& run, const Problem& problem, std::ostream& err) {
   if (problem.study().postures > 0) {
@@ -44,14 +30,6 @@ void summarize(const RunSummary& run, const Problem& problem, std::ostream& err)
       << " of the largest energy; constraint drift at most "
       << readable(run.statistics.constraint_drift, 3) << " times the error tolerance" << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
-}
-
-/// @throws InputError if the table would replace a file that is read, or cannot be written.
-void open_csv(const Arguments& arguments, const Problem& problem, std::ofstream* file) {
-  std::vector<std::string> inputs = input_files(problem);
-  inputs.push_back(arguments.result);
-  require_no_input(arguments.csv, "--csv", "the table of the run", inputs);
-  open_output(arguments.csv, "--csv", file);
 }
 
 /// Adds the objective. It is that of the run, unless it has peaks, which need a separate run that
@@ -95,19 +73,8 @@ void add_run(const Problem& problem, const RunSummary& run, const Json& counts, 
 int simulate(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments, &console);
   const std::vector<SignalDescription> signals = select_signals(arguments, problem);
-  const std::vector<std::string> names = column_names(signals);
-  std::ofstream file;
-  if (!arguments.csv.empty()) open_csv(arguments, problem, &file);
-  const bool to_console = arguments.csv.empty() && !arguments.json;
-  std::optional<CsvWriter> csv;
-  if (file.is_open() || to_console)
-    csv.emplace(to_console ? console.out : file, names,
-                to_console ? "standard output" : arguments.csv);
-  std::vector<std::vector<double>> rows;
-  const auto sink = [&](const std::vector<double>& row) {
-    if (csv) csv->write(row);
-    if (arguments.json) rows.push_back(row);
-  };
+  SeriesOutput output(arguments, problem, column_names(signals), "the table of the run", console);
+  const auto sink = [&](const std::vector<double>& row) { output.add(row); };
   // Counted before the run, so that a cancelled command ends without further work.
   Json counts = Json::object();
   if (arguments.json) add_counts(problem, problem.parameters(), &counts);
@@ -117,7 +84,7 @@ int simulate(const Arguments& arguments, const Console& console) {
   Json object;
   if (arguments.json) {
     add_objective(problem, !arguments.result.empty(), run.objective, console, &run.status, &object);
-    add_run(problem, run, counts, series_json(names, rows), &object);
+    add_run(problem, run, counts, output.json(), &object);
   }
   Warnings warnings = run.warnings;
   append(warn_of_open_reactions(*problem.system(), signals), &warnings);

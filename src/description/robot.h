@@ -153,6 +153,8 @@ struct JointDescription {
   Quantity distance;   ///< kDistance: the length [m]
   std::optional<FrictionDescription> friction;
   Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
+  double dry_transition_velocity =
+      1e-2;  ///< of dry_friction [rad/s or m/s]: no file gives it; theory (13)
   std::optional<LimitDescription> limit;
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;

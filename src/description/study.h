@@ -10,6 +10,7 @@
 #include "description/excitation.h"
 #include "description/identification.h"
 #include "description/motion_study.h"
+#include "description/posture_grid.h"
 #include "mechanism_codesign/optimizer_options.h"
 
 namespace codesign {
@@ -38,6 +39,7 @@ struct Study : MotionStudy {
   EnsembleDescription ensemble;
   std::optional<IdentificationDescription> identification;
   std::optional<ExcitationDescription> excitation;
+  PostureGrid grid;                     ///< `efforts.grid`; empty without it
   std::vector<HardwareGains> hardware;  ///< in the order written
 };
 

@@ -18,7 +18,7 @@ enum class PowerKind {
   kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
   kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the
               ///< dissipation of stops
-  kActuator,  ///< controllers, as applied within the effort limits, and motions that are given
+  kActuator,  ///< controllers, as applied within the effort limits, and drives
   kLoad       ///< the study's efforts and wrenches
 };
 
@@ -40,7 +40,7 @@ T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, 
       return load.stop ? T(value + stop_dissipation(view, load, rate)) : value;
     }
     case PowerKind::kActuator:
-      return -actuator_effort(view, load);
+      return -applied_effort(view, load);
     case PowerKind::kLoad:
       break;
   }
@@ -52,11 +52,22 @@ template <class T>
 T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
   const bool acts = kind == PowerKind::kFriction   ? load.has_friction()
                     : kind == PowerKind::kDamping  ? load.passive || load.stop
-                    : kind == PowerKind::kActuator ? !load.controllers.empty() || load.drive >= 0
+                    : kind == PowerKind::kActuator ? !load.controllers.empty()
                                                    : !load.given.empty();
   if (!acts) return T(0.0);
   const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
   return -load_of_kind(view, kind, load, rate) * rate;
+}
+
+/// The power of the drives of one pair's coordinate, or of all drives (pair -1); theory (28).
+template <class T>
+T drive_power(const StateView<T>& view, int pair, int element) {
+  T sum(0.0);
+  for_each_drive(view, [&](const CouplingTerm& at, const T& effort) {
+    if (pair >= 0 && (at.pair != pair || at.element != element)) return;
+    sum += effort * view.coordinate(at.pair, at.element, CoordinateDetail::kRate).rate;
+  });
+  return sum;
 }
 
 /// The power of one kind summed over the whole mechanism.
@@ -64,6 +75,7 @@ template <class T>
 T total_power(const StateView<T>& view, PowerKind kind) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads()) sum += load_power(view, kind, load);
+  if (kind == PowerKind::kActuator) sum += drive_power(view, -1, -1);
   if (kind == PowerKind::kFriction)
     for (int pair : view.system.contacts()) sum -= contact_at(view, pair).power();
   if (kind == PowerKind::kDamping)
@@ -87,6 +99,7 @@ T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
   for (const JointLoad& load : view.system.loads())
     if (load.pair == pair && (load.element == element || load.element >= elements))
       sum += load_power(view, kind, load);
+  if (kind == PowerKind::kActuator) sum += drive_power(view, pair, element);
   const bool holds_friction = p.chain[to_index(element)].joint == p.friction_joint;
   if (kind == PowerKind::kFriction && holds_friction && slips_isotropically(p.kind))
     sum -= contact_at(view, pair).power();

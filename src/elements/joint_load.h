@@ -80,7 +80,6 @@ T given_effort(const StateView<T>& view, const JointLoad& load) {
 template <class T>
 T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load,
                const T& rate) {
-  constexpr double kDryTransitionVelocity = 1e-2;  // [m/s or rad/s]: URDF gives none
   const JointDynamicsConstants<T>& d = view.dynamics(pair, element);
   T value(0.0);
   if (load.passive) {
@@ -88,8 +87,11 @@ T passive_load(const StateView<T>& view, int pair, int element, const JointLoad&
     if (load.spring)
       value += d.stiffness * (view.coordinate_value(pair, element) - d.free_position);
   }
-  if (load.constant_friction)
-    value += d.dry_friction * brown_mcphee<T>(rate, T(1.0), T(1.0), T(kDryTransitionVelocity));
+  if (load.constant_friction) {
+    const int joint = view.pair(pair).chain[to_index(element)].joint;
+    const double v_t = view.system.robot().joints[to_index(joint)].dry_transition_velocity;
+    value += d.dry_friction * brown_mcphee<T>(rate, T(1.0), T(1.0), T(v_t));
+  }
   return value;
 }
 
@@ -124,16 +126,6 @@ T applied_effort(const StateView<T>& view, const JointLoad& load) {
   if (!load.saturated) return demand;
   const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).value;
-}
-
-/// The effort of the actuators along a coordinate, for observers: what controllers apply, and what
-/// a motion that is given needs, (8b).
-template <class T>
-T actuator_effort(const StateView<T>& view, const JointLoad& load) {
-  const T applied = applied_effort(view, load);
-  if (load.drive < 0) return applied;
-  const T& lambda = view.state->z[view.layout.lambda_column(view.layout.coupling_row(load.drive))];
-  return applied - view.design.constants.couplings[to_index(load.drive)].coefficients[0] * lambda;
 }
 
 /// What acts on the joint's own side of a gear: friction of the bearing, damping, spring and stop
@@ -276,13 +268,28 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   return state;
 }
 
-/// The effort of the actuators along a coordinate, of controllers within the actuator's limit;
-/// positive along the coordinate.
+/// Calls visit(term of the coordinate, effort) for each drive, whose effort is minus its
+/// multiplier; theory (28).
+template <class T, class Visit>
+void for_each_drive(const StateView<T>& view, const Visit& visit) {
+  const std::vector<Coupling>& couplings = view.system.topology().couplings;
+  for (std::size_t k = 0; k < couplings.size(); ++k) {
+    if (!couplings[k].is_drive) continue;
+    const int row = view.layout.coupling_row(static_cast<int>(k));
+    visit(couplings[k].terms.front(), T(-view.state->z[view.layout.lambda_column(row)]));
+  }
+}
+
+/// The effort that controllers apply along a coordinate, within the actuator's limit, and the
+/// effort of its drive; positive along the coordinate.
 template <class T>
 T joint_effort(const StateView<T>& view, int pair, int element) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads())
-    if (load.pair == pair && load.element == element) sum += actuator_effort(view, load);
+    if (load.pair == pair && load.element == element) sum += applied_effort(view, load);
+  for_each_drive(view, [&](const CouplingTerm& at, const T& effort) {
+    if (at.pair == pair && at.element == element) sum += effort;
+  });
   return sum;
 }
 

@@ -56,19 +56,18 @@ T orientation_term(const StateView<T>& view, const SignalReference& term) {
                                euler_parameters<T>(view.design.constants.links[link].R))[term.axis];
 }
 
-/// The applied effort of a joint or its rate, positive along its coordinate, its friction on the
+/// The effort of a joint or its rate, positive along its coordinate, its friction on the
 /// child, -L of theory (13), the torque that its gear transmits, or what that loses, -L of (9b).
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term) {
+  if (term.kind == SignalKind::kJointEffort) return joint_effort(view, term.pair, term.element);
   T sum(0.0);
   const auto rate = [&] {
     return T(view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate);
   };
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != term.pair || load.element != term.element) continue;
-    if (term.kind == SignalKind::kJointEffort)
-      sum += actuator_effort(view, load);
-    else if (term.kind == SignalKind::kJointEffortRate)
+    if (term.kind == SignalKind::kJointEffortRate)
       sum += applied_effort_rate(view, load);
     else if (term.kind == SignalKind::kGearTorque)
       sum += gear_torque(view, load, rate());

@@ -35,16 +35,11 @@ DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJ
   try {
     return make_driven_system(system, joints);
   } catch (const InputError& error) {
-    InputFault fault = error.fault();
-    if (fault.element == "identify") fault.element = "excite.joints";
-    if (fault.allowed.rfind("recordings", 0) == 0) {
-      fault.message =
-          "its motion is not determined: it is not among excite.joints, and does not follow from "
-          "them";
-      fault.allowed =
-          "as many independent joints under excite.joints as there are degrees of freedom";
-    }
-    throw InputError(fault);
+    throw InputError(in_words_of_study(
+        error.fault(), "excite.joints",
+        "its motion is not determined: it is not among excite.joints, and does not follow from "
+        "them",
+        "as many independent joints under excite.joints as there are degrees of freedom"));
   }
 }
 

@@ -103,9 +103,12 @@ std::vector<SignalDescription> signals_in(const std::vector<ShownSignal>& shown)
 
 LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters,
                        const FrameNames& names)
+    : LimitWatch(problem, parameters, names, problem.study().limits) {}
+
+LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters,
+                       const FrameNames& names, const LimitOptions& enforced)
     : absolute_margin_(problem.study().solver.absolute_tolerance),
       relative_margin_(problem.study().solver.relative_tolerance) {
-  const LimitOptions& enforced = problem.study().limits;
   for (const JointDescription& joint : problem.robot().joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (!joint.limit || found == names.joints.end()) continue;

@@ -30,7 +30,10 @@ struct LimitCrossing {
 /// absolute_tolerance + relative_tolerance * |bound| of the solver.
 class LimitWatch {
  public:
-  /// @param parameters all named parameters. @param names of the frames to observe.
+  /// @param parameters all named parameters. @param names of the frames to observe. @param enforced
+  /// the limits that the frames keep in any case.
+  LimitWatch(const Problem& problem, const std::vector<double>& parameters, const FrameNames& names,
+             const LimitOptions& enforced);
   LimitWatch(const Problem& problem, const std::vector<double>& parameters,
              const FrameNames& names);
 

@@ -53,6 +53,7 @@ std::string moment(const Status& status) {
     case StatusCode::kAlgorithmFailed:
     case StatusCode::kWorkerLost:
     case StatusCode::kNonFiniteGradient:
+    case StatusCode::kNoEquilibrium:
     case StatusCode::kNotIdentifiable:
       if (status.time == 0.0) return "";
       break;

@@ -138,6 +138,13 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 
+/// Eigenvalues and eigenvectors (columns of unit length) of a square matrix.
+struct GeneralEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+GeneralEigen general_eigen(const Eigen::MatrixXd& A);
+
 /// A B and A^T B. An expression with such a product compiles Eigen's kernels again in its file;
 /// where speed does not depend on it, it calls these.
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);

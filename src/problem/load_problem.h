@@ -78,6 +78,10 @@ std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Proble
 /// @throws InputError as load_problem().
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings = {});
 
+/// The problem of one of the study's runs: its study with the changes of the run, alone.
+/// @throws InputError for an unknown name
+Problem run_of(const Problem& problem, const std::string& name);
+
 /// All data that another process needs to compile the same problem on a machine without its files.
 struct PortableProblem {
   SourceText urdf;

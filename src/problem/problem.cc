@@ -237,6 +237,20 @@ Problem with_study(const Problem& problem, Study study, const ParameterSettings&
                   problem.contents().files});
 }
 
+Problem run_of(const Problem& problem, const std::string& name) {
+  const Study& whole = problem.study();
+  std::vector<std::string> names;
+  for (const RunDescription& run : whole.ensemble.runs) {
+    names.push_back(run.name);
+    if (run.name != name) continue;
+    Study study = run.study ? *run.study : whole;
+    study.ensemble.runs.clear();
+    study.grid = whole.grid;
+    return with_study(problem, std::move(study), run.set);
+  }
+  throw unknown_name({whole.file, 0}, "runs", "run", name, names);
+}
+
 PortableProblem make_portable(const Problem& problem) {
   const Problem::Contents& contents = problem.contents();
   return {contents.urdf,  contents.overlays,    contents.study_text,  contents.trajectories,

@@ -238,35 +238,46 @@ void NumberTable::split(std::string_view line, Cells* cells) const {
   cells->push_back(line.substr(begin));
 }
 
-NumberTable::Columns NumberTable::read(const std::vector<int>& indices) const {
-  Columns columns;
-  columns.values.resize(indices.size());
-  const auto rows = to_index(std::count(text_.begin(), text_.end(), '\n') + 1);
-  for (std::vector<double>& column : columns.values) column.reserve(rows);
-  columns.lines.reserve(rows);
+template <class Visit>
+void NumberTable::for_each_row(const Visit& visit) const {
   Lines lines(text_, body_, body_line_);
   Cells cells;
   for (std::string_view line; lines.next(&line);) {
     const std::string_view row = trimmed(line);
     if (row.empty() || row.front() == '#') continue;
     split(line, &cells);
-    read_row(cells, to_index(lines.number()), indices, &columns);
+    const auto number = to_index(lines.number());
+    if (static_cast<int>(cells.size()) != width_)
+      fail(number, "",
+           "a row of " + std::to_string(cells.size()) + " cells, where the first has " +
+               std::to_string(width_),
+           "", "rows of equal length; `delimiter` gives the separator of the cells");
+    visit(cells, number);
   }
+}
+
+NumberTable::Columns NumberTable::read(const std::vector<int>& indices) const {
+  Columns columns;
+  columns.values.resize(indices.size());
+  const auto rows = to_index(std::count(text_.begin(), text_.end(), '\n') + 1);
+  for (std::vector<double>& column : columns.values) column.reserve(rows);
+  columns.lines.reserve(rows);
+  for_each_row([&](const Cells& cells, std::size_t line) {
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      const auto column = to_index(indices[k]);
+      columns.values[k].push_back(read_cell(cells[column], line, column));
+    }
+    columns.lines.push_back(line);
+  });
   return columns;
 }
 
-void NumberTable::read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices,
-                           Columns* columns) const {
-  if (static_cast<int>(cells.size()) != width_)
-    fail(line, "",
-         "a row of " + std::to_string(cells.size()) + " cells, where the first has " +
-             std::to_string(width_),
-         "", "rows of equal length; `delimiter` gives the separator of the cells");
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    const auto column = to_index(indices[k]);
-    columns->values[k].push_back(read_cell(cells[column], line, column));
-  }
-  columns->lines.push_back(line);
+std::vector<std::string> NumberTable::texts(int index) const {
+  std::vector<std::string> column;
+  for_each_row([&](const Cells& cells, std::size_t) {
+    column.emplace_back(unquoted(cells[to_index(index)]));
+  });
+  return column;
 }
 
 double NumberTable::read_cell(std::string_view cell, std::size_t number, std::size_t column) const {

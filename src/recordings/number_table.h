@@ -40,12 +40,15 @@ class NumberTable {
   /// @throws InputError with the line for a row with more or fewer cells and a cell that is not a
   /// number.
   Columns read(const std::vector<int>& indices) const;
+  /// The cells of a column as text, one per row. @throws InputError as read()
+  std::vector<std::string> texts(int index) const;
 
  private:
   using Cells = std::vector<std::string_view>;
+  /// Calls visit(cells, line) for each row. @throws InputError for one of another width.
+  template <class Visit>
+  void for_each_row(const Visit& visit) const;
   void split(std::string_view line, Cells* cells) const;
-  void read_row(const Cells& cells, std::size_t line, const std::vector<int>& indices,
-                Columns* columns) const;
   double read_cell(std::string_view cell, std::size_t number, std::size_t column) const;
   [[noreturn]] void fail(std::size_t line, const std::string& element, const std::string& message,
                          std::string_view value, const std::string& allowed) const;

@@ -42,9 +42,8 @@ struct JointLoad {
   bool spring = false;             ///< a torsion spring, which depends on the position
   bool stop = false;               ///< `<limit lower upper>` as stops
   bool saturated = false;          ///< `<limit effort>` bounds the effort of the controllers
-  int drive = -1;  ///< the coupling that gives the motion of this coordinate, (8b), or -1
-  std::vector<int> controllers;  ///< indices of the controllers that drive this coordinate
-  std::vector<int> given;        ///< indices into Study::loads
+  std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
+  std::vector<int> given;          ///< indices into Study::loads
 
   /// Whether the load depends on the position of the coordinate, not on its rate alone.
   bool needs_position() const { return spring || stop; }

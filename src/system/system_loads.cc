@@ -67,15 +67,10 @@ void System::collect_loads() {
         for (std::size_t k = 0; k < study().loads.size(); ++k)
           if (study().loads[k].joint == joint.name) load.given.push_back(static_cast<int>(k));
       }
-      for (std::size_t c = 0; c < topology_.couplings.size(); ++c)
-        if (const Coupling& drive = topology_.couplings[c];
-            drive.motion >= 0 && drive.terms.front().pair == load.pair &&
-            drive.terms.front().element == load.element)
-          load.drive = static_cast<int>(c);
       for (std::size_t c = 0; c < controllers_.size(); ++c)
         if (controllers_[c].pair == load.pair && controllers_[c].element == load.element)
           load.controllers.push_back(static_cast<int>(c));
-      const bool driven = !load.controllers.empty() || !load.given.empty() || load.drive >= 0;
+      const bool driven = !load.controllers.empty() || !load.given.empty();
       if (!load.has_friction() && !load.passive && !load.stop && !driven) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);

@@ -120,6 +120,8 @@ const char* name_of(StatusCode code) {
       return "non_finite_gradient";
     case StatusCode::kWorkerLost:
       return "worker_lost";
+    case StatusCode::kNoEquilibrium:
+      return "no_equilibrium";
     case StatusCode::kNotIdentifiable:
       return "not_identifiable";
   }

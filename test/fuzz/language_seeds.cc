@@ -107,11 +107,13 @@ std::vector<Seed> language_seeds() {
            "identify: {data: [{csv: m.csv, from: 0.2, to: 1.5}], residual: motion, segment: 0.5}\n"
            "parameters: {mu: {}}\noptimizer: {max_evaluations: 2}\n"),
       seed("bag", identified("bag: m.bag, topic: /joint_states, stamp: receive")),
-      seed(
-          "excitation",
-          "identify: {}\nexcite: {joints: {pivot: {velocity: 3.0, effort: 12.0, position: [-1.0, "
-          "1.0], noise: 0.1}}, period: "
-          "2.0, harmonics: 2, starts: 1, max_evaluations: 3}\nparameters: {length: {}, mu: {}}\n")};
+      seed("excitation",
+           "identify: {}\nexcite: {joints: {pivot: {velocity: 3.0, effort: 12.0, position: [-1.0, "
+           "1.0], noise: 0.1}}, period: "
+           "2.0, harmonics: 2, starts: 1, max_evaluations: 3}\nparameters: {length: {}, mu: {}}\n"),
+      seed("statics", tuned("0.1", "",
+                            "efforts: {grid: {pivot: {from: -1.0, to: 1.0, count: 3}}}\n"
+                            "runs: {heavy: {loads: [{joint: pivot, effort: 0.5}]}}\n"))};
   // The peak belongs to the objective.
   std::string& study = seeds.front().study;
   study.insert(study.find("optimizer:"), "  peak: [{signal: pivot/acceleration, weight: 0.001}]\n");
@@ -122,6 +124,8 @@ std::vector<Seed> language_seeds() {
           {one.name == "bag" ? "m.bag" : "m.csv", one.name == "bag" ? recorded_bag() : recorded()}};
     if (has_recordings) one.commands = {{"identify"}, {"identify", "--output", "out"}};
     if (one.name == "excitation") one.commands = {{"excite"}, {"excite", "--output", "out"}};
+    if (one.name == "statics")
+      one.commands = {{"efforts"}, {"equilibrium"}, {"efforts", "--run", "heavy"}};
   }
   return seeds;
 }

@@ -37,6 +37,7 @@ ROWS = [
     ["optimization"],
     ["identification"],
     ["excitation"],
+    ["statics"],
     ["jobs"],
     ["mpi"],
     ["cli", "python", "ros"],

@@ -135,6 +135,16 @@ TEST(RowRoot, IsThatOfAllRows) {
     }
 }
 
+TEST(GeneralEigen, TurnsAndStretches) {
+  Eigen::Matrix3d A;
+  A << 0.0, -2.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0;
+  const GeneralEigen eigen = general_eigen(A);
+  EXPECT_LT((A * eigen.vectors - eigen.vectors * eigen.values.asDiagonal()).norm(), 1e-14);
+  EXPECT_NEAR(eigen.values.imag().maxCoeff(), 2.0, 1e-14);
+  EXPECT_NEAR(eigen.values.real().maxCoeff(), 3.0, 1e-14);
+  EXPECT_EQ(general_eigen(Eigen::MatrixXd()).values.size(), 0);
+}
+
 }  // namespace
 
 }  // namespace codesign

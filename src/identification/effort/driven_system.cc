@@ -254,6 +254,16 @@ DrivenSystem make_driven_system(const CompiledSystem& of,
   return driven;
 }
 
+InputFault in_words_of_study(InputFault fault, const std::string& element,
+                             const std::string& undetermined, const std::string& allowed) {
+  if (fault.element == "identify") fault.element = element;
+  if (fault.allowed.rfind("recordings", 0) == 0) {
+    fault.message = undetermined;
+    fault.allowed = allowed;
+  }
+  return fault;
+}
+
 std::vector<std::string> independent_joints(const CompiledSystem& of,
                                             const std::vector<MeasuredJoint>& measured,
                                             const Eigen::MatrixXd& positions) {

@@ -46,6 +46,12 @@ DrivenSystem make_driven_system(const CompiledSystem& of,
                                 const std::vector<MeasuredJoint>& measured,
                                 const Eigen::MatrixXd& positions = {});
 
+/// A fault of make_driven_system() in the words of a study that names the joints itself, in place
+/// of recordings. @param element where it names them. @param undetermined, allowed message and
+/// remedy for a joint whose motion the named ones do not determine.
+InputFault in_words_of_study(InputFault fault, const std::string& element,
+                             const std::string& undetermined, const std::string& allowed);
+
 /// The measured joints that determine the motion of the mechanism, as make_driven_system() chooses
 /// drives; friction laws with states are allowed. @throws InputError as make_driven_system()
 /// otherwise does

@@ -115,14 +115,15 @@ Status MotionProjection::project(const Eigen::VectorXd (&measured)[3], Eigen::Ve
 }
 
 DrivenReplay::DrivenReplay(const CompiledSystem& system, std::vector<MeasuredJoint> joints,
-                           const Eigen::MatrixXd& positions, const std::vector<double>& parameters)
+                           const Eigen::MatrixXd& positions, const std::vector<double>& parameters,
+                           const std::vector<SignalDescription>& signals)
     : system_(system),
       joints_(std::move(joints)),
       parameters_(parameters),
       driven_(make_driven_system(system, joints_, positions)),
       motion_(driven_),
       projection_(driven_, joints_),
-      observer_(*driven_.system, {}) {
+      observer_(*driven_.system, signals) {
   motion_.set_design(parameters_);
   const std::vector<std::string>& names = observer_.names().joints;
   for (const int k : driven_.drives)
@@ -149,11 +150,8 @@ Status DrivenReplay::show(const Eigen::VectorXd (&measured)[3], Frame* frame) {
   };
   Status status = projection_.empty() ? motion_.follow({part(0), part(1), part(2)}, &state_)
                                       : projection_.project(measured, &drives, &motion_, &state_);
-  if (!status.ok()) return status;
-  observer_.observe(state_, 0.0, theta_, &motion_.equations(), frame);
-  for (std::size_t k = 0; k < drives_.size(); ++k)
-    frame->joints[drives_[k]].effort = motion_.effort(state_, static_cast<int>(k));
-  return {};
+  if (status.ok()) observer_.observe(state_, 0.0, theta_, &motion_.equations(), frame);
+  return status;
 }
 
 }  // namespace codesign

@@ -48,12 +48,15 @@ class MotionProjection {
 class DrivenReplay {
  public:
   /// @param system must outlive this. @param positions of the measured joints at some instants, as
-  /// in make_driven_system().
-  /// @throws InputError as make_driven_system().
+  /// in make_driven_system(). @param signals of the frames; there are no controllers.
+  /// @throws InputError as make_driven_system(), and for a signal that does not exist.
   DrivenReplay(const CompiledSystem& system, std::vector<MeasuredJoint> joints,
-               const Eigen::MatrixXd& positions, const std::vector<double>& parameters);
+               const Eigen::MatrixXd& positions, const std::vector<double>& parameters,
+               const std::vector<SignalDescription>& signals = {});
 
   const FrameNames& names() const { return observer_.names(); }
+  /// Index in FrameNames::joints of each drive.
+  const std::vector<std::size_t>& drives() const { return drives_; }
 
   /// Assembles the mechanism near measured positions [rad or m], one per measured joint. Call it
   /// before the first instant of each recording.
@@ -61,7 +64,7 @@ class DrivenReplay {
 
   /// @param measured positions, velocities and accelerations of the measured joints, near the
   /// motion of the previous call.
-  /// @param frame its time is not set. It has the efforts on the drives; other efforts are zero.
+  /// @param frame its time is not set. It has the efforts of the drives; other efforts are zero.
   Status show(const Eigen::VectorXd (&measured)[3], Frame* frame);
 
  private:
@@ -72,7 +75,7 @@ class DrivenReplay {
   DrivenMotion motion_;
   MotionProjection projection_;
   Observer observer_;
-  std::vector<std::size_t> drives_;  ///< index in FrameNames::joints of each drive
+  std::vector<std::size_t> drives_;
   VectorX<double> theta_;  ///< positions at the study's start, for joints that move no mass
   State<double> state_;
 };

@@ -124,11 +124,11 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot,
 /// Reads all of a study except the blocks of EnsembleDescription.
 using RunReader = std::function<Study(const YamlValue& study_value)>;
 
-/// Reads the map `runs:`. The changes of a run are merged into the study's own tree, and the whole
-/// is read by `read_run`.
-/// @param study as read without changes. @throws InputError
+/// Reads the map `runs:`, or the table that it names. The changes of a run are merged into the
+/// study's own tree, and the whole is read by `read_run`.
+/// @param study as read without changes. @param files reads the table. @throws InputError
 std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study& study,
-                                      const RunReader& read_run);
+                                      const RunReader& read_run, const FileLoader& files);
 
 /// Reads the map `uncertain:`.
 /// @param study with its parameters. @param runs of the study; parameters that they set cannot be
@@ -173,6 +173,9 @@ IdentificationDescription read_identification(const YamlValue& identify,
 /// The duration of a study with `identify:` that has no `duration`: the duration of a segment,
 /// `identify.segment` or its default [s].
 double segment_of(const YamlValue& identify);
+
+/// Reads the map `efforts:` of a study, whose one key is `grid`. @throws InputError
+PostureGrid read_posture_grid(const YamlValue& efforts, const RobotDescription& robot);
 
 /// Reads the map `excite:` of a study. Whether the joints determine the motion is not examined.
 /// @throws InputError

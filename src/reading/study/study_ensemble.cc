@@ -96,7 +96,7 @@ EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescr
   EnsembleDescription ensemble;
   const auto runs = study_value.find("runs"), uncertain = study_value.find("uncertain"),
              robust = study_value.find("robust");
-  if (runs) ensemble.runs = read_runs(study_value, study, read_run);
+  if (runs) ensemble.runs = read_runs(study_value, study, read_run, files);
   if (uncertain)
     ensemble.uncertain = read_uncertain(*uncertain, robot, study, ensemble.runs, files);
   if (robust)

@@ -121,7 +121,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
       {}, {"duration",   "gravity",   "initial_state", "controllers", "loads",       "motion",
            "parameters", "objective", "path",          "final",       "constraints", "limits",
            "solver",     "optimizer", "runs",          "uncertain",   "robust",      "multistart",
-           "engine",     "identify",  "excite",        "hardware",    "positions"});
+           "engine",     "identify",  "excite",        "hardware",    "positions",   "efforts"});
   require_purpose_of_excite(root);
   refuse_motion_of_recordings(root);
   const auto read_run = [&](const YamlValue& study_value) {
@@ -129,8 +129,11 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
   };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
-  if (const auto identify = root.find("identify"))
-    study.identification = read_identification(*identify, robot, study);
+  if (const auto identify = root.find("identify")) {
+    const bool is_planned = root.find("excite").has_value();
+    study.identification = read_identification(*identify, robot, study, is_planned);
+  }
+  if (const auto efforts = root.find("efforts")) study.grid = read_posture_grid(*efforts, robot);
   if (const auto excite = root.find("excite")) study.excitation = read_excitation(*excite, robot);
   return study;
 }

@@ -2,25 +2,29 @@
 #include "reading/study/study_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
+#include "description/tuned_parameters.h"
 #include "math/arrays.h"
 #include "reading/study/study_values.h"
+#include "recordings/number_table.h"
 #include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
 
 constexpr std::size_t kMostRuns = 1000;
 
-void check_name(const std::string& name, const YamlValue& value) {
+void check_name(const std::string& name, const SourceLocation& where, const std::string& element) {
   constexpr const char* kSigns =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
   constexpr std::size_t kLongest = 100;
   const bool is_good = !name.empty() && name.size() <= kLongest &&
                        name.find_first_not_of(kSigns) == std::string::npos;
   if (!is_good || name[0] == '.' || name[0] == '-')
-    throw InputError({value.where(), value.path(), "not a name for a run", name,
+    throw InputError({where, element, "not a name for a run", name,
                       "up to 100 letters, digits, underscores, hyphens and dots, beginning with a "
                       "letter, digit or underscore"});
 }
@@ -90,7 +94,7 @@ RunDescription read_run_entry(const YamlValue& study_value, const std::string& n
                               const RunReader& read_run) {
   const std::vector<std::string> changes{"initial_state", "controllers", "loads", "motion",
                                          "gravity"};
-  check_name(name, value);
+  check_name(name, value.where(), value.path());
   value.require_keys(
       {}, {"set", "weight", "initial_state", "controllers", "loads", "motion", "gravity"});
   RunDescription run;
@@ -110,15 +114,76 @@ RunDescription read_run_entry(const YamlValue& study_value, const std::string& n
   return run;
 }
 
+void require_count(std::size_t count, const YamlValue& runs) {
+  if (count == 0 || count > kMostRuns)
+    runs.fail("found " + std::to_string(count) + " runs",
+              "1 to " + std::to_string(kMostRuns) + ", each NAME: {set: {...}, ...}");
+}
+
+/// The numbers of a row of a table: one of its columns is a parameter, or `weight`.
+void apply_cell(const std::string& column, double value, const Study& study, RunDescription* run) {
+  const auto fail = [&](const std::string& message, const std::string& allowed) {
+    throw InputError(
+        {run->where, "column \"" + column + "\"", message, to_decimal(value), allowed});
+  };
+  if (column == "weight") {
+    if (!(value > 0.0) || !std::isfinite(value))
+      fail("the weight of a run must be positive", "more than 0, relative to the other runs");
+    run->weight = value;
+    return;
+  }
+  const Parameter& parameter = study.parameters[to_index(untuned_parameter(
+      column, study, run->where, "column \"" + column + "\"", {"run", "weight"}))];
+  if (!(value >= parameter.lower && value <= parameter.upper) || !std::isfinite(value))
+    fail("the value lies outside the bounds of the parameter " + parameter.name,
+         range_of(parameter));
+  run->set.emplace_back(column, value);
+}
+
+/// Runs that differ in parameters alone, one per row of a table.
+std::vector<RunDescription> read_table_of_runs(const YamlValue& runs, const Study& study,
+                                               const FileLoader& files) {
+  if (!files) runs.fail("no file can be read here", "the runs themselves");
+  const SourceText source = files({runs.text(), runs.where(), runs.path()});
+  const NumberTable table(source.name, source.text, CellDelimiter::kAuto);
+  const std::vector<std::string>& names = table.names();
+  const auto of_names = std::find(names.begin(), names.end(), "run");
+  if (of_names == names.end())
+    throw InputError({{source.name, table.first_line()},
+                      "runs",
+                      "no column has the names of the runs",
+                      "",
+                      "a first row of names: run, parameters, and weight if runs differ in it"});
+  std::vector<int> columns;
+  for (int k = 0; k < table.width(); ++k)
+    if (names[to_index(k)] != "run") columns.push_back(k);
+  const NumberTable::Columns cells = table.read(columns);
+  std::vector<RunDescription> result;
+  for (const std::string& name : table.texts(static_cast<int>(of_names - names.begin()))) {
+    RunDescription& run = result.emplace_back();
+    const std::size_t row = result.size() - 1;
+    run.name = name;
+    run.where = {source.name, static_cast<int>(cells.lines[row])};
+    check_name(name, run.where, "column \"run\"");
+    for (std::size_t other = 0; other < row; ++other)
+      if (result[other].name == name)
+        throw InputError({run.where, "column \"run\"", "two runs have the same name", name,
+                          "another name in each row"});
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      apply_cell(names[to_index(columns[k])], cells.values[k][row], study, &run);
+  }
+  require_count(result.size(), runs);
+  return result;
+}
+
 }  // namespace
 
 std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study& study,
-                                      const RunReader& read_run) {
+                                      const RunReader& read_run, const FileLoader& files) {
   const YamlValue runs = study_value.at("runs");
+  if (runs.is_scalar()) return read_table_of_runs(runs, study, files);
   const auto entries = runs.entries();
-  if (entries.empty() || entries.size() > kMostRuns)
-    runs.fail("found " + std::to_string(entries.size()) + " runs",
-              "1 to " + std::to_string(kMostRuns) + ", each NAME: {set: {...}, ...}");
+  require_count(entries.size(), runs);
   std::vector<RunDescription> result;
   result.reserve(entries.size());
   for (const auto& [name, value] : entries)

@@ -21,16 +21,21 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
 
 int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at,
                       const std::vector<std::string>& others) {
+  return untuned_parameter(name, study, at.where(), at.path(), others);
+}
+
+int untuned_parameter(const std::string& name, const Study& study, const SourceLocation& where,
+                      const std::string& element, const std::vector<std::string>& others) {
   std::vector<std::string> allowed = others;
   const std::set<int> tuned(study.tuned.begin(), study.tuned.end());
   for (int index = 0; index < static_cast<int>(study.parameters.size()); ++index) {
     const std::string& known = study.parameters[to_index(index)].name;
     const bool is_tuned = tuned.count(index) > 0;
     if (known == name && !is_tuned) return index;
-    if (known == name) throw tuned_error(at.where(), at.path(), name);
+    if (known == name) throw tuned_error(where, element, name);
     if (!is_tuned) allowed.push_back(known);
   }
-  throw unknown_name(at.where(), at.path(), "parameter", name, allowed);
+  throw unknown_name(where, element, "parameter", name, allowed);
 }
 
 double read_within_bounds(const YamlValue& value, const Parameter& parameter) {

@@ -22,6 +22,9 @@ std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
 int untuned_parameter(const std::string& name, const Study& study, const YamlValue& at,
                       const std::vector<std::string>& others = {});
 
+int untuned_parameter(const std::string& name, const Study& study, const SourceLocation& where,
+                      const std::string& element, const std::vector<std::string>& others = {});
+
 /// A finite number within the bounds of a parameter. @throws InputError
 double read_within_bounds(const YamlValue& value, const Parameter& parameter);
 

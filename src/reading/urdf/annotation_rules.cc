@@ -134,6 +134,10 @@ const std::vector<ElementRule>& rules() {
 
 }  // namespace
 
+std::size_t words_of(const std::string& attribute) {
+  return attribute == "xyz" || attribute == "rpy" || attribute == "size" ? 3 : 1;
+}
+
 const ElementRule* find_rule(const std::string& path) {
   static const auto kByPath = by_path(rules());
   const auto found = kByPath.find(path);

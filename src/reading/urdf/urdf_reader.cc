@@ -22,8 +22,7 @@ void check_twins(const XmlElement& element, const std::string& path, const Param
   if (rule != nullptr) {
     for (const std::string& name : rule->twins) {
       if (!element.has(kPrefix + name)) continue;
-      const bool is_vector = name == "xyz" || name == "rpy" || name == "size";
-      read_quantities(element, name, is_vector ? 3 : 1, table);
+      read_quantities(element, name, words_of(name), table);
     }
   }
   for (const XmlElement& child : element.children())
@@ -102,7 +101,7 @@ void sort_by_place(const std::string& file, Warnings* warnings) {
 }  // namespace
 
 XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                                const Laws& laws) {
+                                const Laws& laws, PlainNumbers plain) {
   SourceText text = urdf;
   const Warnings trailing = cut_trailing_text(&text);
   XmlDocument document(text);
@@ -115,6 +114,7 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
     const XmlDocument overlay = load_overlay(source);
     merge_overlay(overlay, &document);
   }
+  if (plain == PlainNumbers::kFilledIn) fill_in_twins(&document);
   check_annotations(document);
   Warnings warnings;
   check_vocabulary(document, &warnings);

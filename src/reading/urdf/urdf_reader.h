@@ -30,10 +30,24 @@ std::string write_tuned_urdf(const SourceText& urdf, const std::vector<SourceTex
                              std::optional<FrictionModel> law = std::nullopt,
                              const Laws& laws = standard_laws());
 
+/// The plain attributes beside twins: as written, or made from the twins at the parameters'
+/// defaults, whatever is written.
+enum class PlainNumbers { kAsWritten, kFilledIn };
+
+/// The merged URDF as XML, each plain attribute that has a twin filled in at the parameters'
+/// defaults; it may have been missing.
+/// @throws InputError as read_urdf() for everything else.
+std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                              const Laws& laws = standard_laws());
+
 /// Parses the URDF, merges the overlays and checks all element and attribute names. @throws
 /// InputError
 XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                                const Laws& laws = standard_laws());
+                                const Laws& laws = standard_laws(),
+                                PlainNumbers plain = PlainNumbers::kAsWritten);
+
+/// Sets the plain attribute beside each twin to its value at the parameters' defaults.
+void fill_in_twins(XmlDocument* document);
 
 /// The mechanism that the document describes, with the warnings of the document and of reading it.
 /// @throws InputError

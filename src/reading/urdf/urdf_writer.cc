@@ -22,11 +22,11 @@ struct Design {
   std::vector<double> values;
 };
 
-std::vector<double> twin_values(const XmlElement& element, const std::string& twin,
+std::vector<double> twin_values(const XmlElement& element, const std::string& name,
                                 const Design& design) {
-  const std::size_t count = split_words(element.text(twin.substr(sizeof(kPrefix) - 1))).size();
+  const std::string twin = kPrefix + name;
   std::vector<double> values;
-  for (const Quantity& quantity : parse_quantities(element, twin, count, design.table)) {
+  for (const Quantity& quantity : parse_quantities(element, twin, words_of(name), design.table)) {
     values.push_back(quantity.at(design.values));
     if (!std::isfinite(values.back()))
       element.fail_at(twin, twin + " is not finite at the values to write");
@@ -41,7 +41,7 @@ void write_twins(XMLElement* node, const std::string& path, const Design& design
     for (const std::string& name : rule->twins)
       if (element.has(kPrefix + name))
         node->SetAttribute(name.c_str(),
-                           format_numbers(twin_values(element, kPrefix + name, design)).c_str());
+                           format_numbers(twin_values(element, name, design)).c_str());
   }
   for (XMLElement* child = node->FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement())
@@ -102,6 +102,21 @@ void write_design(const RobotDescription& robot, const std::vector<double>& valu
   write_twins(document->robot(), "robot", {*document, ParameterTable(robot.parameters), values});
   write_inertials(document->robot(), robot.links, values);
   write_parameters(document->robot(), robot.parameters, values);
+}
+
+void fill_in_twins(XmlDocument* document) {
+  const std::vector<Parameter> parameters =
+      read_parameters(XmlElement(document->robot(), document));
+  std::vector<double> values;
+  for (const Parameter& parameter : parameters) values.push_back(parameter.value);
+  write_twins(document->robot(), "robot", {*document, ParameterTable(parameters), values});
+}
+
+std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                              const Laws& laws) {
+  XmlDocument document = load_annotated_urdf(urdf, overlays, laws, PlainNumbers::kFilledIn);
+  read_robot(document, laws);  // with the lines of the files, which the text no longer has
+  return document.text();
 }
 
 namespace {

@@ -50,6 +50,9 @@ struct ElementRule {
       children;  ///< all allowed children if strict, else the allowed children with the prefix
 };
 
+/// The number of words of an attribute that may have a twin.
+std::size_t words_of(const std::string& attribute);
+
 /// The rule for a path such as `robot/joint/origin`; null if elements of this path have no
 /// annotations.
 const ElementRule* find_rule(const std::string& path);

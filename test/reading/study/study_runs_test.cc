@@ -169,5 +169,55 @@ TEST(StudyRuns, RefusesOtherParameters) {
   EXPECT_EQ(runs_of("{a: {set: {push_c1: 3}}}").at(0).set.at(0).second, 3.0);
 }
 
+/// The runs of a table `runs.csv`, which stands beside the study.
+std::vector<RunDescription> runs_in(const std::string& table) {
+  const auto files = [&](const FileAddress& address) {
+    EXPECT_EQ(address.file, "runs.csv");
+    return SourceText{"runs.csv", table};
+  };
+  return read_study({"study.yaml", kRunStudy + "runs: runs.csv\n"}, study_robot(), {}, files)
+      .ensemble.runs;
+}
+
+TEST(StudyRuns, ATableHasARunInEachRow) {
+  const std::vector<RunDescription> runs =
+      runs_in("# load cases\nmass, run, weight\n5, \"full\", 2\n0.5, empty, 1\n");
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0].name, "full");
+  EXPECT_EQ(runs[0].weight, 2.0);
+  ASSERT_EQ(runs[0].set.size(), 1U);
+  EXPECT_EQ(runs[0].set[0], std::make_pair(std::string("mass"), 5.0));
+  EXPECT_EQ(runs[0].where.file, "runs.csv");
+  EXPECT_EQ(runs[0].where.line, 3);
+  EXPECT_EQ(runs[1].weight, 1.0);
+  EXPECT_EQ(runs[1].study, nullptr);
+}
+
+TEST(StudyRuns, BadTablesNameTheirLine) {
+  const auto message_of = [](const std::string& table) -> std::string {
+    try {
+      runs_in(table);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << table;
+    return "";
+  };
+  const auto expect = [&](const std::string& table, const std::string& message) {
+    EXPECT_NE(message_of(table).find(message), std::string::npos) << message_of(table);
+  };
+  expect("mass\n5\n", "runs.csv:1: runs: no column has the names of the runs");
+  expect("run,mass\na,5\na,4\n", "runs.csv:3: column \"run\": two runs have the same name");
+  expect("run,mass\na,5\n-b,4\n", "runs.csv:3: column \"run\": not a name for a run");
+  expect("run,mass\na,6\n", "runs.csv:2: column \"mass\": the value lies outside the bounds");
+  expect("run,mass\na,nan\n", "runs.csv:2: column \"mass\": the value lies outside the bounds");
+  expect("run,mass\na,x\n", "runs.csv:2: column \"mass\": not a number");
+  expect("run,mass\na\n", "runs.csv:2: a row of 1 cells");
+  expect("run,Kp\na,1\n", "runs.csv:2: column \"Kp\": this parameter is tuned");
+  expect("run,mas\na,1\n", "did you mean \"mass\"?");
+  expect("run,weight\na,0\n", "the weight of a run must be positive");
+  expect("run,mass\n", "study.yaml:10: runs: found 0 runs");
+}
+
 }  // namespace
 }  // namespace codesign

@@ -161,5 +161,38 @@ TEST(UrdfWriter, Faults) {
   EXPECT_THROW(write_tuned_urdf(root, {}, {0.05}), InputError) << "not finite there";
 }
 
+TEST(FilledUrdf, HasThePlainNumberBesideEachTwin) {
+  const SourceText without = pendulum(R"(<origin codesign:xyz="0 -${length} ${2*length}"/>
+<dynamics damping="7" codesign:damping="${length/2}"/>)");
+  EXPECT_NE(error_of(without).find("lacks its plain attribute"), std::string::npos);
+  const std::string text = write_filled_urdf(without, {});
+  EXPECT_NE(text.find("xyz=\"0 -0.2 0.4\""), std::string::npos) << text;
+  EXPECT_NE(text.find("damping=\"0.1\""), std::string::npos) << "a number that is there follows";
+  const RobotDescription robot = read_urdf({"filled.urdf", text});
+  EXPECT_EQ(robot.joints[0].origin.xyz[2].nominal(), 0.4);
+  EXPECT_EQ(write_filled_urdf({"filled.urdf", text}, {}), text);
+}
+
+TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
+  const SourceText overlay = {
+      "over.xml",
+      R"(<robot name="test" xmlns:codesign="urn:x"><joint name="hinge"><origin codesign:xyz="0 0 ${length}"/></joint></robot>)"};
+  EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).find("xyz=\"0 0 0.2\""), std::string::npos);
+  const auto fault_of_filled = [](const std::string& joint) -> std::string {
+    try {
+      write_filled_urdf(pendulum(joint, "<link name=\"arm\"/>"), {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE();
+    return "";
+  };
+  EXPECT_NE(fault_of_filled(R"(<origin codesign:xyz="0 0 ${width}"/>)").find("test.urdf:2"),
+            std::string::npos);
+  EXPECT_NE(fault_of_filled(R"(<origin codesign:xyz="0 0 ${length}"/>)").find("test.urdf:3"),
+            std::string::npos)
+      << "a fault elsewhere";
+}
+
 }  // namespace
 }  // namespace codesign

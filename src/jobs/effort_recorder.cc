@@ -1,0 +1,209 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/effort_recorder.h"
+
+#include <cmath>
+#include <limits>
+
+#include "identification/effort/motion_projection.h"
+#include "math/arrays.h"
+#include "statics/given_motion.h"
+#include "statics/posture_efforts.h"
+#include "text/cancel.h"
+
+namespace codesign {
+namespace {
+
+void note(double value, const std::vector<double>& at, Extreme* extreme) {
+  if (extreme->at.empty() || std::abs(value) > std::abs(extreme->value)) *extreme = {value, at};
+}
+
+std::vector<double> list_of(const Eigen::VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+DrivenReplay replay_of(const Problem& problem, const GivenMotion& motion,
+                       const std::vector<double>& parameters,
+                       const std::vector<SignalDescription>& signals) {
+  try {
+    return DrivenReplay(*problem.system(), motion.joints(),
+                        motion.some_positions(problem.study().duration), parameters, signals);
+  } catch (const InputError& error) {
+    throw InputError(in_words_of_study(
+        error.fault(), "controllers",
+        "its motion is not determined: no controller controls its position, and it does not follow "
+        "from the joints of which one does",
+        "controllers of the positions of as many independent joints as there are degrees of "
+        "freedom"));
+  }
+}
+
+/// Sums up what the drives of a motion need.
+class MotionNeeds {
+ public:
+  explicit MotionNeeds(const DrivenReplay& replay) : places_(replay.drives()) {
+    for (const std::size_t place : places_)
+      drives_.push_back({replay.names().joints[place],
+                         {{"effort", {}}, {"velocity", {}}, {"power", {}}},
+                         {{"rms_effort", 0.0}, {"work", 0.0}}});
+    last_power_.resize(places_.size());
+  }
+
+  /// @param step time since the last frame [s].
+  void observe(const Frame& frame, double step) {
+    ++rows_;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const JointSample& joint = frame.joints[places_[k]];
+      const double power = joint.effort * joint.velocity;
+      note(joint.effort, {frame.time}, &drives_[k].extremes[0].second);
+      note(joint.velocity, {frame.time}, &drives_[k].extremes[1].second);
+      note(power, {frame.time}, &drives_[k].extremes[2].second);
+      drives_[k].totals[0].second += joint.effort * joint.effort;
+      if (rows_ > 1) drives_[k].totals[1].second += 0.5 * step * (power + last_power_[k]);
+      last_power_[k] = power;
+    }
+  }
+
+  std::vector<DriveNeeds> needs() const {
+    std::vector<DriveNeeds> needs = drives_;
+    for (DriveNeeds& drive : needs)
+      if (rows_ > 0)
+        drive.totals[0].second = std::sqrt(drive.totals[0].second / static_cast<double>(rows_));
+    return needs;
+  }
+
+ private:
+  const std::vector<std::size_t> places_;
+  std::vector<DriveNeeds> drives_;
+  std::vector<double> last_power_;
+  std::size_t rows_ = 0;
+};
+
+EffortSummary record_motion(const Problem& problem, const std::vector<double>& parameters,
+                            const std::vector<SignalDescription>& signals, int samples,
+                            const RowSink& sink, const std::atomic<bool>* cancel) {
+  const double duration = problem.study().duration;
+  const GivenMotion motion(problem.study(), parameters);
+  DrivenReplay replay = replay_of(problem, motion, parameters, signals);
+  LimitOptions enforced = problem.study().limits;
+  enforced.effort = false;  // no controller keeps it
+  LimitWatch limits(problem, parameters, replay.names(), enforced);
+  MotionNeeds needs(replay);
+  EffortSummary summary;
+  Eigen::VectorXd given[3];
+  Frame frame;
+  for (int k = 0; k < samples && summary.status.ok(); ++k) {
+    frame.time = duration * k / (samples - 1);
+    motion.at(frame.time, &given);
+    const double time = frame.time;
+    if (is_set(cancel)) summary.status = {StatusCode::kCancelled, time, "cancelled"};
+    if (summary.status.ok() && k == 0) summary.status = replay.begin(given[0]);
+    if (summary.status.ok()) summary.status = replay.show(given, &frame);
+    summary.status.time = frame.time = time;
+    if (!summary.status.ok()) break;
+    limits.observe(frame);
+    needs.observe(frame, duration / (samples - 1));
+    std::vector<double> row(1, time);
+    for (const std::size_t place : replay.drives()) {
+      const JointSample& joint = frame.joints[place];
+      row.insert(row.end(), {joint.position, joint.velocity, joint.acceleration, joint.effort});
+    }
+    row.insert(row.end(), frame.signals.begin(), frame.signals.end());
+    sink(row);
+    ++summary.rows;
+  }
+  summary.drives = needs.needs();
+  summary.crossings = limits.crossings();
+  return summary;
+}
+
+std::vector<DriveNeeds> posture_needs(const PostureGrid& grid) {
+  std::vector<DriveNeeds> drives;
+  for (const GridJoint& joint : grid)
+    drives.push_back({joint.joint, {{"effort", {}}, {"holding", {}}, {"breakaway", {}}}, {}});
+  return drives;
+}
+
+EffortSummary record_postures(const Problem& problem, const std::vector<double>& parameters,
+                              const std::vector<SignalDescription>& signals, const RowSink& sink,
+                              const std::atomic<bool>* cancel) {
+  const PostureGrid& grid = problem.study().grid;
+  PostureStatics statics(*problem.system(), grid, parameters, signals);
+  EffortSummary summary;
+  summary.drives = posture_needs(grid);
+  std::vector<PostureEffort> efforts;
+  Status last;
+  Frame frame;
+  bool has_begun = false;
+  const std::size_t columns = effort_columns(problem, signals).size();
+  for (std::size_t k = 0; k < count_postures(grid); ++k) {
+    if (is_set(cancel)) summary.status = {StatusCode::kCancelled, 0.0, "cancelled"};
+    if (!summary.status.ok()) return summary;
+    const Eigen::VectorXd positions = posture(grid, k);
+    if (!has_begun) last = statics.begin(positions);
+    has_begun = has_begun || last.ok();
+    if (has_begun) last = statics.show(positions, &frame, &efforts);
+    std::vector<double> row = list_of(positions);
+    const std::vector<double> at = row;
+    if (last.ok()) {
+      for (std::size_t d = 0; d < efforts.size(); ++d) {
+        const PostureEffort& effort = efforts[d];
+        row.insert(row.end(), {effort.rest, effort.lower, effort.upper, effort.holding()});
+        note(effort.rest, at, &summary.drives[d].extremes[0].second);
+        note(effort.holding(), at, &summary.drives[d].extremes[1].second);
+        note(effort.lower, at, &summary.drives[d].extremes[2].second);
+        note(effort.upper, at, &summary.drives[d].extremes[2].second);
+      }
+      row.insert(row.end(), frame.signals.begin(), frame.signals.end());
+    } else {
+      row.resize(columns, std::numeric_limits<double>::quiet_NaN());
+      ++summary.unreachable;
+    }
+    sink(row);
+    ++summary.rows;
+  }
+  if (summary.unreachable == summary.rows) summary.status = last;
+  return summary;
+}
+
+}  // namespace
+
+std::vector<std::string> effort_columns(const Problem& problem,
+                                        const std::vector<SignalDescription>& signals) {
+  std::vector<std::string> columns;
+  const auto add = [&](const std::string& joint, const std::vector<const char*>& quantities) {
+    for (const char* quantity : quantities) columns.push_back(joint + "/" + quantity);
+  };
+  const PostureGrid& grid = problem.study().grid;
+  for (const GridJoint& joint : grid) add(joint.joint, {"position"});
+  for (const GridJoint& joint : grid)
+    add(joint.joint, {"effort", "breakaway_down", "breakaway_up", "holding"});
+  if (grid.empty()) {
+    columns.emplace_back("time");
+    const GivenMotion motion(problem.study(), problem.parameters());
+    for (const MeasuredJoint& joint : motion.joints())
+      add(joint.name, {"position", "velocity", "acceleration", "effort"});
+  }
+  for (const SignalDescription& signal : signals) columns.push_back(signal.text);
+  return columns;
+}
+
+EffortSummary record_efforts(const Problem& problem, const std::vector<double>& parameters,
+                             const std::vector<SignalDescription>& signals, int samples,
+                             const RowSink& sink, const std::atomic<bool>* cancel) {
+  return problem.study().grid.empty()
+             ? record_motion(problem, parameters, signals, samples, sink, cancel)
+             : record_postures(problem, parameters, signals, sink, cancel);
+}
+
+Json to_json(const std::vector<DriveNeeds>& drives) {
+  Json object = Json::object();
+  for (const DriveNeeds& drive : drives) {
+    Json& joint = object[drive.joint] = Json::object();
+    for (const auto& [name, extreme] : drive.extremes)
+      joint[name] = {{"value", extreme.value}, {"at", extreme.at}};
+    for (const auto& [name, total] : drive.totals) joint[name] = total;
+  }
+  return object;
+}
+
+}  // namespace codesign

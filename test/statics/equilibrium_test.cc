@@ -1,0 +1,181 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "statics/equilibrium.h"
+
+#include <cmath>
+
+#include "statics/statics_cases.h"
+
+namespace codesign {
+namespace {
+
+Equilibrium equilibrium_of(const Problem& problem) {
+  return find_equilibrium(*problem.system(), problem.parameters(), {});
+}
+
+double position_of(const Equilibrium& found, const std::string& joint) {
+  for (std::size_t k = 0; k < found.names.joints.size(); ++k)
+    if (found.names.joints[k] == joint) return found.frame.joints[k].position;
+  ADD_FAILURE() << joint;
+  return 0.0;
+}
+
+std::string start_at(double hinge, const std::string& more = "") {
+  return "duration: 10\ninitial_state: {hinge: {position: " + std::to_string(hinge) + "}}\n" + more;
+}
+
+// A pendulum of 2 kg with its centre 0.5 m below its hinge, and 0.1 kg m^2 about that centre.
+constexpr double kSquare = 2.0 * kGravity * 0.5 / (0.1 + 2.0 * 0.25);
+
+// From level, where no small motion feels a change of its torque, and from a little beside the top.
+TEST(Equilibrium, APendulumComesToHang) {
+  for (const double start : {kPi / 2.0, -1.0, 3.14, -3.0}) {
+    const Equilibrium found = equilibrium_of(loaded(pendulum_urdf(), start_at(start)));
+    ASSERT_TRUE(found.status.ok()) << found.status.cause;
+    EXPECT_NEAR(position_of(found, "hinge"), 0.0, 1e-10);
+    EXPECT_EQ(found.stability, Stability::kStable);
+    ASSERT_EQ(found.modes.size(), 1U);
+    EXPECT_NEAR(found.modes[0].frequency(), std::sqrt(kSquare) / (2.0 * kPi), 1e-9);
+    EXPECT_EQ(found.modes[0].growth(), 0.0);
+    EXPECT_EQ(found.modes[0].rates, std::vector<double>{1.0});
+  }
+}
+
+TEST(Equilibrium, APendulumAtItsTopIsUnstable) {
+  const Equilibrium found = equilibrium_of(loaded(pendulum_urdf(),
+                                                  "duration: 10\ninitial_state: {hinge: {position: "
+                                                  "3.141592653589793, velocity: 0.3}}\n"));
+  ASSERT_TRUE(found.status.ok()) << found.status.cause;
+  EXPECT_NEAR(position_of(found, "hinge"), kPi, 1e-12);
+  EXPECT_EQ(found.stability, Stability::kUnstable);
+  EXPECT_NEAR(found.modes[0].growth(), std::sqrt(kSquare), 1e-9);
+}
+
+// p (r - theta) = m g l sin(theta): a servo without an integral sags; delays, samples and lags do
+// not count.
+TEST(Equilibrium, AServoSags) {
+  for (const std::string more :
+       {"", ", sample_time: 0.01, delay: 0.01", ", time_constant: 0.1, derivative_filter: 0.01"}) {
+    const Equilibrium found = equilibrium_of(
+        loaded(pendulum_urdf(),
+               start_at(0.0,
+                        "controllers: {servo: {type: pid, input: hinge/position, output: hinge, "
+                        "setpoint: {type: sine, amplitude: 0.5, offset: 0.7, frequency: 1}, gains: "
+                        "{p: 20, d: 1}" +
+                            more + "}}\n")));
+    ASSERT_TRUE(found.status.ok()) << found.status.cause;
+    const double angle = position_of(found, "hinge");
+    EXPECT_GT(angle, 0.3);
+    EXPECT_NEAR(20.0 * (0.7 - angle), 2.0 * kGravity * 0.5 * std::sin(angle), 1e-10) << more;
+    EXPECT_NEAR(found.modes[0].square.real(),
+                -(20.0 + 2.0 * kGravity * 0.5 * std::cos(angle)) / 0.6, 1e-8);
+  }
+}
+
+// The spring pulls the arm up with the torque k a b sin(theta), gravity down with m g l sin(theta),
+// theta from the top.
+TEST(Equilibrium, ASpringBalancesAnArm) {
+  const double balance = 2.0 * kGravity * 0.5 / (0.4 * 0.25);  // k = m g l/(a b)
+  const Equilibrium weak = equilibrium_of(loaded(balanced_arm(2.0, 0.5 * balance), start_at(1.0)));
+  EXPECT_NEAR(position_of(weak, "hinge"), kPi, 1e-9);
+  EXPECT_EQ(weak.stability, Stability::kStable);
+  const Equilibrium strong =
+      equilibrium_of(loaded(balanced_arm(2.0, 2.0 * balance), start_at(1.0)));
+  EXPECT_NEAR(position_of(strong, "hinge"), 0.0, 1e-9);
+  EXPECT_NEAR(strong.modes[0].square.real(), -2.0 * kGravity * 0.5 / (0.01 + 2.0 * 0.25), 1e-8);
+  const Equilibrium even = equilibrium_of(loaded(balanced_arm(2.0, balance), start_at(1.0)));
+  ASSERT_TRUE(even.status.ok()) << even.status.cause;
+  EXPECT_NEAR(position_of(even, "hinge"), 1.0, 1e-9) << "it rests where it is put";
+  EXPECT_EQ(even.stability, Stability::kNeutral);
+}
+
+// A spring in the guide of a slider-crank carries a load: F = k x, and the crank follows the loop.
+TEST(Equilibrium, ClosesLoops) {
+  const std::string spring =
+      R"(<codesign:torsion_spring stiffness="200" damping="0" free_position="0.3"/>)";
+  const Problem problem =
+      loaded(planar_slider_crank(spring),
+             "duration: 10\ngravity: [0, 0, 0]\ninitial_state: {crank_joint: {position: 0.7}, "
+             "slider_joint: {guess: 0.35}}\nloads: [{joint: slider_joint, effort: 8}]\n");
+  for (const char* coordinates : {"joint", "absolute"}) {
+    Study study = problem.study();
+    study.solver.coordinates =
+        *coordinates == 'j' ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
+    const Equilibrium found = equilibrium_of(with_study(problem, study));
+    ASSERT_TRUE(found.status.ok()) << found.status.cause;
+    const double slider = position_of(found, "slider_joint"),
+                 crank = position_of(found, "crank_joint");
+    EXPECT_NEAR(slider, 0.3 + 8.0 / 200.0, 1e-10) << coordinates;
+    EXPECT_NEAR(slider,
+                0.1 * std::cos(crank) + std::sqrt(0.09 - std::pow(0.1 * std::sin(crank), 2)),
+                1e-10);
+    ASSERT_EQ(found.modes.size(), 1U);
+    EXPECT_EQ(found.stability, Stability::kStable);
+  }
+}
+
+// A free body on a vertical spring from above, and two sideways: six motions, three of them against
+// gravity and springs alone.
+TEST(Equilibrium, HangsABodyOnSprings) {
+  std::string springs;
+  const char* ends[] = {"0 0 1", "1 0 -0.5", "-0.6 0.9 -0.5", "-0.6 -0.9 -0.5"};
+  for (int k = 0; k < 4; ++k)
+    springs += "<codesign:spring_damper name=\"s" + std::to_string(k) +
+               "\" stiffness=\"100\"><predecessor link=\"base\"><origin xyz=\"" + ends[k] +
+               "\"/></predecessor><successor link=\"bar\"/></codesign:spring_damper>";
+  const Equilibrium found = equilibrium_of(loaded(
+      "<robot name=\"p\" xmlns:codesign=\"urn:mechanism_codesign\"><link name=\"base\"/>" +
+          body("bar", 2.0) +
+          R"(<joint name="free" type="floating"><parent link="base"/><child link="bar"/></joint>)" +
+          springs + "</robot>",
+      "duration: 1\ninitial_state: {free: {translation: [0.3, 0.2, 0.4]}}\n"));
+  ASSERT_TRUE(found.status.ok()) << found.status.cause;
+  // Springs of no free length pull as one to the mean of their ends.
+  const Eigen::Vector3d expected(-0.05, 0.0, -0.125 - 2.0 * kGravity / 400.0);
+  EXPECT_LT((found.frame.links[1].position - expected).norm(), 1e-9);
+  ASSERT_EQ(found.modes.size(), 6U);
+  EXPECT_EQ(found.stability, Stability::kNeutral) << "the body turns without a force";
+  for (int k = 3; k < 6; ++k)
+    EXPECT_NEAR(found.modes[static_cast<std::size_t>(k)].square.real(), -200.0, 1e-6);
+}
+
+// A stop is a stiff spring that begins to act at its edge.
+TEST(Equilibrium, RestsOnAStop) {
+  const Equilibrium found = equilibrium_of(
+      loaded(pendulum_urdf(), start_at(-1.0, "gravity: [20, 0, 0]\nlimits: {position: true}\n")));
+  ASSERT_TRUE(found.status.ok()) << found.status.cause;
+  // com = -0.5 sin(theta) along x: the load turns the bar towards -pi/2, to the stop at -1.2.
+  const double beyond = -1.2 - position_of(found, "hinge");
+  EXPECT_NEAR(1e4 * (beyond - 0.5e-3), 20.0 * std::cos(-1.2 - beyond), 1e-6);
+  EXPECT_EQ(found.stability, Stability::kStable);
+}
+
+TEST(Equilibrium, FindsNoneWhereALoadMovesForEver) {
+  const Equilibrium found = equilibrium_of(
+      loaded(pendulum_urdf("0 0 1"), start_at(0.0, "loads: [{joint: hinge, effort: 1}]\n")));
+  EXPECT_EQ(found.status.code, StatusCode::kNoEquilibrium);
+  EXPECT_NE(found.status.cause.find("no posture at rest was found near the start"),
+            std::string::npos)
+      << found.status.cause;
+}
+
+TEST(Equilibrium, RefusesAnIntegral) {
+  const Problem problem =
+      loaded(pendulum_urdf(),
+             start_at(0.0,
+                      "controllers: {servo: {type: pid, input: hinge/position, output: hinge, "
+                      "setpoint: 0.7, gains: {p: 20, i: 1}}}\n"));
+  const std::string message = refused([&] { equilibrium_of(problem); });
+  EXPECT_NE(message.find("study.yaml:3: controllers.servo.gains.i: a controller with an integral"),
+            std::string::npos)
+      << message;
+}
+
+TEST(Equilibrium, EndsWhenCancelled) {
+  const std::atomic<bool> cancel{true};
+  const Problem problem = loaded(pendulum_urdf(), start_at(1.0));
+  EXPECT_EQ(find_equilibrium(*problem.system(), problem.parameters(), {}, &cancel).status.code,
+            StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace codesign
