@@ -6,11 +6,12 @@ set(codesign_python_destination lib/python3/dist-packages/${PROJECT_NAME})
 set(codesign_python_paths ${PROJECT_SOURCE_DIR}/python/${PROJECT_NAME} ${PROJECT_SOURCE_DIR}/scripts ${PROJECT_BINARY_DIR}/python)
 configure_file(python/relay.py.in ${CATKIN_DEVEL_PREFIX}/${codesign_python_destination}/__init__.py @ONLY)
 install(DIRECTORY python/${PROJECT_NAME}/ DESTINATION ${codesign_python_destination} PATTERN "__pycache__" EXCLUDE)
-# The page of `codesign report`, one copy for both.
+# The page of `codesign report`, one copy for both. Generated messages are installed with the compiled relay of the devel space.
 file(RELATIVE_PATH codesign_report_from_python /${codesign_python_destination} /${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts/codesign_report)
 install(CODE "
-  set(link \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${codesign_python_destination}/codesign_report\")
-  file(CREATE_LINK ${codesign_report_from_python} \${link} SYMBOLIC)")
+  set(package \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${codesign_python_destination}\")
+  file(REMOVE_RECURSE \${package}/__pycache__)
+  file(CREATE_LINK ${codesign_report_from_python} \${package}/codesign_report SYMBOLIC)")
 
 # For the Python of Python3_EXECUTABLE (cmake/Environment.cmake).
 set(PYBIND11_FINDPYTHON ON)

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "python/conversions.h"
 
+#include <utility>
+
 #include "jobs/files.h"
 #include "jobs/json_records.h"
 #include "math/arrays.h"
@@ -115,7 +117,7 @@ py::list to_list(const std::vector<std::string>& names) {
 void translate_exceptions() {
   py::register_local_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const InputError& error) {
       raise("InputError", to_python(to_json(error)));
     } catch (const OutputError& error) {

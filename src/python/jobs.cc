@@ -141,6 +141,7 @@ std::vector<Failure> write_folder(const Optimized& optimized, const std::string&
       folder, kConvergence,
       [&] {
         std::vector<std::vector<std::string>> rows;
+        rows.reserve(optimized.trials.size());
         for (const Trial& trial : optimized.trials) rows.push_back(convergence_row(trial));
         return csv_text(convergence_columns(problem.tuned_names()), rows, kConvergence);
       },
@@ -174,6 +175,7 @@ std::vector<Failure> write_folder(const Identified& identified, const std::strin
   const std::vector<IdentificationFile> files =
       identification_files(identified.problem, identified.result, identified.json);
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const IdentificationFile& file : files) names.push_back(file.name);
   make_folder(folder, kFolder);
   require_other_files(folder, names, kFolder, identified.problem);

@@ -66,6 +66,7 @@ std::vector<double> design_of(const Session& session, const py::object& rho,
 
 std::vector<std::string> strings_of(const py::list& list) {
   std::vector<std::string> strings;
+  strings.reserve(list.size());
   for (const py::handle item : list) strings.push_back(item.cast<std::string>());
   return strings;
 }
