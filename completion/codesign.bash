@@ -48,7 +48,7 @@ _codesign() {
     gradient) options+=" --verify" ;;
     optimize) options+=" --output --resume" ;;
     identify | excite) options+=" --output" ;;
-    new) options="--from --json --help" ;;
+    new) options="--from --json --quiet --help" ;;
     report) options="-o --output --help" ;;
     apply) options="--dry-run --server --ramp --hold --limit --deviation --joint-states --max-age --unwatched --json --help" ;;
   esac

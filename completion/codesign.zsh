@@ -26,7 +26,7 @@ _codesign() {
       return
       ;;
     new)
-      _arguments '1:command:' '2:folder:' "--from[machine of the gallery]:machine:($(codesign new 2>/dev/null | cut -d ' ' -f 1 | tr '\n' ' '))" '--json[one JSON object]' '--help[the options]'
+      _arguments '1:command:' '2:folder:' "--from[machine of the gallery]:machine:($(codesign new 2>/dev/null | cut -d ' ' -f 1 | tr '\n' ' '))" '--json[one JSON object]' '--quiet[no progress]' '--help[the options]'
       return
       ;;
     report)

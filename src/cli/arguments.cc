@@ -84,6 +84,8 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
 
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
+  static const Names kAll = {"check",    "urdf",     "simulate", "gradient",
+                             "optimize", "identify", "excite",   "new"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,
@@ -92,11 +94,9 @@ const std::map<std::string, Option>& options() {
       {"--set", {Value::kRequired, {}, add_setting}},
       {"--result",
        {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
-      {"--json",
-       {Value::kNone,
-        {"check", "urdf", "simulate", "gradient", "optimize", "identify", "excite", "new"},
-        [](const std::string&, Arguments* to) { to->json = true; }}},
-      {"--quiet", {Value::kNone, {}, [](const std::string&, Arguments* to) { to->quiet = true; }}},
+      {"--json", {Value::kNone, kAll, [](const std::string&, Arguments* to) { to->json = true; }}},
+      {"--quiet",
+       {Value::kNone, kAll, [](const std::string&, Arguments* to) { to->quiet = true; }}},
       {"--sticks",
        {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
       {"--fill",
@@ -313,7 +313,7 @@ std::string usage(const std::string& command) {
                                 [&](const CommandHelp& help) { return help.name == command; });
   if (one != std::end(kCommands)) {
     if (command == "new")
-      return "usage: codesign new [NAME --from MACHINE] [--json]\n\n" + one->text;
+      return "usage: codesign new [NAME --from MACHINE] [--json] [--quiet]\n\n" + one->text;
     const bool is_for_jobs = command == "report" || command == "apply";
     const std::string head =
         "usage: codesign " + command +

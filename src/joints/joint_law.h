@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "forces/law.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

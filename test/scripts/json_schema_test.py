@@ -78,6 +78,12 @@ class Outputs(unittest.TestCase):
             self.check("check", model, study)
             self.check("identify", model, study)
 
+    def test_a_project_from_the_gallery(self):
+        self.assertTrue(self.check("new")["machines"])
+        with tempfile.TemporaryDirectory() as folder:
+            output = self.check("new", pathlib.Path(folder) / "press", "--from", "toggle_press")
+        self.assertEqual(len(output["files"]), 2)
+
     def test_faults(self):
         self.check("simulate", "urdf/absent.urdf", "config/slider_crank.yaml", code=2, schema="error")
         self.check("simulate", code=2, schema="error")
