@@ -62,5 +62,28 @@ TEST(WatchLayout, ManyBreakTimesEndNoWindows) {
   EXPECT_FALSE(layout.break_near(1.1, 1e-3));
 }
 
+TEST(WatchLayout, PosturesHaveNoWindows) {
+  Study study;
+  study.postures = 5;
+  study.duration = 4.0;
+  WatchedSignal stroke;
+  stroke.role = WatchedSignal::Role::kBounded;
+  stroke.measure = WatchedSignal::Measure::kStroke;
+  stroke.after = 0.5;
+  stroke.before = 3.0;
+  WatchedSignal final;
+  final.role = WatchedSignal::Role::kFinal;
+  final.after = final.before = 4.0;
+  study.watched = {stroke, final};
+  const WatchLayout layout(study);
+  const WatchLayout::Entry& first = layout.entries()[0];
+  EXPECT_EQ(first.instants, (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(first.windows(), 0);
+  EXPECT_EQ(first.measure(), 3);
+  EXPECT_EQ(layout.entries()[1].first, 4);
+  EXPECT_EQ(layout.entries()[1].instants, std::vector<double>{4.0});
+  EXPECT_EQ(layout.size(), 5);
+}
+
 }  // namespace
 }  // namespace codesign
