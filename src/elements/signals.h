@@ -103,15 +103,10 @@ T motor_term(const StateView<T>& view, const SignalReference& term) {
   return ratio * view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
 }
 
-/// Any term of a signal.
+/// A value of a controller.
 template <class T>
-T term_value(const StateView<T>& view, const SignalReference& term) {
+T controller_term(const StateView<T>& view, const SignalReference& term) {
   switch (term.kind) {
-    case SignalKind::kLinkPosition:
-    case SignalKind::kLinkVelocity:
-    case SignalKind::kLinkAcceleration:
-    case SignalKind::kLinkAngularVelocity:
-      return link_term(view, term);
     case SignalKind::kControllerError:
       return controller_error(view, term.controller);
     case SignalKind::kControllerOutput:
@@ -122,8 +117,27 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
       return view.controller_numbers(term.controller).setpoint.at(view.state->t).value;
     case SignalKind::kControllerSetpointRate:
       return view.controller_numbers(term.controller).setpoint.at(view.state->t).rate;
-    case SignalKind::kControllerIntegral:
+    default:
       return view.state->s[view.controller(term.controller).state];
+  }
+}
+
+/// Any term of a signal.
+template <class T>
+T term_value(const StateView<T>& view, const SignalReference& term) {
+  switch (term.kind) {
+    case SignalKind::kLinkPosition:
+    case SignalKind::kLinkVelocity:
+    case SignalKind::kLinkAcceleration:
+    case SignalKind::kLinkAngularVelocity:
+      return link_term(view, term);
+    case SignalKind::kControllerError:
+    case SignalKind::kControllerOutput:
+    case SignalKind::kControllerErrorRate:
+    case SignalKind::kControllerSetpoint:
+    case SignalKind::kControllerSetpointRate:
+    case SignalKind::kControllerIntegral:
+      return controller_term(view, term);
     case SignalKind::kContactFriction:
       return -contact_at(view, term.pair).magnitude();
     case SignalKind::kContactSpeed:

@@ -7,7 +7,7 @@ namespace codesign {
 namespace {
 
 constexpr int kMostGridPositions = 10000;
-constexpr std::size_t kMostPostures = 1000000;
+constexpr std::size_t kMostInGrid = 1000000;
 constexpr const char* kGridForms = "[position, ...] or {from, to, count}";
 
 std::vector<double> read_grid_range(const YamlValue& value) {
@@ -45,7 +45,7 @@ PostureGrid read_posture_grid(const YamlValue& efforts, const RobotDescription& 
     grid.push_back({joint.name,
                     positions.is_map() ? read_grid_range(positions) : read_grid_list(positions),
                     positions.where()});
-    if (count_postures(grid) > kMostPostures)
+    if (count_postures(grid) > kMostInGrid)
       value.fail("more than a million postures", "fewer positions per joint");
   }
   if (grid.empty()) value.fail("no joint has a position", std::string("JOINT: ") + kGridForms);

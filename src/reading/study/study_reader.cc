@@ -129,10 +129,8 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
   };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
-  if (const auto identify = root.find("identify")) {
-    const bool is_planned = root.find("excite").has_value();
-    study.identification = read_identification(*identify, robot, study, is_planned);
-  }
+  if (const auto identify = root.find("identify"))
+    study.identification = read_identification(*identify, robot, study);
   if (const auto efforts = root.find("efforts")) study.grid = read_posture_grid(*efforts, robot);
   if (const auto excite = root.find("excite")) study.excitation = read_excitation(*excite, robot);
   return study;
