@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kInertia = 0.5, kRotor = 2e-4;
+constexpr double kTableInertia = 0.5, kTableRotor = 2e-4;
 
 std::string turntable(const std::string& losses) {
   return "<robot name='turntable' xmlns:codesign='urn:mechanism_codesign'><codesign:parameter "
@@ -23,7 +23,7 @@ std::string turntable(const std::string& losses) {
 }
 
 /// The motor has 0.1 N m; the table should turn as far as possible in a second.
-const char* const kStudy =
+const char* const kTurntableStudy =
     "duration: 1.0\ninitial_state: {turn: {velocity: 0.2}}\ncontrollers: {motor: {type: "
     "state_feedback, output: turn, feedforward: \"${0.1*ratio}\"}}\nparameters: {ratio: {}}\n"
     "objective: {terminal: [{signal: turn/velocity, reference: 20.0}]}\n"
@@ -31,19 +31,19 @@ const char* const kStudy =
 
 double best_ratio(const std::string& losses) {
   const Problem problem =
-      load_problem({"turntable.urdf", turntable(losses)}, {}, {"study.yaml", kStudy});
+      load_problem({"turntable.urdf", turntable(losses)}, {}, {"study.yaml", kTurntableStudy});
   const OptimizationResult result = optimize(problem);
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
   return result.rho[0];
 }
 
 TEST(GearRatio, OfTheGreatestAcceleration) {
-  EXPECT_NEAR(best_ratio(""), std::sqrt(kInertia / kRotor), 1e-3);
+  EXPECT_NEAR(best_ratio(""), std::sqrt(kTableInertia / kTableRotor), 1e-3);
 }
 
 TEST(GearRatio, OfAGearThatLoses) {
   EXPECT_NEAR(best_ratio("efficiency='0.7' transition_velocity='0.001' smoothing='1e-6'"),
-              std::sqrt(kInertia / (0.7 * kRotor)), 1e-2);
+              std::sqrt(kTableInertia / (0.7 * kTableRotor)), 1e-2);
 }
 
 }  // namespace

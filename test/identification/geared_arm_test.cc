@@ -10,7 +10,7 @@ namespace codesign {
 namespace {
 
 /// Two links; the shoulder's gear loses by torque, the elbow has friction as it is identified.
-constexpr const char* kArm = R"(<robot name="arm" xmlns:codesign="urn:t">
+constexpr const char* kGearedArm = R"(<robot name="arm" xmlns:codesign="urn:t">
   <codesign:parameter name="efficiency" value="0.95" lower="0.3" upper="1"/>
   <codesign:parameter name="motor_coulomb" value="0.02" lower="0"/>
   <codesign:parameter name="motor_viscous" value="1e-4" lower="0"/>
@@ -30,7 +30,7 @@ constexpr const char* kArm = R"(<robot name="arm" xmlns:codesign="urn:t">
       viscous_exponent="1" codesign:viscous_exponent="${exponent}"/></joint>
 </robot>)";
 
-constexpr const char* kStudy = R"(duration: 12.0
+const char* const kGearedStudy = R"(duration: 12.0
 controllers:
   s1: {type: pid, input: shoulder/position, setpoint: {type: sine, amplitude: 1.2, frequency: 0.31}, output: shoulder, gains: {p: 900.0, d: 80.0}}
   s2: {type: pid, input: elbow/position, setpoint: {type: sine, amplitude: 1.1, frequency: 0.47, phase: 0.5}, output: elbow, gains: {p: 300.0, d: 25.0}}
@@ -42,30 +42,30 @@ identify:
 optimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}
 )";
 
-const std::map<std::string, double> kTruth = {{"efficiency", 0.85},    {"motor_coulomb", 0.06},
-                                              {"motor_viscous", 3e-4}, {"coulomb", 1.4},
-                                              {"viscous", 2.0},        {"exponent", 0.7}};
+const std::map<std::string, double> kGearedTruth = {
+    {"efficiency", 0.85}, {"motor_coulomb", 0.06}, {"motor_viscous", 3e-4},
+    {"coulomb", 1.4},     {"viscous", 2.0},        {"exponent", 0.7}};
 
-void add_noise(double deviation, unsigned seed, std::vector<double>* values) {
+void add_gear_noise(double deviation, unsigned seed, std::vector<double>* values) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, deviation);
   for (double& value : *values) value += normal(random);
 }
 
 TEST(GearedArm, EfficiencyAndFrictionFromMotorsAlone) {
-  const Problem problem = load_problem({"arm.urdf", kArm}, {}, {"study.yaml", kStudy});
+  const Problem problem = load_problem({"arm.urdf", kGearedArm}, {}, {"study.yaml", kGearedStudy});
   StudyRecordings recordings;
-  recordings.data = {record_run(problem, kTruth, {"shoulder", "elbow"}, 500.0)};
+  recordings.data = {record_run(problem, kGearedTruth, {"shoulder", "elbow"}, 500.0)};
   unsigned seed = 3;
   for (auto& joint : recordings.data[0].joints) {
-    add_noise(1e-5, seed++, &joint.position);
-    add_noise(1.0, seed++, &joint.effort);  // N m, of at most about 50
+    add_gear_noise(1e-5, seed++, &joint.position);
+    add_gear_noise(1.0, seed++, &joint.effort);  // N m, of at most about 50
   }
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.numbers.size(), kTruth.size());
+  ASSERT_EQ(result.numbers.size(), kGearedTruth.size());
   for (const IdentifiedNumber& number : result.numbers) {
-    const double truth = kTruth.at(number.name);
+    const double truth = kGearedTruth.at(number.name);
     const double allowed = number.name == "efficiency" ? 0.01 : 0.03 * truth;
     EXPECT_NEAR(number.value, truth, allowed) << number.name;
     EXPECT_TRUE(number.is_determined) << number.name;
@@ -73,12 +73,12 @@ TEST(GearedArm, EfficiencyAndFrictionFromMotorsAlone) {
 }
 
 TEST(GearedArm, WithoutTheGearTheLossesAreNotExplained) {
-  const Problem problem = load_problem({"arm.urdf", kArm}, {}, {"study.yaml", kStudy});
-  std::string other = kStudy;
+  const Problem problem = load_problem({"arm.urdf", kGearedArm}, {}, {"study.yaml", kGearedStudy});
+  std::string other = kGearedStudy;
   other.replace(other.find("efficiency: {}, "), 16, "efficiency: {tune: false, initial: 1.0}, ");
-  const Problem without = load_problem({"arm.urdf", kArm}, {}, {"study.yaml", other});
+  const Problem without = load_problem({"arm.urdf", kGearedArm}, {}, {"study.yaml", other});
   StudyRecordings recordings;
-  recordings.data = {record_run(problem, kTruth, {"shoulder", "elbow"}, 500.0)};
+  recordings.data = {record_run(problem, kGearedTruth, {"shoulder", "elbow"}, 500.0)};
   const IdentificationResult with_gear = identify(problem, recordings, {}, nullptr),
                              without_gear = identify(without, recordings, {}, nullptr);
   ASSERT_TRUE(with_gear.status.ok()) << with_gear.status.cause;

@@ -55,6 +55,39 @@ TEST(DesignRecord, PeaksLieInTheTable) {
   EXPECT_EQ(poses["links"]["bob"][0].size(), 7U);
 }
 
+/// The warnings of a pendulum that swings at up to about 1 rad/s, with a number of its hinge.
+Warnings warnings_of_swing(const std::string& annotation) {
+  const std::string urdf =
+      "<robot name='p' xmlns:codesign='urn:t'><link name='ground'/><link "
+      "name='bar'><inertial><origin xyz='0 0 -0.5'/><mass value='1'/><inertia ixx='0.08' ixy='0' "
+      "ixz='0' iyy='0.08' iyz='0' izz='0.01'/></inertial></link><joint name='hinge' "
+      "type='continuous'><parent link='ground'/><child link='bar'/><axis xyz='0 1 0'/>" +
+      annotation + "</joint></robot>";
+  const Problem problem = load_problem(
+      {"p.urdf", urdf}, {}, {"p.yaml", "duration: 1.0\ninitial_state: {hinge: {position: 0.3}}\n"});
+  const RunSummary run =
+      record_run(problem, problem.parameters(), {}, 101, [](const std::vector<double>&) {});
+  EXPECT_TRUE(run.status.ok()) << run.status.cause;
+  return run.warnings;
+}
+
+TEST(TransitionWatch, NamesATransitionThatTheMotionNeverReaches) {
+  const Warnings of_friction =
+      warnings_of_swing("<codesign:friction coulomb='0.01' transition_velocity='4'/>");
+  ASSERT_EQ(of_friction.size(), 1U);
+  EXPECT_EQ(of_friction[0].code, "transition_beyond_motion");
+  EXPECT_NE(of_friction[0].message.find("<codesign:friction>"), std::string::npos);
+  EXPECT_EQ(warnings_of_swing("<codesign:actuator rotor_inertia='0' efficiency='0.9' "
+                              "transition_velocity='4'/>")
+                .size(),
+            1U);
+  EXPECT_TRUE(warnings_of_swing("<codesign:friction coulomb='0.01'/>").empty());
+  EXPECT_TRUE(warnings_of_swing("<codesign:friction coulomb='0.01' model='lugre' "
+                                "transition_velocity='4'/>")
+                  .empty())
+      << "bristles stick";
+}
+
 TEST(DesignRecord, ACancelledRunSaysSo) {
   const std::atomic<bool> cancel{true};
   const DesignRecord record = record_design(pendulum(), pendulum().parameters(), &cancel);

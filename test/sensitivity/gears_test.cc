@@ -45,7 +45,7 @@ struct Geared {
                        "<codesign:friction" + twins("f_", friction) + model + "/>"));
   }
   std::string study(const std::string& solver) const {
-    return "duration: 0.6\ninitial_state: {shoulder: {position: 1.0}, elbow: {velocity: 1.0}}\n"
+    return "duration: 0.3\ninitial_state: {shoulder: {position: 1.0}, elbow: {velocity: 1.0}}\n"
            "controllers: {motor: {type: state_feedback, output: shoulder, feedforward: {type: "
            "sine, "
            "amplitude: 15.0, frequency: 2.0}}}\nparameters: {" +
@@ -85,17 +85,17 @@ Geared with_bristles() {
            {"rotor_inertia", "2e-3"},
            {"efficiency", "0.8"},
            {"coulomb", "0.05"},
-           {"transition_velocity", "0.2"},
            {"bristle_stiffness", "50"}},
-          {{"coulomb", "0.4"}, {"static", "0.6"}, {"bristle_stiffness", "20"}},
+          {{"coulomb", "0.4"},
+           {"static", "0.6"},
+           {"transition_velocity", "0.5"},
+           {"bristle_stiffness", "20"}},
           " model='lugre'"};
 }
 
 TEST(GearGradients, AreThoseOfTheStepsTaken) {
   for (const Geared& geared : {smooth(), with_bristles()})
-    for (const char* solver :
-         {"coordinates: joint", "coordinates: absolute", "coordinates: joint, gradient: adjoint",
-          "coordinates: absolute, gradient: adjoint"}) {
+    for (const char* solver : {"coordinates: joint", "coordinates: absolute, gradient: adjoint"}) {
       const GradientCheck exact = geared.check(solver, CheckMethod::kComplexStep);
       ASSERT_TRUE(exact.status.ok()) << solver << exact.status.cause;
       EXPECT_LT(exact.largest_relative_difference, 1e-8) << solver << geared.model;
