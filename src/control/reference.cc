@@ -252,6 +252,7 @@ template <class T>
 ReferenceMotion<T> Reference<T>::expression_at(double t) const {
   const Expression& formula = *expression_->formula;
   std::vector<Taylor<T>> variables;
+  variables.reserve(used_.size());
   for (std::size_t k = 0; k < used_.size(); ++k)
     variables.push_back(formula.dependencies()[k] == expression_->time ? Taylor<T>::time(t)
                                                                        : Taylor<T>(used_[k]));

@@ -145,6 +145,7 @@ SignalReference resolve_spring(const SignalTerm& term, int spring) {
 std::shared_ptr<const ResolvedFormula> resolve_formula(const SignalDescription& signal,
                                                        const std::vector<Parameter>& parameters) {
   std::vector<std::string> names;
+  names.reserve(parameters.size() + 1);
   for (const Parameter& parameter : parameters) names.push_back(parameter.name);
   ResolvedFormula formula{signal.formula->steps, {}};
   int terms = 0;

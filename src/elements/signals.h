@@ -185,6 +185,7 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
 template <class T>
 T formula_value(const StateView<T>& view, const Signal& signal) {
   std::vector<T> variables;
+  variables.reserve(signal.formula->variables.size());
   for (const ResolvedFormula::Variable& variable : signal.formula->variables)
     variables.push_back(variable.term >= 0   ? term_value(view, signal[to_index(variable.term)])
                         : variable.parameter ? value_at(*variable.parameter, view.design.parameters)

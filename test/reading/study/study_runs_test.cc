@@ -109,7 +109,7 @@ TEST(StudyRuns, RefusesWhatIsNoRun) {
   expect_bad_run("{a: {duration: 3}}", "runs.a.duration", "unknown key");
   expect_bad_run("{a: {objective: {}}}", "runs.a.objective", "unknown key");
   EXPECT_EQ(fault_in(kRunStudy + "runs: {a: {duration: 3}}").allowed,
-            "set, weight, initial_state, controllers, loads, gravity");
+            "set, weight, initial_state, controllers, loads, motion, gravity");
   expect_bad_run("{a: {weight: 0}}", "runs.a.weight", "must be positive");
   expect_bad_run("{a: {weight: heavy}}", "runs.a.weight", "not a number");
 }
