@@ -56,8 +56,9 @@ GradientCheck checked(const std::string& urdf, const std::string& study,
   GradientCase c = from_texts("given", urdf, study);
   c.study.solver.coordinates =
       coordinates == "joint" ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
-  c.study.solver.relative_tolerance = 1e-8;
-  c.study.solver.absolute_tolerance = 1e-9;
+  c.study.solver.relative_tolerance = 1e-7;
+  c.study.solver.absolute_tolerance = 1e-8;
+  c.study.solver.maximum_step = 0.02;  // in place of a 500th of the duration
   const auto system = c.compile(method, gradient);
   const Eigen::VectorXd rho = (Eigen::VectorXd(4) << 1.1, 0.5, 2.0, 3.0).finished();
   GradientCheck check = check_gradient(system, rho, CheckMethod::kComplexStep);
@@ -78,10 +79,10 @@ TEST_P(GivenMotionGradient, IsExact) {
     EXPECT_LT(joint.largest_relative_difference, 1e-8) << study;
     EXPECT_LT(absolute.largest_relative_difference, 1e-8) << study;
     EXPECT_NEAR(joint.evaluation.objective, absolute.evaluation.objective,
-                1e-5 * std::abs(absolute.evaluation.objective));
+                1e-4 * std::abs(absolute.evaluation.objective));
     for (int k = 0; k < 4; ++k)
       EXPECT_NEAR(joint.evaluation.gradient[k], absolute.evaluation.gradient[k],
-                  1e-4 * absolute.evaluation.gradient.norm())
+                  1e-3 * absolute.evaluation.gradient.norm())
           << k;
   }
 }
