@@ -6,8 +6,8 @@
 
 #include "identification/effort/motion_projection.h"
 #include "math/arrays.h"
-#include "statics/given_motion.h"
 #include "statics/posture_efforts.h"
+#include "statics/setpoint_motion.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -21,7 +21,7 @@ std::vector<double> list_of(const Eigen::VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
-DrivenReplay replay_of(const Problem& problem, const GivenMotion& motion,
+DrivenReplay replay_of(const Problem& problem, const SetpointMotion& motion,
                        const std::vector<double>& parameters,
                        const std::vector<SignalDescription>& signals) {
   try {
@@ -82,7 +82,7 @@ EffortSummary record_motion(const Problem& problem, const std::vector<double>& p
                             const std::vector<SignalDescription>& signals, int samples,
                             const RowSink& sink, const std::atomic<bool>* cancel) {
   const double duration = problem.study().duration;
-  const GivenMotion motion(problem.study(), parameters);
+  const SetpointMotion motion(problem.study(), parameters);
   DrivenReplay replay = replay_of(problem, motion, parameters, signals);
   LimitOptions enforced = problem.study().limits;
   enforced.effort = false;  // no controller keeps it
@@ -179,7 +179,7 @@ std::vector<std::string> effort_columns(const Problem& problem,
     add(joint.joint, {"effort", "breakaway_down", "breakaway_up", "holding"});
   if (grid.empty()) {
     columns.emplace_back("time");
-    const GivenMotion motion(problem.study(), problem.parameters());
+    const SetpointMotion motion(problem.study(), problem.parameters());
     for (const MeasuredJoint& joint : motion.joints())
       add(joint.name, {"position", "velocity", "acceleration", "effort"});
   }

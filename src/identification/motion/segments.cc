@@ -19,9 +19,9 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
-constexpr double kResolved =
+constexpr double kEnough =
     1e-8;  // of the value: a start with a smaller predicted decrease is the best one
-// Factor of kResolved with each run, since predictions of less are noise of step sizes.
+// Factor of kEnough with each run, since predictions of less are noise of step sizes.
 constexpr double kPatience = 10.0;
 // Share of the sum of squares of the recorded values that a simulation does not resolve.
 constexpr double kResolved = 1e-14;
@@ -84,7 +84,7 @@ class StartCost final : public LeastSquaresModel {
     const double predicted_decrease = columns.predicted_decrease(weighted.residuals.reshaped());
     if (!is_begun_ || weighted.value < best_.value)
       keep(start, weighted, columns, predicted_decrease > resolved_ ? predicted_decrease : 0.0);
-    const double enough = kResolved * std::pow(kPatience, best_.runs - 1) * weighted.value;
+    const double enough = kEnough * std::pow(kPatience, best_.runs - 1) * weighted.value;
     return predicted_decrease <= std::max(enough, resolved_) ? Outcome::kStop : Outcome::kUsable;
   }
   bool is_begun() const { return is_begun_; }

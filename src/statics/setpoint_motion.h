@@ -13,12 +13,12 @@ struct MotionStudy;
 
 /// The motion that a study asks of its joints: each joint whose position a controller controls has
 /// the position, rate and acceleration of the set-point, without an error.
-class GivenMotion {
+class SetpointMotion {
  public:
   /// @param parameters all named parameters.
   /// @throws InputError if no controller controls the position of a joint, or two control one
   /// joint.
-  GivenMotion(const MotionStudy& study, const std::vector<double>& parameters);
+  SetpointMotion(const MotionStudy& study, const std::vector<double>& parameters);
 
   const std::vector<MeasuredJoint>& joints() const { return joints_; }
   /// Positions, rates and accelerations at a time [s], in the order of joints().

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "statics/given_motion.h"
+#include "statics/setpoint_motion.h"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ std::string controlled_joint(const ControllerDescription& controller) {
 
 }  // namespace
 
-GivenMotion::GivenMotion(const MotionStudy& study, const std::vector<double>& parameters) {
+SetpointMotion::SetpointMotion(const MotionStudy& study, const std::vector<double>& parameters) {
   for (const ControllerDescription& controller : study.controllers) {
     const std::string joint = controlled_joint(controller);
     if (joint.empty()) continue;
@@ -41,7 +41,7 @@ GivenMotion::GivenMotion(const MotionStudy& study, const std::vector<double>& pa
                       "or pd_gravity; or postures in efforts.grid"});
 }
 
-void GivenMotion::at(double time, Eigen::VectorXd (*given)[3]) const {
+void SetpointMotion::at(double time, Eigen::VectorXd (*given)[3]) const {
   for (Eigen::VectorXd& order : *given) order.resize(to_signed(joints_.size()));
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const ReferenceMotion<double> motion = setpoints_[k].at(time);
@@ -52,7 +52,7 @@ void GivenMotion::at(double time, Eigen::VectorXd (*given)[3]) const {
   }
 }
 
-Eigen::MatrixXd GivenMotion::some_positions(double duration) const {
+Eigen::MatrixXd SetpointMotion::some_positions(double duration) const {
   constexpr int kInstants = 4;
   Eigen::MatrixXd some(to_signed(joints_.size()), kInstants);
   Eigen::VectorXd given[3];

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "statics/given_motion.h"
+#include "statics/setpoint_motion.h"
 
 #include <cmath>
 
@@ -9,13 +9,13 @@
 namespace codesign {
 namespace {
 
-GivenMotion motion_of(const std::string& controllers) {
+SetpointMotion motion_of(const std::string& controllers) {
   const Problem problem = loaded(arm_urdf(), "duration: 2\ncontrollers: " + controllers + "\n");
   return {problem.study(), problem.parameters()};
 }
 
-TEST(GivenMotion, IsThatOfTheSetpoints) {
-  const GivenMotion motion = motion_of(
+TEST(SetpointMotion, IsThatOfTheSetpoints) {
+  const SetpointMotion motion = motion_of(
       "{swing: {type: pid, input: elbow/position, output: elbow, setpoint: {type: sine, amplitude: "
       "0.4, period: 2, offset: 0.1}, gains: {p: 1}}, hold: {type: pd_gravity, output: shoulder, "
       "setpoint: 0.3, gains: {p: 1, d: 0}}, brake: {type: pid, input: shoulder/velocity, output: "
@@ -34,7 +34,7 @@ TEST(GivenMotion, IsThatOfTheSetpoints) {
   EXPECT_EQ(motion.some_positions(2.0).cols(), 4);
 }
 
-TEST(GivenMotion, RefusesAStudyWithoutOne) {
+TEST(SetpointMotion, RefusesAStudyWithoutOne) {
   const std::string none = refused([] {
     motion_of(
         "{brake: {type: pid, input: shoulder/velocity, output: shoulder, setpoint: 0, gains: "
