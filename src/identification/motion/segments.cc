@@ -289,7 +289,7 @@ SegmentSolution fit_segment(const SegmentProblem& problem,
                             SegmentRun* run) {
   LevenbergMarquardtOptions options;
   options.max_evaluations = work == SegmentWork::kBetterStart ? kFewRuns : kMostRuns;
-  options.relative_tolerance = kResolved;
+  options.relative_tolerance = kEnough;
   options.largest_first_step = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd open =
       Eigen::VectorXd::Constant(problem.of.starts, std::numeric_limits<double>::infinity());
