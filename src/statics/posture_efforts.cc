@@ -20,14 +20,16 @@ constexpr double kTransition = 1e-6 * kSlip;
 /// The mechanism whose friction has its static coefficient at any speed above kTransition. A law
 /// with states holds up to the same coefficient.
 RobotDescription with_static_friction(RobotDescription robot) {
+  const auto set = [](FrictionDescription* friction) {
+    if (friction->model->bristle) friction->model = FrictionModel::kBrownMcPhee;
+    friction->mu_dynamic = friction->mu_static;
+    friction->mu_dynamic_backward = friction->mu_static_backward;
+    friction->transition_velocity = Quantity(kTransition);
+  };
   for (JointDescription& joint : robot.joints) {
     joint.dry_transition_velocity = kTransition;
-    if (!joint.friction) continue;
-    FrictionDescription& friction = *joint.friction;
-    if (friction.model->bristle) friction.model = FrictionModel::kBrownMcPhee;
-    friction.mu_dynamic = friction.mu_static;
-    friction.mu_dynamic_backward = friction.mu_static_backward;
-    friction.transition_velocity = Quantity(kTransition);
+    if (joint.friction) set(&*joint.friction);
+    if (joint.actuator && joint.actuator->gear) set(&joint.actuator->gear->slip);
   }
   return robot;
 }

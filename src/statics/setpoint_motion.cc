@@ -38,7 +38,8 @@ SetpointMotion::SetpointMotion(const MotionStudy& study, const std::vector<doubl
                       "the study gives no motion: no controller controls the position of a joint",
                       "",
                       "a controller with the input JOINT/position, or of the type computed_torque "
-                      "or pd_gravity; or postures in efforts.grid"});
+                      "or pd_gravity; or postures in efforts.grid. Motions that are given by "
+                      "`motion` are simulated, and their efforts are signals"});
 }
 
 void SetpointMotion::at(double time, Eigen::VectorXd (*given)[3]) const {
