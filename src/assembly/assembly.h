@@ -271,8 +271,8 @@ class Assembly {
   std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
   VectorX<double> theta_, theta_rate_;
-  double start_time_ = 0.0;               ///< [s]
-  double time_ = 0.0;                     ///< of the positions that are sought [s]
+  double start_time_ = 0.0;  ///< [s]
+  double time_ = 0.0;        ///< of the positions that are sought [s]
   double posture_ =
       0.0;  ///< number of the posture that theta_ belongs to, or on the way to the next
   VectorX<double> guess_;                 ///< of theta_, instead of the study's; empty: none

@@ -73,7 +73,7 @@ class Integrator {
   const std::atomic<bool>* cancel_ = nullptr;
 };
 
-/// The integrator that the study selects by solver.integrator, or the sequence of its postures. @param system must outlive it.
+/// The integrator of the study, or the sequence of its postures. @param system must outlive it.
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system);
 
 /// Checks that the design in `equations` is possible: kInvalidDesign with the first impossible

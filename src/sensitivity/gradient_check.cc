@@ -308,7 +308,8 @@ GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
   GradientCheck check;
   check.directions = directions;
   const MotionStudy& study = system->study();
-  const bool by_differences = study.postures > 0 || study.solver.integrator == IntegratorKind::kIdas ||
+  const bool by_differences = study.postures > 0 ||
+                              study.solver.integrator == IntegratorKind::kIdas ||
                               std::any_of(study.watched.begin(), study.watched.end(), has_band);
   check.method = by_differences ? CheckMethod::kRidders : method;
   check.reference.setZero(count);
