@@ -84,8 +84,8 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
 
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
-  static const Names kAll = {"check",    "urdf",     "simulate", "gradient",
-                             "optimize", "identify", "excite",   "new"};
+  static const Names kAll = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
+                             "gradient", "optimize", "identify", "excite",  "new"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,

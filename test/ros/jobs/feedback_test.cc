@@ -35,10 +35,10 @@ class IdentificationFeedbackTest : public testing::Test {
 
 TEST_F(IdentificationFeedbackTest, TellsStagesEvaluationsAndTheTimeLeft) {
   feedback_.begin("reading");
-  feedback_.tell(trial(1));
-  feedback_.tell(trial(2));
-  feedback_.tell(trial(3, 1));
-  feedback_.tell(trial(4, 2));
+  feedback_.publish(trial(1));
+  feedback_.publish(trial(2));
+  feedback_.publish(trial(3, 1));
+  feedback_.publish(trial(4, 2));
   feedback_.begin("recording");
   feedback_.finish();
   ASSERT_EQ(told_.size(), 7U);
@@ -69,8 +69,8 @@ TEST_F(IdentificationFeedbackTest, TellsStagesEvaluationsAndTheTimeLeft) {
 
 TEST_F(IdentificationFeedbackTest, TheBagGetsTheEvaluationsOfTheFit) {
   feedback_.begin("reading");
-  feedback_.tell(trial(1));
-  feedback_.tell(trial(2, 1));
+  feedback_.publish(trial(1));
+  feedback_.publish(trial(2, 1));
   const auto kept = feedback_.take();
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_EQ(kept[0].evaluation, 1U);
@@ -80,7 +80,7 @@ TEST_F(IdentificationFeedbackTest, AFailedEvaluationSaysWhy) {
   FitTrial failed = trial(2);
   failed.status = {StatusCode::kAssemblyFailed, 0.0, "the rod does not reach"};
   failed.rms.resize(0);
-  feedback_.tell(failed);
+  feedback_.publish(failed);
   EXPECT_EQ(told_[0].code, "assembly_failed");
   EXPECT_EQ(told_[0].message, "the rod does not reach");
   EXPECT_TRUE(told_[0].rms.empty());
@@ -112,7 +112,7 @@ TEST_F(JobFeedbackTest, BeforeTheFirstTrialPointItTellsOnlyHowFarTheJobIs) {
   progress.of = 40;
   progress.runs = 12;
   progress.remembered = 5;
-  feedback_.tell(progress);
+  feedback_.publish(progress);
   ASSERT_EQ(told_.size(), 1U);
   const Message& message = told_[0];
   EXPECT_EQ(message.evaluation, 0U);
@@ -130,12 +130,12 @@ TEST_F(JobFeedbackTest, BeforeTheFirstTrialPointItTellsOnlyHowFarTheJobIs) {
 
 TEST_F(JobFeedbackTest, BetweenTrialPointsItRepeatsTheLastOne) {
   Progress progress;
-  feedback_.tell(trial(7), progress);
+  feedback_.publish(trial(7), progress);
   progress.stage = SearchStage::kValidating;
   progress.runs_per_second = 20.0;
   progress.seconds_left = 1.5;
   progress.is_bound = true;
-  feedback_.tell(progress);
+  feedback_.publish(progress);
   feedback_.finish(progress);
   ASSERT_EQ(told_.size(), 3U);
   EXPECT_EQ(told_[0].stage, "searching");
@@ -158,9 +158,9 @@ TEST_F(JobFeedbackTest, NeverGoesBackToAnEarlierCountOfRuns) {
   early.runs = 121;
   late.runs = 122;
   late.seconds_left = 3.0;
-  feedback_.tell(late);
-  feedback_.tell(early);
-  feedback_.tell(trial(2), early);
+  feedback_.publish(late);
+  feedback_.publish(early);
+  feedback_.publish(trial(2), early);
   ASSERT_EQ(told_.size(), 3U);
   for (const Message& message : told_) {
     EXPECT_EQ(message.runs, 122U);
@@ -171,8 +171,8 @@ TEST_F(JobFeedbackTest, NeverGoesBackToAnEarlierCountOfRuns) {
 
 TEST_F(JobFeedbackTest, TheBagGetsTrialPointsAlone) {
   for (int k = 1; k <= 3; ++k) {
-    feedback_.tell(trial(k), Progress());
-    feedback_.tell(Progress());
+    feedback_.publish(trial(k), Progress());
+    feedback_.publish(Progress());
   }
   EXPECT_EQ(told_.size(), 6U);
   const std::vector<LoggedTrial> kept = feedback_.take();
