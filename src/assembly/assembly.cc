@@ -360,11 +360,13 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters,
     for (SparseMatrix::InnerIterator entry(work_.enforced, c); entry; ++entry)
       if (drops_[to_index(entry.row())]) entry.valueRef() *= 0.0;
   find_given_rates(*equations);
-  work_.rows = work_.enforced * theta_rate_ - work_.given;
+  work_.rows.noalias() = work_.enforced * theta_rate_;
+  work_.rows -= work_.given;
   const Eigen::MatrixXd& step = velocities_.solve(work_.rows, &work_.scaled, &work_.solution);
   for (std::size_t k = 0; k < velocities_.columns.size(); ++k)
     theta_rate_[velocities_.columns[k]] -= step(to_signed(k), 0);
-  work_.left = work_.enforced * theta_rate_ - work_.given;
+  work_.left.noalias() = work_.enforced * theta_rate_;
+  work_.left -= work_.given;
   if (work_.left.size() > 0 &&
       !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
     return contradiction();
