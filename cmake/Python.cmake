@@ -15,8 +15,10 @@ install(CODE "
 
 # For the Python of Python3_EXECUTABLE (cmake/Environment.cmake).
 set(PYBIND11_FINDPYTHON ON)
-find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
-if(Python3_Development.Module_FOUND)
+# By the name Python, which pybind11 prefers once anything has found an interpreter by that name.
+set(Python_EXECUTABLE ${Python3_EXECUTABLE})
+find_package(Python QUIET COMPONENTS Interpreter Development.Module)
+if(Python_Development.Module_FOUND)
   find_package(pybind11 2.10 QUIET)
 endif()
 # A sanitizer watches whole programs, and Python is not ours.
