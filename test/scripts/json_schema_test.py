@@ -56,6 +56,19 @@ class Outputs(unittest.TestCase):
         self.assertEqual(len(output["series"]["time"]), len(next(iter(output["series"].values()))))
         self.check("urdf", "urdf/slider_crank.urdf")
 
+    def test_statics(self):
+        self.check("efforts", *self.case("two_link_arm"))
+        with tempfile.TemporaryDirectory() as folder:
+            study = pathlib.Path(folder) / "study.yaml"
+            study.write_text("duration: 1.0\nefforts: {grid: {shoulder: {from: -1.5, to: 1.5, count: 3}, elbow: [0.0, 1.0]}}\n")
+            self.check("efforts", "urdf/two_link_arm.urdf", study)
+            study.write_text("duration: 2.0\n")
+            self.check("equilibrium", "urdf/governor.urdf", study)
+
+    def test_postures_and_measures(self):
+        self.check("simulate", *self.case("four_bar_path"))
+        self.check("optimize", *self.case("six_bar_dwell"))
+
     def test_a_gradient(self):
         self.check("gradient", *self.case("slider_crank"), "--verify")
         self.check("gradient", *self.case("slider_crank"), "--verify=ridders")
