@@ -28,17 +28,22 @@ TEST(Laws, FrictionHasAFunctionForEitherScalar) {
   EXPECT_FALSE(find_friction(standard_laws(), "sticky"));
 }
 
-TEST(FrictionNumbers, EveryMemberIsVisitedOnce) {
+TEST(FrictionNumbers, EveryMemberIsVisitedOnceInEachForm) {
   FrictionNumbers<double> numbers;
-  std::set<const double*> visited;
-  std::set<std::string> names;
-  const auto note = [&](const FrictionNumberRule& rule, double& number) {
-    visited.insert(&number);
-    names.insert(rule.attribute);
-  };
-  visit_friction_numbers(note, &numbers);
-  EXPECT_EQ(visited.size(), sizeof(numbers) / sizeof(double));
-  EXPECT_EQ(names.size(), visited.size());
+  std::set<const double*> in_any_form;
+  for (const bool direct : {false, true}) {
+    std::set<const double*> visited;
+    std::set<std::string> names;
+    const auto note = [&](const FrictionNumberRule& rule, double& number) {
+      if (!rule.is_in(direct)) return;
+      EXPECT_TRUE(visited.insert(&number).second) << rule.attribute;
+      names.insert(rule.attribute);
+    };
+    visit_friction_numbers(note, &numbers);
+    EXPECT_EQ(names.size(), visited.size());
+    in_any_form.insert(visited.begin(), visited.end());
+  }
+  EXPECT_EQ(in_any_form.size(), sizeof(numbers) / sizeof(double));
 }
 
 TEST(FrictionNumbers, TwoStructuresAreVisitedSideBySide) {
