@@ -96,7 +96,8 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
   const Problem problem = block("");
   for (const bool answers : {false, true}) {
     std::atomic<bool> cancel{false};
-    // The other rank gets a task, so that the batch does not end before that rank is pinged.
+    // So many tasks that the other rank gets one even if it is slow, and that the batch does not
+    // end before that rank is pinged.
     const auto part = [answers, &cancel](MessageKind kind, std::uint64_t number) {
       if (kind == MessageKind::kTask) cancel = true;
       return answers && kind == MessageKind::kPing
@@ -109,7 +110,7 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
     // case.
     bool has_lost = false;
     for (const Evaluation& one :
-         MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 3), &cancel))
+         MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 100), &cancel))
       has_lost = has_lost || one.status.code == StatusCode::kWorkerLost;
     EXPECT_EQ(has_lost, !answers);
     EXPECT_TRUE(job.ranks()->lost().ok()) << "it may have been busy otherwise";
