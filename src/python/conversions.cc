@@ -37,7 +37,7 @@ py::object to_python(const Json& json) {
     case Json::value_t::object: {
       py::dict object;
       for (const auto& [key, value] : json.items()) object[to_str(key)] = to_python(value);
-      return std::move(object);
+      return object;
     }
     case Json::value_t::array:
       return list_of(json);
@@ -73,7 +73,7 @@ py::array keep_as_array(std::vector<double> values, std::size_t room, std::size_
                           [](void* held) { delete static_cast<std::vector<double>*>(held); });
   py::array_t<double> array({columns, rows}, {room * sizeof(double), sizeof(double)}, data, owner);
   array.attr("setflags")(false);
-  return std::move(array);
+  return array;
 }
 
 std::vector<double> to_numbers(const py::handle& values, const std::string& name) {
