@@ -23,7 +23,10 @@ install(DIRECTORY scripts/codesign_report DESTINATION ${CATKIN_PACKAGE_SHARE_DES
 if(NOT catkin_FOUND)
   return()
 endif()
-catkin_add_env_hooks(50.codesign SHELLS bash zsh DIRECTORY ${PROJECT_SOURCE_DIR}/env-hooks)
+# A package of Debian puts the completion where every shell looks.
+if(NOT CATKIN_BUILD_BINARY_PACKAGE)
+  catkin_add_env_hooks(50.codesign SHELLS bash zsh DIRECTORY ${PROJECT_SOURCE_DIR}/env-hooks)
+endif()
 catkin_add_env_hooks(40.codesign_path SHELLS sh DIRECTORY ${PROJECT_SOURCE_DIR}/env-hooks SKIP_INSTALL)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 file(CREATE_LINK ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/codesign ${PROJECT_BINARY_DIR}/bin/codesign SYMBOLIC)

@@ -158,6 +158,14 @@ foreach(tool build check ci fresh packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()
 
+# What tools/test --quick leaves out: whole jobs, processes of MPI, builds of other programs; below also what starts a ROS master.
+get_property(codesign_tests DIRECTORY PROPERTY TESTS)
+foreach(test IN LISTS codesign_tests)
+  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|gallery|report$|python_(jobs|tutorial)|corpus_table|api_page)")
+    set_tests_properties(${test} PROPERTIES LABELS slow)
+  endif()
+endforeach()
+
 if(NOT TARGET codesign_ros)
   return()
 endif()
@@ -175,6 +183,8 @@ find_package(rostest REQUIRED)
 file(GLOB rostests RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
 foreach(file IN LISTS rostests)
   add_rostest(${file} DEPENDENCIES ${codesign_nodes})
+  string(REPLACE / _ rostest ${file})
+  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_${rostest} PROPERTIES LABELS slow)
 endforeach()
 # The longest test first, so that the others run beside it.
 set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_launch_files.test PROPERTIES COST 1000)

@@ -9,6 +9,7 @@ _codesign_value() {
     --result) mapfile -t COMPREPLY < <(compgen -f -X '!*.json' -- "$2"; compgen -d -- "$2") ;;
     --csv | -o) mapfile -t COMPREPLY < <(compgen -f -- "$2") ;;
     --output | --resume) mapfile -t COMPREPLY < <(compgen -d -- "$2") ;;
+    --from) mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" new 2>/dev/null | cut -d ' ' -f 1)" -- "$2") ;;
     --verify) mapfile -t COMPREPLY < <(compgen -W "complex_step ridders" -- "$2") ;;
     *) COMPREPLY=() ;;
   esac
@@ -30,12 +31,8 @@ _codesign() {
     mapfile -t COMPREPLY < <(compgen -W "check urdf simulate efforts equilibrium gradient optimize identify excite new report apply" -- "$word")
     return
   fi
-  if [ "$previous" = --from ]; then
-    mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" new 2>/dev/null | cut -d ' ' -f 1)" -- "$word")
-    return
-  fi
   case $previous in
-    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | --run | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
+    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | --run | --from | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
       _codesign_value "$previous" "$word"
       return
       ;;

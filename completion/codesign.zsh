@@ -11,7 +11,7 @@ _codesign() {
     _values 'command' 'check[equations and redundant constraints]' 'urdf[the URDF that is simulated]' 'simulate[one run as CSV]' \
       'efforts[the efforts that a motion or postures need]' 'equilibrium[a posture at rest and its stability]' \
       'gradient[objective and gradient]' 'optimize[tune the parameters of the study]' 'identify[fit parameters to recordings]' 'excite[find the motion to record]' \
-      'new[a project from the gallery]'       'report[a page of what a job has found]' 'apply[send gains to a running robot]' 'help[the options]' '--help' '--version'
+      'new[a project from the gallery]' 'report[a page of what a job has found]' 'apply[send gains to a running robot]' 'help[the options]' '--help' '--version'
     return
   fi
   case ${words[2]} in

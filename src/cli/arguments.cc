@@ -82,10 +82,11 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   arguments->resume = arguments->resume || resume;
 }
 
+Names command_names();
+
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
-  static const Names kAll = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
-                             "gradient", "optimize", "identify", "excite",  "new"};
+  static const Names kAll = command_names();
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,
@@ -265,6 +266,12 @@ constexpr const char* kSharedOptions =
   --quiet                  no progress on standard error; warnings and errors stay
 )";
 
+Names command_names() {
+  Names names;
+  for (const CommandHelp& command : kCommands) names.push_back(command.name);
+  return names;
+}
+
 constexpr const char* kExitCodes = R"(
 exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
 the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
@@ -273,9 +280,8 @@ the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
-  const Names commands = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
-                          "gradient", "optimize", "identify", "excite",  "new",
-                          "report",   "apply",    "help"};
+  Names commands = command_names();
+  commands.push_back("help");
   Arguments arguments;
   if (words.empty()) throw UsageError("no command given");
   arguments.command = asks_for_help(words) ? "help" : words[0];

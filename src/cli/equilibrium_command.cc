@@ -1,4 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "assembly/reaction_advice.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"

@@ -89,7 +89,7 @@ int start_project(const Arguments& arguments, const std::string& gallery, const 
   if (fs::exists(fs::symlink_status(folder)))
     throw InputError({{arguments.model, 0},
                       "",
-                      "this exists, and nothing is replaced",
+                      "this already exists, and codesign new does not overwrite anything",
                       arguments.model,
                       "the name of a folder that does not exist"});
   make_folder(arguments.model, "new");

@@ -32,8 +32,8 @@ void summarize(const RunSummary& run, const Problem& problem, std::ostream& err)
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
-/// Adds the objective. It is that of the run, unless it has peaks, which need a separate run that
-/// follows them. If that run fails, `status` becomes its status.
+/// Adds the objective. It is that of the run, unless it has peaks or measures, which need a
+/// separate run that follows them. If that run fails, `status` becomes its status.
 /// @param as_searched integrates as a search does, so that the objective of a result is reproduced:
 /// if sensitivities take part in the error test, a search has other steps.
 void add_objective(const Problem& problem, bool as_searched, const std::optional<double>& of_run,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "control/controller.h"
@@ -42,7 +43,7 @@ struct Design {
       terminal;                       ///< the integrand g and the terminal terms w of theory (21)
   std::vector<Reference<T>> watched;  ///< the references of Study::watched, theory (21a)
   std::vector<LoadNumbers<T>> loads;  ///< order of Study::loads
-  Reference<T> clock;                 ///< the time, if System::reads_time()
+  Reference<T> clock;                 ///< the time; of recordings if System::reads_time()
   std::vector<Reference<T>> motion;   ///< order of Study::motion, theory (8b)
   Vector3<T> gravity;                 ///< [m/s^2], in the root link's axes
 
@@ -82,7 +83,8 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   for (int k = 0; k < 3; ++k) gravity[k] = T(system.study().gravity[to_index(k)]);
   evaluate_constants(system.robot(), system.topology(), parameters, &mass_workspace, &constants);
   set_loads(system, this);
-  if (system.reads_time()) clock.set(clock_function(), parameters);
+  // Observers may read more signals than the study. What is recorded has the time only if needed.
+  if (!std::is_same_v<T, Traced> || system.reads_time()) clock.set(clock_function(), parameters);
   rows.resize(constants.pairs.size());
   for (std::size_t k = 0; k < rows.size(); ++k)
     pair_rows(system.topology().pairs[k].kind, constants.pairs[k], &rows[k]);

@@ -59,14 +59,16 @@ T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
   return -load_of_kind(view, kind, load, rate) * rate;
 }
 
-/// The power of the drives of one pair's coordinate, or of all drives (pair -1); theory (28).
+/// The power of the drive of one pair's coordinate, or of all drives (pair -1); theory (28).
 template <class T>
 T drive_power(const StateView<T>& view, int pair, int element) {
   T sum(0.0);
-  for_each_drive(view, [&](const CouplingTerm& at, const T& effort) {
-    if (pair >= 0 && (at.pair != pair || at.element != element)) return;
-    sum += effort * view.coordinate(at.pair, at.element, CoordinateDetail::kRate).rate;
-  });
+  for (const Coupling& coupling : view.system.topology().couplings) {
+    const CouplingTerm& at = coupling.terms.front();
+    if (!coupling.is_drive || (pair >= 0 && (at.pair != pair || at.element != element))) continue;
+    sum -= coupling_load(view, at.pair, at.element, true) *
+           view.coordinate(at.pair, at.element, CoordinateDetail::kRate).rate;
+  }
   return sum;
 }
 

@@ -144,14 +144,14 @@ T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
 /// The sum of c lambda of the couplings of a coordinate [N or N m]: of its drive, which acts on the
 /// motor's side of a gear, or of all others, which act on the joint's side; theory (8a), (28).
 template <class T>
-T coupling_load(const StateView<T>& view, const JointLoad& load, bool of_drive) {
+T coupling_load(const StateView<T>& view, int pair, int element, bool of_drive) {
   T value(0.0);
   for (std::size_t k = 0; k < view.design.constants.couplings.size(); ++k) {
     const Coupling& coupling = view.system.topology().couplings[k];
     if (coupling.is_drive != of_drive) continue;
     const int row = view.layout.lambda_column(view.layout.coupling_row(static_cast<int>(k)));
     for (std::size_t t = 0; t < coupling.terms.size(); ++t)
-      if (coupling.terms[t].pair == load.pair && coupling.terms[t].element == load.element)
+      if (coupling.terms[t].pair == pair && coupling.terms[t].element == element)
         value += view.design.constants.couplings[k].coefficients[t] * view.state->z[row];
   }
   return value;
@@ -169,7 +169,7 @@ T gear_torque(const StateView<T>& view, const JointLoad& load, const T& rate) {
              view.motion.poses[body],
              view.state->q.data() + view.layout.column(static_cast<int>(body)), rows.data());
   return rows[to_index(load.element)] + link_load(view, load, rate) +
-         coupling_load(view, load, false);
+         coupling_load(view, load.pair, load.element, false);
 }
 
 /// The friction of a gear's flanks per pressure, mu of theory (9b).
@@ -209,7 +209,8 @@ void gear_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* 
   if (load.gear_unknown < 0) return;
   const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
   const int column = view.layout.gear_column(load.gear_unknown);
-  T value = view.state->z[column] + gear_load(view, load, rate) + coupling_load(view, load, true);
+  T value = view.state->z[column] + gear_load(view, load, rate) +
+            coupling_load(view, load.pair, load.element, true);
   if (!load.controllers.empty()) value -= applied_effort(view, load);
   for (const Rotor& rotor : view.system.rotors())
     if (rotor.pair == load.pair && rotor.element == load.element) value += rotor_load(view, rotor);
@@ -268,18 +269,6 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   return state;
 }
 
-/// Calls visit(term of the coordinate, effort) for each drive, whose effort is minus its
-/// multiplier; theory (28).
-template <class T, class Visit>
-void for_each_drive(const StateView<T>& view, const Visit& visit) {
-  const std::vector<Coupling>& couplings = view.system.topology().couplings;
-  for (std::size_t k = 0; k < couplings.size(); ++k) {
-    if (!couplings[k].is_drive) continue;
-    const int row = view.layout.coupling_row(static_cast<int>(k));
-    visit(couplings[k].terms.front(), T(-view.state->z[view.layout.lambda_column(row)]));
-  }
-}
-
 /// The effort that controllers apply along a coordinate, within the actuator's limit, and the
 /// effort of its drive; positive along the coordinate.
 template <class T>
@@ -287,10 +276,7 @@ T joint_effort(const StateView<T>& view, int pair, int element) {
   T sum(0.0);
   for (const JointLoad& load : view.system.loads())
     if (load.pair == pair && load.element == element) sum += applied_effort(view, load);
-  for_each_drive(view, [&](const CouplingTerm& at, const T& effort) {
-    if (at.pair == pair && at.element == element) sum += effort;
-  });
-  return sum;
+  return sum - coupling_load(view, pair, element, true);
 }
 
 }  // namespace codesign

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "assembly/assembly.h"
 #include "equations/compiled_system.h"
 #include "integration/integrator.h"
 #include "integration/run_ends.h"

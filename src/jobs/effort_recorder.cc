@@ -30,8 +30,8 @@ DrivenReplay replay_of(const Problem& problem, const SetpointMotion& motion,
   } catch (const InputError& error) {
     throw InputError(in_words_of_study(
         error.fault(), "controllers",
-        "its motion is not determined: no controller controls its position, and it does not follow "
-        "from the joints of which one does",
+        "its motion is not determined: no controller controls its position, and the joints whose "
+        "positions are controlled do not determine it through the loops",
         "controllers of the positions of as many independent joints as there are degrees of "
         "freedom"));
   }

@@ -224,8 +224,8 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   summary.warnings = simulation.warnings();
   if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
   const Study& study = problem.study();
-  const bool has_peak = std::any_of(study.watched.begin(), study.watched.end(), is_term);
-  if (summary.status.ok() && has_objective(study) && !has_peak &&
+  const bool has_term = std::any_of(study.watched.begin(), study.watched.end(), is_term);
+  if (summary.status.ok() && has_objective(study) && !has_term &&
       simulation.time() == study.duration)
     summary.objective = simulation.objective();
   summary.crossings = watch.crossings();

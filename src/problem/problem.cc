@@ -244,7 +244,7 @@ Problem run_of(const Problem& problem, const std::string& name) {
     names.push_back(run.name);
     if (run.name != name) continue;
     Study study = run.study ? *run.study : whole;
-    study.ensemble.runs.clear();
+    study.ensemble = {};
     study.grid = whole.grid;
     return with_study(problem, std::move(study), run.set);
   }

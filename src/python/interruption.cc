@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "python/interruption.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 

@@ -1,7 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "python/jobs.h"
 
+#include <array>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 #include "description/study.h"

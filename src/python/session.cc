@@ -21,18 +21,16 @@ constexpr const char* kCall = "arguments";
 
 /// Residuals stand for an objective that is a sum of squares and nothing else.
 void require_squares(const Study& study) {
-  const bool has_peak = std::any_of(
-      study.watched.begin(), study.watched.end(),
-      [](const WatchedSignal& watched) { return watched.role == WatchedSignal::Role::kPeak; });
-  if (!has_peak && is_sum_of_squares(study) &&
+  const bool has_term = std::any_of(study.watched.begin(), study.watched.end(), is_term);
+  if (!has_term && is_sum_of_squares(study) &&
       study.ensemble.robust_options().measure == RobustMeasure::kMean)
     return;
   throw InputError({{study.file, 1},
                     "objective",
                     "residuals belong to a sum of squares, which this objective is not",
                     "",
-                    "integral and terminal terms with weights of at least 0, no peak, and "
-                    "robust.measure mean"});
+                    "integral, terminal and sum terms with weights of at least 0, no peaks and "
+                    "measures, and robust.measure mean"});
 }
 
 void use_adjoint(MotionStudy* study) {
@@ -58,8 +56,8 @@ void require_adjoint(const Problem& problem) {
                         "adjoint",
                         "this study has no adjoint",
                         "",
-                        "the integrator rosenbrock, without path, final, peaks, and controllers "
-                        "with sample_time"});
+                        "the integrator rosenbrock, without path, final, peaks, measures, "
+                        "positions, and controllers with sample_time"});
 }
 
 }  // namespace
@@ -169,13 +167,17 @@ RunTable Session::run(const std::vector<double>& parameters,
                       const std::vector<std::string>& signals, int samples,
                       const std::atomic<bool>* cancel) const {
   if (samples < 2)
-    throw InputError(
-        {{kCall, 0}, "samples", "a run has both its ends", std::to_string(samples), "at least 2"});
+    throw InputError({{kCall, 0},
+                      "samples",
+                      "a run needs samples at its start and at its end",
+                      std::to_string(samples),
+                      "at least 2"});
   const std::vector<SignalDescription> recorded =
       signals.empty() ? default_signals_ : checked(signals);
   RunTable table;
   table.names = column_names(recorded);
-  table.room = to_index(samples);
+  const int postures = problem_.study().postures;
+  table.room = to_index(postures > 0 ? postures : samples);
   table.values.resize(table.names.size() * table.room);
   const auto sink = [&table](const std::vector<double>& row) {
     for (std::size_t k = 0; k < row.size(); ++k) table.values[k * table.room + table.rows] = row[k];
@@ -183,7 +185,7 @@ RunTable Session::run(const std::vector<double>& parameters,
   };
   table.summary = record_run(problem_, parameters, recorded, samples, sink, cancel);
   RunSummary& summary = table.summary;
-  // A peak needs a run of its own that follows it.
+  // Peaks and measures need a run of its own that follows them.
   if (summary.status.ok() && has_objective(problem_.study()) && !summary.objective) {
     const Evaluation evaluation =
         Evaluator(problem_.system()).evaluate_design(parameters, Derivatives::kNone, cancel);

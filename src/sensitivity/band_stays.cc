@@ -31,7 +31,6 @@ Eigen::VectorXd BandStays::by_crossing(bool upper, double slope,
 }
 
 void BandStays::begin(double time, double value) {
-  begin_ = time;
   inside_ = ever_inside_ = holds(value);
   since_ = {time, Eigen::VectorXd::Zero(lower_.gradient.size())};
   total_ = {0.0, since_.gradient};

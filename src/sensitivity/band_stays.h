@@ -46,7 +46,7 @@ class BandStays {
   WatchedSignal::Measure measure_ = WatchedSignal::Measure::kNone;
   Differentiated lower_, upper_;
   Differentiated since_, total_;  ///< begin of the present stay; time of all earlier ones [s]
-  double begin_ = 0.0, span_ = 0.0;
+  double span_ = 0.0;
   bool inside_ = false, ever_inside_ = false;
 };
 

@@ -27,6 +27,8 @@ const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
 }  // namespace
 
 bool prefers_adjoint(const CompiledSystem& system) {
+  // Postures have derivatives of their own.
+  if (system.study().postures > 0) return false;
   const SolverOptions& options = system.study().solver;
   if (options.integrator != IntegratorKind::kRosenbrock ||
       options.gradient == GradientMethod::kDirect)

@@ -66,15 +66,16 @@ Status PostureGradient::look() {
 
 void PostureGradient::watch(std::size_t k) {
   const WatchLayout::Entry& entry = layout_.entries()[k];
-  const auto found = std::find(entry.instants.begin(), entry.instants.end(), time());
-  if (found == entry.instants.end()) return;
-  const int place = entry.at_instant(static_cast<int>(found - entry.instants.begin()));
+  // The instants are the numbers of postures that follow each other.
+  const auto instant = static_cast<int>(time() - entry.instants.front());
+  if (instant < 0 || to_index(instant) >= entry.instants.size()) return;
+  const int place = entry.at_instant(instant);
   extremes_.values[place] = sequence_.equations().watched(k, sequence_.state());
   extremes_.times[place] = time();
   if (with_gradient_)
     extremes_.gradients.col(place) =
         derivatives([k](auto* group) { return group->equations.watched(k, group->state); });
-  if (entry.is_measured && found + 1 == entry.instants.end())
+  if (entry.is_measured && to_index(instant) + 1 == entry.instants.size())
     set_measure(system_.study().watched[k], entry, &extremes_);
 }
 

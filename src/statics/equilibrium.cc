@@ -49,6 +49,7 @@ void hold(const std::vector<double>& parameters, ControllerDescription* controll
 /// The study as it is at rest at t = 0, without what is judged.
 Study study_at_rest(Study study, const std::vector<double>& parameters) {
   for (ControllerDescription& controller : study.controllers) hold(parameters, &controller);
+  for (GivenMotion& motion : study.motion) motion.position = held(motion.position, parameters);
   for (InitialJointState& initial : study.initial_state) {
     initial.velocity.reset();
     initial.linear_velocity.reset();
@@ -286,6 +287,12 @@ const char* name_of(Stability stability) {
 Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<double>& parameters,
                              const std::vector<SignalDescription>& signals,
                              const std::atomic<bool>* cancel) {
+  if (system.study().postures > 0)
+    throw InputError({{system.study().file, 1},
+                      "positions",
+                      "an equilibrium is sought from one start, and positions are many postures",
+                      "",
+                      "a study with duration and initial_state"});
   RestingMechanism mechanism(system, parameters);
   Observer observer(mechanism.system(), signals);
   Equilibrium found;

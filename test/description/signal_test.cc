@@ -111,6 +111,14 @@ TEST(Signal, AnExpressionReadsSignalsParametersAndTheTime) {
   EXPECT_FALSE(parse("a/velocity - b/velocity").formula);
 }
 
+TEST(Signal, AnExpressionReadsTheLossesOfGears) {
+  const SignalDescription signal = parse("${pend/gear_loss * pend/velocity + pend/gear_torque}");
+  ASSERT_EQ(signal.terms.size(), 3U);
+  expect_term(signal.terms[0], 1.0, "pend", "gear_loss", "");
+  expect_term(signal.terms[2], 1.0, "pend", "gear_torque", "");
+  EXPECT_EQ(parse("left/elbow/gear_loss + left/elbow/gear_torque").terms.size(), 2U);
+}
+
 TEST(Signal, AnExpressionThatIsNoneIsRefused) {
   for (const char* text :
        {"${crank/effort *}", "${}", "${sine(crank/effort)}", "${crank/effort > 1}"}) {

@@ -54,6 +54,12 @@ TEST_P(PiecewiseLoad, IsARampOrAStep) {
               3.0 * (t - 0.5), 1e-5);
 }
 
+// The study itself reads no time here.
+TEST_P(VaryingLoad, ARecordedExpressionMayReadTheTime) {
+  EXPECT_NEAR(slide("{joint: slide, effort: 1.0}", 1.3, {"${2*t + slide/load_power*0}"})[0], 2.6,
+              1e-12);
+}
+
 TEST_P(VaryingLoad, OfAGasSpringKeepsItsEnergy) {
   // F = p (l/(l + x))^n does the work p l/(1 - n) ((1 + x/l)^(1 - n) - 1).
   const double p = 40.0, l = 0.5, n = 1.3;

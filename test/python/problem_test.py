@@ -30,6 +30,24 @@ def shipped(name, **options):
         return codesign.Problem(*case(name), **options)
 
 
+class Postures(unittest.TestCase):
+    """A study with positions in place of a duration."""
+
+    def test_there_is_a_row_per_posture_whatever_the_samples(self):
+        problem = shipped("four_bar_path")
+        for samples in (2, 11, 101):
+            run = problem.simulate(samples=samples)
+            np.testing.assert_array_equal(run.time, np.arange(18.0))
+
+    def test_measures_are_no_squares(self):
+        with self.assertRaises(codesign.InputError):
+            shipped("six_bar_dwell").residuals()
+
+    def test_there_is_no_adjoint(self):
+        with self.assertRaises(codesign.InputError):
+            shipped("four_bar_path").adjoint()
+
+
 class Package(unittest.TestCase):
     def test_its_names_are_there(self):
         self.assertEqual(codesign.version(), command_line("gradient", *case("inverted_pendulum"))["version"])

@@ -170,6 +170,24 @@ TEST(Equilibrium, RefusesAnIntegral) {
       << message;
 }
 
+// A motion that is given rests where it starts; otherwise the bar would swing outwards.
+TEST(Equilibrium, HoldsAMotionThatIsGiven) {
+  std::string urdf = arm_urdf();
+  const Equilibrium found =
+      equilibrium_of(loaded(urdf,
+                            "duration: 10\ninitial_state: {shoulder: {position: 0.3}}\n"
+                            "motion: {shoulder: {velocity: 3.0}}\n"));
+  ASSERT_TRUE(found.status.ok()) << found.status.cause;
+  EXPECT_NEAR(position_of(found, "shoulder"), 0.3, 1e-10);
+  EXPECT_NEAR(position_of(found, "elbow"), -0.3, 1e-9) << "it hangs";
+}
+
+TEST(Equilibrium, RefusesPostures) {
+  const std::string message =
+      refused([] { equilibrium_of(loaded(pendulum_urdf(), "positions: {hinge: [0.1, 0.2]}\n")); });
+  EXPECT_NE(message.find("an equilibrium is sought from one start"), std::string::npos) << message;
+}
+
 TEST(Equilibrium, EndsWhenCancelled) {
   const std::atomic<bool> cancel{true};
   const Problem problem = loaded(pendulum_urdf(), start_at(1.0));

@@ -131,6 +131,29 @@ TEST(PostureStatics, LocksWhereFrictionGrowsFasterThanTheEffort) {
   EXPECT_NEAR(efforts[1][0].upper, crank_torque(1.2, 4.0, 1.0), 1e-8);
 }
 
+// A power of the speed below one is large beside the speed; friction at rest has none of it.
+TEST(PostureStatics, ViscousFrictionWithAnExponentDoesNotHold) {
+  std::string urdf = pendulum_urdf();
+  const std::string end = "</joint>";
+  urdf.insert(urdf.find(end),
+              "<codesign:friction coulomb=\"0\" viscous=\"1\" "
+              "viscous_exponent=\"0.1\"/>");
+  const auto efforts = efforts_of(loaded(urdf, "duration: 1\nefforts: {grid: {hinge: [0.0]}}\n"));
+  EXPECT_NEAR(efforts[0][0].upper, 0.5, 1e-9) << "the constant friction alone";
+}
+
+// To lift, the motor needs 1/eta of the torque; when the load drives, eta_b of it holds.
+TEST(PostureStatics, BreaksAwayAgainstTheLossesOfAGear) {
+  std::string urdf = pendulum_urdf();
+  urdf.insert(urdf.find("</joint>"),
+              R"(<codesign:actuator gear_ratio="10" rotor_inertia="1e-5" efficiency="0.8"
+                 backdrive_efficiency="0.6" smoothing="1e-6"/>)");
+  const auto efforts = efforts_of(loaded(urdf, "duration: 1\nefforts: {grid: {hinge: [1.0]}}\n"));
+  const double weight = kGravity * std::sin(1.0);
+  EXPECT_NEAR(efforts[0][0].upper, (weight + 0.5) / 0.8, 1e-8);
+  EXPECT_NEAR(efforts[0][0].lower, (weight - 0.5) * 0.6, 1e-8);
+}
+
 TEST(PostureStatics, RefusesAGridThatDoesNotDetermineThePosture) {
   const auto statics = [](const std::string& urdf, const std::string& grid) {
     return refused([&] {

@@ -78,7 +78,10 @@ void refuse_friction_states(const CompiledSystem& system) {
 /// Efforts are computed instant by instant, without a time.
 void refuse_loads_of_time(const CompiledSystem& system) {
   const auto varies = [](const LoadFunction& function, const Signal& signal) {
-    return reads_time(signal) ||
+    const bool reads_setpoint = std::any_of(
+        signal.begin(), signal.end(),
+        [](const SignalReference& term) { return term.kind == SignalKind::kControllerSetpoint; });
+    return reads_time(signal) || reads_setpoint ||
            (!signal.formula && function.of_time.kind != ReferenceDescription::Kind::kConstant);
   };
   const std::vector<LoadDescription>& loads = system.study().loads;

@@ -1,6 +1,4 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
 #include "reading/study/study_blocks.h"
 #include "reading/study/study_values.h"
 

@@ -101,7 +101,8 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) read_options(*limits, &study.limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
-  // The efforts of given motions can vary faster than all motions, whose error is tested.
+  // Step control tests the errors of motions; the effort of a given motion may change within a step
+  // that these allow.
   constexpr double kFewestSteps = 500.0;
   if (!study.motion.empty() && study.solver.maximum_step == 0.0)
     study.solver.maximum_step = study.duration / kFewestSteps;

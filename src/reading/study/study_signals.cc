@@ -242,9 +242,9 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot,
   Reader::add_items(
       study_value, "constraints", &watched,
       [&](const YamlValue& item) {
-        const std::string measure = bounded_measure(item);
-        return measure == "peak" ? reader.read_bounded_peak(item)
-                                 : reader.read_bounded_measure(item, bounded_measure(item));
+        const char* const measure = bounded_measure(item);
+        return std::string(measure) == "peak" ? reader.read_bounded_peak(item)
+                                              : reader.read_bounded_measure(item, measure);
       },
       bounded_measure);
   if (const auto objective = study_value.find("objective")) {

@@ -209,8 +209,8 @@ ActuatorDescription read_actuator(const XmlElement& element, JointType type,
   actuator.gear = read_gear(element, context);
   if (actuator.rotor_inertia.is_zero() && actuator.gear && locks_itself(*actuator.gear))
     element.fail_at("rotor_inertia",
-                    "a gear that locks itself needs the inertia of its motor, else a load that "
-                    "moves the joint stops it at once",
+                    "a self-locking gear needs the inertia of its motor: without it the joint's "
+                    "velocity would jump to zero as soon as a load drives the gear",
                     "> 0, or a backdrive_efficiency above 0");
   return actuator;
 }

@@ -268,7 +268,7 @@ TEST(GearReader, Faults) {
   faulty("efficiency=\"0.9\" bristle_stiffness=\"1e4\"", "bristle_stiffness has no meaning");
   faulty("efficiency=\"0.9\" model=\"lugree\"", "unknown friction model");
   expect_error(pendulum("<codesign:actuator rotor_inertia=\"0\" efficiency=\"0.5\"/>"),
-               {"a gear that locks itself needs the inertia of its motor"});
+               {"a self-locking gear needs the inertia of its motor"});
 }
 
 RobotDescription read_geared(
