@@ -78,18 +78,19 @@ class Program:
 
 
 def install(folder, packages):
-    """The packages in the virtual environment of `folder`; None if PyPI cannot be reached. @returns the python, and what failed, by package"""
+    """The packages in the virtual environment of `folder`. @returns its python, and the last line of pip of each package that cannot be installed"""
     environment = folder / "venv"
     python = environment / "bin" / "python"
     if not python.exists():
         subprocess.run([sys.executable, "-m", "venv", str(environment)], check=True)
-    failed = {}
-    for package in packages:
-        done = subprocess.run([str(python), "-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "30", package], stdout=subprocess.PIPE,
+
+    def pip(*names):
+        done = subprocess.run([str(python), "-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "30", *names], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False)
-        if done.returncode != 0:
-            failed[package] = (done.stdout.strip().splitlines() or ["pip failed"])[-1]
-    return python, failed
+        return "" if done.returncode == 0 else (done.stdout.strip().splitlines() or ["pip failed"])[-1]
+    if not pip(*packages):
+        return python, {}
+    return python, {package: reason for package in packages if (reason := pip(package))}
 
 
 def compile_pinocchio(python, folder):
