@@ -7,6 +7,7 @@
 
 #include "math/scalar.h"
 #include "mechanism/signal_catalog.h"
+#include "reading/study/signal_table.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -126,6 +127,12 @@ void read_initial_state(const YamlValue& study_value, const RobotDescription& ro
 
 namespace {
 
+bool is_table(const YamlValue& value) {
+  if (!value.is_map()) return false;
+  const auto type = value.find("type");
+  return type && type->text() == "table";
+}
+
 /// What the loads of a study are read with.
 struct LoadReader {
   const RobotDescription& robot;
@@ -135,16 +142,18 @@ struct LoadReader {
 
   LoadFunction read(const YamlValue& value) const {
     LoadFunction function;
-    if (!value.is_map() && is_expression(value.text())) {
-      SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
-      if (!signal.terms.empty()) {
-        check_signal(signal, robot, study.controllers, value.path());
-        use_parameters(signal, table);
-        function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
-        return function;
-      }
+    SignalDescription signal;
+    if (is_table(value))
+      signal = read_signal_table(value, table);
+    else if (!value.is_map() && is_expression(value.text()))
+      signal = parse_signal(value.text(), value.where(), value.path());
+    if (signal.terms.empty()) {
+      function.of_time = read_reference(value, table, loader);
+      return function;
     }
-    function.of_time = read_reference(value, table, loader);
+    check_signal(signal, robot, study.controllers, value.path());
+    use_parameters(signal, table);
+    function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
     return function;
   }
 
