@@ -245,7 +245,8 @@ const CommandHelp kCommands[] = {
     --from MACHINE         the machine whose model and study are copied
 )"},
     {"report",
-     R"(  report DIR|BAG           a page with all that an optimization or identification has found
+     R"(  report DIR|BAG           a page with all that an optimization or identification has found, or
+                           with the curves and maps of a file of efforts --json
     -o FILE                the page; by default report.html
 )"},
     {"apply",
