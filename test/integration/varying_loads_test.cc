@@ -150,5 +150,17 @@ TEST(LoadSignals, OfWhatDependsOnLoadsAreRefused) {
   }
 }
 
+TEST(LoadSignals, AMisspeltQuantityIsNamedAsOne) {
+  try {
+    compile(robot(mass("piston", 2.0) + lift("slide", "piston", 0.0)),
+            "duration: 1.0\nloads: [{joint: slide, effort: \"${2*slide/positon}\"}]\n");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, "loads[0].effort") << error.what();
+    EXPECT_NE(error.fault().message.find("did you mean \"position\"?"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace codesign
