@@ -68,6 +68,7 @@ def settings_of(case, method, setting):
 
 
 def prepare(case, method, setting):
+    method = method.split(", ")[0]
     options, solver = settings_of(case, method, setting)
     h = np.cbrt(setting) if method in ADAPTIVE else 1e-4
 

@@ -36,12 +36,12 @@ class Failed(Exception):
 class Program:
     """A process that answers requests; it starts again if it died."""
 
-    def __init__(self, command):
-        self.command, self.process, self.lines = command, None, None
+    def __init__(self, command, place):
+        self.command, self.place, self.process, self.lines = command, place, None, None
         self.greeting = self.start()
 
     def start(self):
-        self.process = subprocess.Popen(self.command, cwd=ROOT, env={**os.environ, **ONE_THREAD}, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen(self.command, cwd=self.place, env={**os.environ, **ONE_THREAD}, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.DEVNULL, text=True, start_new_session=True)
         self.lines = queue.Queue()
 
@@ -120,7 +120,7 @@ def version_of(code):
 
 def start_programs(folder, python, failed):
     """The programs by name, their versions, and why others do not run."""
-    own = Program([str(ROOT / "build/benchmark/peer_program"), str(folder)])
+    own = Program([str(ROOT / "build/benchmark/peer_program"), str(folder)], ROOT)
     programs, versions, silent = {}, {}, {}
     for code in codes.CODES:
         missing = [failed[package] for package in code.packages if package in failed]
@@ -130,9 +130,9 @@ def start_programs(folder, python, failed):
             if not code.module:
                 programs[code.name] = own
             elif code.module == "pinocchio_run":
-                programs[code.name] = Program([str(compile_pinocchio(python, folder)), str(folder)])
+                programs[code.name] = Program([str(compile_pinocchio(python, folder)), str(folder)], folder)
             else:
-                programs[code.name] = Program([str(python), str(HERE / "worker.py"), code.module, str(folder)])
+                programs[code.name] = Program([str(python), str(HERE / "worker.py"), code.module, str(folder)], folder)
             versions[code.name] = programs[code.name].greeting or version_of(code)
         except (Failed, OSError, subprocess.CalledProcessError) as error:
             silent[code.name] = str(error)
@@ -251,6 +251,7 @@ def main():
     parser.add_argument("--limit", type=float, default=20.0)
     parser.add_argument("task", nargs="*", choices=[task.name for task in codes.TASKS] + [[]])
     arguments = parser.parse_args()
+    arguments.folder = arguments.folder.resolve()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     python, failed = install(arguments.folder, [package for code in codes.CODES for package in code.packages])
     missing = [code.name for code in codes.CODES if any(package in failed for package in code.packages)]
