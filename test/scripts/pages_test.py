@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The pages: their links lead somewhere, and doc/study.md lists every key. Usage: pages_test.py [--write]
+"""The pages: their links lead somewhere, doc/study.md lists every key, and doc/messages.md, doc/warnings.md and doc/statuses.md every sentence and code of the sources. Usage: pages_test.py [--write]
 
---write puts the table of all keys into doc/study.md.
+--write puts the table of all keys into doc/study.md, and the sentences into doc/messages.md.
 """
 import html
 import os
 import pathlib
 import re
+import subprocess
 import sys
 import unittest
 
@@ -67,6 +68,21 @@ def study():
     return text, table, table_of_keys(linked)
 
 
+def messages():
+    """doc/messages.md as the sources have it."""
+    return subprocess.run([sys.executable, "-B", ROOT / "tools/message_index"], capture_output=True, text=True, check=True).stdout
+
+
+def sources():
+    return "".join(path.read_text() for pattern in ("*.cc", "*.h") for path in sorted([*(ROOT / "src").rglob(pattern), *(ROOT / "include").rglob(pattern)]))
+
+
+def codes_of(page):
+    """The codes that begin the rows of a table."""
+    cells = re.findall(r"^\| (`\w+`[^|]*) \|", (ROOT / "doc" / page).read_text(), re.MULTILINE)
+    return [code for cell in cells for code in re.findall(r"`(\w+)`", cell)]
+
+
 class Pages(unittest.TestCase):
     def test_links_lead_somewhere(self):
         known = {}
@@ -89,10 +105,39 @@ class Pages(unittest.TestCase):
         for page in (ROOT / "doc/study").glob("*.md"):
             self.assertIn(f"](study/{page.name})", text)
 
+    def test_every_message_is_in_the_index(self):
+        page, right = (ROOT / "doc/messages.md").read_text(), messages()
+        differing = set(page.splitlines()) ^ set(right.splitlines())
+        self.assertTrue(page == right, f"pages_test.py --write; of these lines page and sources differ: {sorted(differing)[:5]}")
+
+    def test_the_index_has_what_a_user_sees(self):
+        index = (ROOT / "doc/messages.md").read_text().splitlines()
+        for row in ("| `nothing is uncertain` | `at least one PARAMETER: {uniform: [lower, upper]}` |", "| `more than \N{HORIZONTAL ELLIPSIS} steps (solver.maximum_steps)` | [too_many_steps](statuses.md) |",
+                    "| `the slope is \N{HORIZONTAL ELLIPSIS} of the start's` |"):
+            self.assertTrue(any(line.startswith(row) for line in index), row)
+
+    def test_every_warning_has_a_row(self):
+        code = sources()
+        said = set(re.findall(r'(?:\bwarn\w*|warning\w*|\bdoubt|warnings\w*\.push_back|Warning)[({]+\s*"([a-z]+(?:_[a-z]+)+)"', code))
+        rows = codes_of("warnings.md")
+        self.assertGreater(len(said), 50)
+        self.assertEqual(said - set(rows), set())
+        self.assertEqual(len(rows), len(set(rows)), "a code has one row")
+        for row in rows:
+            self.assertTrue(f'"{row}"' in code, f"no source knows {row}")
+
+    def test_every_status_has_a_row(self):
+        named = re.findall(r'return "(\w+)";', (ROOT / "src/text/status.cc").read_text())
+        rows = codes_of("statuses.md")
+        self.assertGreater(len(named), 15)
+        self.assertEqual(set(named) - {"unknown"} - set(rows), set())
+        self.assertEqual(len(rows), len(set(rows)), "a code has one row")
+
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["--write"]:
         page, old, new = study()
         (ROOT / "doc/study.md").write_text(page.replace(old, new))
+        (ROOT / "doc/messages.md").write_text(messages())
     else:
         unittest.main()
