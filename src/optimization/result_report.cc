@@ -94,12 +94,13 @@ int worst_scenario(const OptimizationResult& result) {
 std::vector<std::string> watched_sentences(const OptimizationResult& result) {
   std::vector<std::string> sentences;
   for (const WatchedResult& watched : result.constraints.watched)
-    sentences.push_back(
-        watched.element + ", " + watched.signal + ": from " + readable(watched.initial_smallest) +
-        " ... " + readable(watched.initial_largest) + " to " + readable(watched.smallest) +
-        " ... " + readable(watched.largest) +
-        (watched.violation > kSmallViolation ? ", beyond its bounds by " + readable(watched.violation, 3)
-                                       : ""));
+    sentences.push_back(watched.element + ", " + watched.signal + ": from " +
+                        readable(watched.initial_smallest) + " ... " +
+                        readable(watched.initial_largest) + " to " + readable(watched.smallest) +
+                        " ... " + readable(watched.largest) +
+                        (watched.violation > kSmallViolation
+                             ? ", beyond its bounds by " + readable(watched.violation, 3)
+                             : ""));
   return sentences;
 }
 

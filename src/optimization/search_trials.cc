@@ -101,8 +101,9 @@ void SearchTrials::judge_end(const std::string& failure) {
              is_outside = !best_keeps_bounds();
   std::string cause;
   if (is_outside)
-    cause = all_met(result_.constraints.margins) ? describe_violated(result_.constraints.watched)
-                                     : describe_unmet(study_, result_.constraints.margins);
+    cause = all_met(result_.constraints.margins)
+                ? describe_violated(result_.constraints.watched)
+                : describe_unmet(study_, result_.constraints.margins);
   if (has_failed)
     cause += (cause.empty() ? "" : "; ") +
              ("the algorithm \"" + result_.algorithm + "\" failed (" + failure) +

@@ -14,8 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t kMostKnots = 100;     // values; the expression has their square of terms
-constexpr double kNegligible = 1e-14;  // of the largest coefficient of its row
+constexpr std::size_t kMostKnots = 100;  // values; the expression has their square of terms
+constexpr double kNegligible = 1e-14;    // of the largest coefficient of its row
 
 /// Second derivatives of the natural cubic spline at its knots, by the values: f'' = C v, (C2d).
 MatrixXd natural_curvature(const Eigen::VectorXd& x) {
@@ -99,15 +99,17 @@ SignalDescription read_signal_table(const YamlValue& value, const ParameterTable
                 "one per value of `at`");
   if (parse_signal(signal.text(), signal.where(), signal.path()).terms.empty())
     signal.fail("no signal", "a signal, such as slide/position");
-  const std::string s = without_braces(signal.text());
+  const std::string argument = without_braces(signal.text());
+  const auto beyond = [&](Index k) { return "( " + argument + " - (" + to_decimal(x[k]) + ") )"; };
   const MatrixXd rows = truncated_powers(x, is_cubic);
-  std::string text =
-      v[0] + " + " + weighted_sum(rows.row(0), v) + "*( " + s + " - (" + to_decimal(x[0]) + ") )";
+  std::string text = v[0] + " + " + weighted_sum(rows.row(0), v) + "*" + beyond(0);
   for (Index k = 0; k < x.size(); ++k) {
     const std::string weight = weighted_sum(rows.row(1 + k), v);
     if (weight == "0") continue;
-    text += " + " + weight + "*max( " + s + " - (" + to_decimal(x[k]) + ") , 0)" +
-            (is_cubic ? "^3" : "");
+    text += " + ";
+    text += weight;
+    text += "*max(" + beyond(k) + ", 0)";
+    if (is_cubic) text += "^3";
   }
   return parse_signal("${" + text + "}", value.where(), value.path());
 }
