@@ -20,7 +20,7 @@ loader.exec_module(packages)
 
 class DebianPackagesTest(unittest.TestCase):
     def test_what_needs_ros_is_apart(self):
-        for path, package in (("bin/codesign", "mechanism-codesign"), ("lib/libcodesign_core.so", "mechanism-codesign"), ("lib/libcodesign_bags.so", "ros-mechanism-codesign"),
+        for path, package in (("bin/codesign", "mechanism-codesign"), ("lib/libcodesign_core.so", "mechanism-codesign"), ("lib/x86_64-linux-gnu/libcodesign_core.so", "mechanism-codesign"), ("lib/aarch64-linux-gnu/libcodesign_bags.so", "ros-mechanism-codesign"),
                               ("lib/mechanism_codesign/codesign", "mechanism-codesign"), ("lib/mechanism_codesign/simulation", "ros-mechanism-codesign"),
                               ("share/mechanism_codesign/scripts/codesign_report/page.py", "mechanism-codesign"), ("share/mechanism_codesign/scripts/panel", "ros-mechanism-codesign"),
                               ("lib/python3/dist-packages/mechanism_codesign/_problem.py", "python3-mechanism-codesign"),
