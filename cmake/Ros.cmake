@@ -66,6 +66,8 @@ codesign_sanitize(codesign_bags)
 add_library(codesign_bag_module MODULE $<TARGET_OBJECTS:codesign_bags>)
 set_target_properties(codesign_bag_module PROPERTIES OUTPUT_NAME codesign_bags LINKER_LANGUAGE CXX)
 target_link_libraries(codesign_bag_module PRIVATE codesign_bags)
+# CMake gives modules no name of their own, which Debian asks of every file among the libraries.
+target_link_options(codesign_bag_module PRIVATE -Wl,-soname,libcodesign_bags.so)
 codesign_sanitize(codesign_bag_module)
 target_sources(codesign PRIVATE ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)
 target_link_libraries(codesign PRIVATE ${CMAKE_DL_LIBS})
