@@ -257,7 +257,7 @@ const CommandHelp kCommands[] = {
 
 constexpr const char* kOtherCommands =
     R"(  help [COMMAND]           this text, or the options of one command
-  --version                the version of this program, as "codesign 0.1.0"
+  --version                the version of this program, as "codesign 0.2.0"
 )";
 
 constexpr const char* kSharedOptions =
