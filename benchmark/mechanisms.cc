@@ -195,7 +195,7 @@ std::vector<PlanarCase> planar_linkages(bool held) {
           hinge("output_hinge", "ground", "output", at(3.0 * kLength, 0.0), y, "") +
           pin("output_pin", "rod", -1.8 * kLength, "output", -kLength));
   six.study.text.replace(six.study.text.find("{position: 0.2}"), 15,
-                         "{position: 0.2}, rod_hinge: {guess: -1.6}, output_hinge: {guess: 0.2}");
+                         "{position: 0.2}, rod_hinge: {guess: 0.0}, output_hinge: {guess: 0.4}");
   std::vector<PlanarCase> cases = {
       {"four-bar", four},
       {"slider-crank",
@@ -204,6 +204,9 @@ std::vector<PlanarCase> planar_linkages(bool held) {
                               "{guess: -0.24}",
                               "", "crank_hinge/velocity")}}},
       {"six-bar", six}};
+  const std::string absolute = "coordinates: absolute, ";
+  for (PlanarCase& c : cases)
+    c.texts.study.text.erase(c.texts.study.text.find(absolute), absolute.size());
   if (!held) return cases;
   for (PlanarCase& c : cases)
     for (std::size_t k = 0; (k = c.texts.urdf.text.find("<loop ", k)) != std::string::npos; k += 6)
