@@ -142,6 +142,8 @@ struct JointDescription {
   JointType type = JointType::kFixed;
   std::optional<PairKind> own_kind;  ///< kOther: the row that the file names
   bool is_loop = false;
+  bool in_plane = false;  ///< of a loop: reactions out of the plane of its motion are stated to be
+                          ///< zero; theory (23c)
   int parent = -1,
       child = -1;  ///< indices into RobotDescription::links; of a loop: predecessor, successor
   PoseDescription origin;  ///< joint frame at zero position in the parent's link frame

@@ -112,7 +112,7 @@ std::vector<ElementRule> make_rules() {
        true,
        {"name", "type"},
        {},
-       {},
+       {"out_of_plane"},
        {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length",
         "codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
   add_ends("robot/loop", &rules);

@@ -213,6 +213,24 @@ void read_type_specific(const XmlElement& element, const ReadContext& context,
         read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
 }
 
+/// Whether a loop says `codesign:out_of_plane="zero"`.
+bool read_out_of_plane(const XmlElement& element, const ReadContext& context,
+                       const JointDescription& loop) {
+  const char* const attribute = "codesign:out_of_plane";
+  const std::string given = element.find(attribute).value_or("shared");
+  if (given != "zero" && given != "shared")
+    element.fail_at(attribute, "unknown statement about what acts out of the plane",
+                    "zero or shared");
+  if (given == "shared" || kind_of(loop)->in_plane) return given == "zero";
+  std::string types;
+  for (const RowReference<JointLaw>& law : context.laws->joints)
+    if (law->of_loops && law->in_plane)
+      types += (types.empty() ? "" : ", ") + std::string(law->of_loops);
+  element.fail_at(attribute,
+                  "a loop of type " + element.text("type") + " cannot be held in a plane only",
+                  "loops of type " + types);
+}
+
 }  // namespace
 
 JointDescription read_joint(const XmlElement& element, const ReadContext& context) {
@@ -244,6 +262,7 @@ JointDescription read_loop(const XmlElement& element, const ReadContext& context
   loop.child_origin = read_origin(element.only("successor"), context.table);
   read_joint_parts(element, context, &loop);
   read_type_specific(element, context, &loop);
+  loop.in_plane = read_out_of_plane(element, context, loop);
   suit_transitions(element, &loop);
   return loop;
 }
