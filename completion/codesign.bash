@@ -42,7 +42,7 @@ _codesign() {
     urdf) options+=" --sticks --fill" ;;
     simulate | efforts) options+=" --signals --csv --samples --run" ;;
     equilibrium) options+=" --signals --run" ;;
-    gradient) options+=" --verify" ;;
+    gradient) options+=" --verify --run" ;;
     optimize) options+=" --output --resume" ;;
     identify | excite) options+=" --output" ;;
     new) options="--from --json --quiet --help" ;;

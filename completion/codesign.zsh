@@ -18,7 +18,7 @@ _codesign() {
     urdf) options=('--sticks[sticks for links without visual]' '--fill[write the plain numbers beside expressions]') ;;
     simulate|efforts) options=('--signals[the signals to print]:signals:' '--csv[the file to write]:file:_files' '--samples[number of instants]:number:' '--run[one run of the study]:run:') ;;
     equilibrium) options=('--signals[the signals to print]:signals:' '--run[one run of the study]:run:') ;;
-    gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)') ;;
+    gradient) options=('--verify=-[compare with a reference]::method:(complex_step ridders)' '--run[one run of the study]:run:') ;;
     optimize) options=('--output[folder of the results]:folder:_files -/' '--resume[go on with the job of a folder]:folder:_files -/') ;;
     identify|excite) options=('--output[folder of the results]:folder:_files -/') ;;
     help)

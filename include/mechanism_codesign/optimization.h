@@ -44,11 +44,11 @@ struct ScenarioResult {
   double weight = 1.0;  ///< w; the sum over all scenarios is 1
   std::vector<std::pair<std::string, double>>
       values;  ///< the parameters that the run or the sample sets
-  double initial_objective = 0.0, objective = 0.0;  ///< psi at `initial_rho` and at `rho`
+  double initial_objective = 0.0, objective = 0.0;  ///< psi at the start and the best point
   std::string friction_law{};  ///< the law of all joints if the study varies it; empty: the laws of
                                ///< the model
-  /// Whether the run failed at `initial_rho` and at `rho`. A failed run counts with the largest
-  /// objective of the runs that did not fail.
+  /// Whether the run failed at the start and at the best point. A failed run counts with the
+  /// largest objective of the runs that did not fail.
   bool initial_failed = false, failed = false;
 };
 
@@ -63,7 +63,7 @@ struct Validation {
   double value_at_risk = 0.0;  ///< for the measure cvar: the value that fresh samples exceed with a
                                ///< probability of at most 1 - level
   double within = 0.0;  ///< for the measure cvar: share of all fresh samples that do not exceed
-                        ///< OptimizationResult::value_at_risk
+                        ///< EnsembleResult::value_at_risk
 };
 
 /// One local search of several.
@@ -73,7 +73,7 @@ struct StartResult {
   Status status;
   std::string termination;
   int evaluations = 0;
-  int optimum = -1;  ///< index in OptimizationResult::optima; -1: the search found none
+  int optimum = -1;  ///< index in MultistartResult::optima; -1: the search found none
 };
 
 /// A point at which one or several searches ended.
@@ -86,15 +86,15 @@ struct Optimum {
 /// A signal that a constraint or a peak reads, over all scenarios; doc/theory.md (21a).
 struct WatchedResult {
   std::string element, signal;  ///< its place in the study, `path[0]`, and the signal as written
-  double initial_smallest = 0.0, initial_largest = 0;  ///< signal minus reference at `initial_rho`
-  double smallest = 0.0, largest = 0.0;                ///< at `rho`
+  double initial_smallest = 0.0, initial_largest = 0;  ///< signal minus reference at the start
+  double smallest = 0.0, largest = 0.0;                ///< at the best point
   double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
   double violation =
-      0.0;  ///< largest violation of the bounds at `rho`; 0 if they are met, and for peaks
+      0.0;  ///< largest violation of the bounds at the best point; 0 if they are met, and for peaks
   int smallest_scenario = 0,
-      largest_scenario = 0;  ///< index of the scenario in OptimizationResult::scenarios
-  /// The bounds, computed at `rho` and the nominal values of the other parameters; infinite where
-  /// the study gives none, and for peaks in the objective.
+      largest_scenario = 0;  ///< index of the scenario in EnsembleResult::scenarios
+  /// The bounds, computed at the best point and the nominal values of the other parameters;
+  /// infinite where the study gives none, and for peaks in the objective.
   double lower = -std::numeric_limits<double>::infinity(),
          upper = std::numeric_limits<double>::infinity();
   double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for
@@ -102,6 +102,63 @@ struct WatchedResult {
   /// The violation up to which the bounds count as met: the study's, or 1e-5 of the range of the
   /// signal and its bounds, at least 1e-8.
   double tolerance = 1e-8;
+};
+
+/// A design, in the order of Problem::tuned_names(), and what was computed there.
+struct DesignPoint {
+  Eigen::VectorXd rho;
+  double objective = 0.0;    ///< psi
+  Eigen::VectorXd gradient;  ///< psi_rho
+  /// The residual of the optimality conditions in the unit of psi, theory (24j); not a number
+  /// without a point.
+  double slope = std::numeric_limits<double>::quiet_NaN();
+  // For a study with runs or uncertain parameters, else empty:
+  Eigen::VectorXd values;   ///< psi of each scenario
+  std::vector<int> failed;  ///< indices of the scenarios that could not be integrated
+};
+
+/// How near the best point is to an optimum, and what holds it there.
+struct OptimalityResult {
+  double stationarity = std::numeric_limits<double>::quiet_NaN();  ///< the slope relative to psi
+  /// Per tuned parameter: by how much psi falls, to first order, if the bound on which it lies is
+  /// moved outwards by the range of the parameter; positive at the lower, negative at the upper
+  /// bound, 0 off the bounds.
+  Eigen::VectorXd bound_multipliers;
+  Eigen::MatrixXd flat_directions;  ///< in which psi does not change, by rho, one per column;
+                                    ///< theory (24i)
+  std::vector<bool> influences;  ///< per tuned parameter: whether the objective or a watched signal
+                                 ///< depended on it at any trial point
+};
+
+/// The constraints at the best point.
+struct ConstraintResults {
+  Eigen::VectorXd margins;  ///< of the study's parameter constraints; negative where violated
+  std::vector<WatchedResult> watched;  ///< signals with constraints, then peaks; empty without any
+};
+
+/// What a search took.
+struct SearchCost {
+  int iterations = 0;
+  int evaluations = 0;
+  int failed_evaluations = 0;
+  Statistics statistics;  ///< sums over all evaluations; drift and energy error are the largest of
+                          ///< any evaluation
+};
+
+/// Of a study with runs or uncertain parameters; else empty.
+struct EnsembleResult {
+  std::vector<ScenarioResult> scenarios;
+  std::optional<double>
+      value_at_risk;  ///< for the measure cvar: the value at risk on the samples of the search
+  std::optional<Validation> validation;  ///< if `robust.validate` requests it
+};
+
+/// Of a study with several starts; else empty.
+struct MultistartResult {
+  std::vector<StartResult> starts;  ///< the searches, best start first
+  std::vector<Optimum> optima;      ///< best first
+  int screened = 0, unusable = 0;   ///< number of points evaluated to choose the starts, and of
+                                    ///< these the number of failed points
 };
 
 /// The best point of an optimization and how the search ended.
@@ -116,51 +173,20 @@ struct OptimizationResult {
                             ///< stationary
   std::string algorithm;    ///< that searched; of `auto` all that went on with the search, in their
                             ///< order, with commas
-  /// The residual of the optimality conditions, theory (24j), at `initial_rho` and `rho` in the
-  /// unit of psi, and at `rho` relative to psi; not a number without a point.
-  double initial_slope = std::numeric_limits<double>::quiet_NaN(),
-         slope = std::numeric_limits<double>::quiet_NaN();
-  double stationarity = std::numeric_limits<double>::quiet_NaN();
-  /// Per tuned parameter: by how much psi falls, to first order, if the bound on which it lies is
-  /// moved outwards by the range of the parameter; positive at the lower, negative at the upper
-  /// bound, 0 off the bounds.
-  Eigen::VectorXd bound_multipliers;
-  Eigen::MatrixXd flat_directions;  ///< in which psi does not change at `rho`, by rho, one per
-                                    ///< column; theory (24i)
-  double initial_objective = 0.0;
-  double objective = 0.0;  ///< at `rho`, the best feasible point seen
-  Eigen::VectorXd initial_gradient;
-  Eigen::VectorXd gradient;  ///< at `rho`
-  Eigen::VectorXd initial_rho;
-  Eigen::VectorXd rho;
-  int iterations = 0;
-  int evaluations = 0;
-  int failed_evaluations = 0;
-  Eigen::VectorXd
-      margins;  ///< margins of the study's parameter constraints at `rho`; negative where violated
-  std::vector<WatchedResult> watched;  ///< signals with constraints, then peaks; empty without any
-  Statistics statistics;  ///< sums over all evaluations; drift and energy error are the largest of
-                          ///< any evaluation
+  DesignPoint initial;
+  DesignPoint best;  ///< the best feasible point seen
+  OptimalityResult optimality;
+  ConstraintResults constraints;
+  SearchCost cost;
+  EnsembleResult ensemble;
+  MultistartResult multistart;
   Warnings warnings;  ///< about the best point, and about the search: a parameter without influence
                       ///< or on its bound
-  std::vector<bool> influences;  ///< per tuned parameter: whether the objective or a watched signal
-                                 ///< depended on it at any trial point
-  // For a study with runs or uncertain parameters, else empty: psi of each scenario at
-  // `initial_rho` and `rho`, and the scenarios.
-  Eigen::VectorXd initial_values, values;
-  std::vector<ScenarioResult> scenarios;
-  std::vector<int> initial_failed,
-      failed;  ///< indices of the scenarios that could not be integrated at `initial_rho` and `rho`
-  std::optional<double>
-      value_at_risk;  ///< for the measure cvar: the value at risk on the samples of the search
-  std::optional<Validation> validation;  ///< if `robust.validate` requests it
-  // For a study with several starts, else empty: the searches, best start first, and the optima,
-  // best first.
-  std::vector<StartResult> starts;
-  std::vector<Optimum> optima;
-  int screened = 0, unusable = 0;  ///< number of points evaluated to choose the starts, and of
-                                   ///< these the number of failed points
 };
+
+/// The result in words: a table of the design, the objective, constraints and scenarios, how the
+/// search ended, what it took, and the warnings; lines as `codesign optimize` prints them.
+std::string report(const Problem& problem, const OptimizationResult& result);
 
 /// Minimizes psi(rho) within the bounds and the parameter constraints, from the parameters' start
 /// values.
@@ -173,10 +199,6 @@ OptimizationResult optimize(const Problem& problem, const TrialObserver& observe
                             const std::atomic<bool>* cancel = nullptr);
 OptimizationResult optimize(const Problem& problem, const OptimizerOptions& options,
                             const TrialObserver& observer = {},
-                            const std::atomic<bool>* cancel = nullptr);
-/// For the library's own code: with a compiled system.
-OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
-                            const OptimizerOptions& options, const TrialObserver& observer = {},
                             const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

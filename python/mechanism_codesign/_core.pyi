@@ -16,6 +16,7 @@ class Optimized:
     record: Dict[str, Any]
     status: Dict[str, Any]
     warnings: List[Dict[str, Any]]
+    text: str
     has_point: bool
     best_objectives: Array
     rho: Array

@@ -200,6 +200,10 @@ class Result(_Job):
         #: Every named parameter at the best design, in SI units.
         self.parameters: Dict[str, float] = self.record.get("parameters", {})
 
+    def __str__(self) -> str:
+        """The result in words: the lines of `codesign optimize`, then the warnings."""
+        return str(self._core.text)
+
     def __repr__(self) -> str:
         return f"<Result: {self.status.code}, objective {self.initial_objective} -> {self.objective}>"
 

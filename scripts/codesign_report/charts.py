@@ -187,6 +187,30 @@ def matrix_chart(title, names, rows):
     return svg("".join(body), title, width, height)
 
 
+def map_chart(title, x_label, y_label, xs, ys, rows):
+    """A value for each pair of two positions as shades of its magnitude over the largest one; None: not known. @param rows one per y, from below."""
+    values = finite([value for row in rows for value in row])
+    most = max(map(abs, values), default=0.0) or 1.0
+    left, top, width, height = LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM
+    wide, high = width / len(xs), height / len(ys)
+    body = []
+    for j, (y, row) in enumerate(zip(ys, rows)):
+        for i, (x, value) in enumerate(zip(xs, row)):
+            kind = "unknown" if value is None else "plus" if value >= 0.0 else "minus"
+            shade = 0.15 if value is None else min(1.0, abs(value) / most)
+            text = "not known" if value is None else short(value, 4)
+            body.append(f'<rect class="cell {kind}" fill-opacity="{shade:.3f}" x="{left + wide * i:.1f}" y="{top + height - high * (j + 1):.1f}" '
+                        f'width="{wide:.1f}" height="{high:.1f}"><title>{escape(x_label)} {short(x, 4)}, {escape(y_label)} {short(y, 4)}: {text}</title></rect>')
+    for at, label, anchor in ((left, xs[0], "start"), (left + width, xs[-1], "end")):
+        body.append(f'<text class="tick" x="{at}" y="{top + height + 14}" text-anchor="{anchor}">{short(label, 4)}</text>')
+    for at, label in ((top + height, ys[0]), (top + 10, ys[-1])):
+        body.append(f'<text class="tick" x="{left - 5}" y="{at}" text-anchor="end">{short(label, 4)}</text>')
+    body.append(f'<text class="axis" x="{left + width / 2:.0f}" y="{HEIGHT - 4}" text-anchor="middle">{escape(x_label)}</text>')
+    body.append(f'<text class="axis" x="12" y="{top + height / 2:.0f}" text-anchor="middle" '
+                f'transform="rotate(-90 12 {top + height / 2:.0f})">{escape(y_label)}</text>')
+    return svg("".join(body), title)
+
+
 def interval_chart(title, low, high, value, start):
     """One confidence interval in a row of a table: a bar from low to high, a dot at the value, and a tick at the start if that is near."""
     values = finite([low, high, value])

@@ -124,8 +124,11 @@ class Job:
 
 
 def find_job(path):
-    """The job of a folder, or of a bag with its folder beside it; with absolute paths, so that the commands of the page work anywhere."""
+    """The job of a folder, or of a bag with its folder beside it, or the efforts of a JSON file; with absolute paths, so that the commands of the page work anywhere."""
     path = os.path.abspath(path)
+    if path.endswith(".json") and os.path.isfile(path):
+        from .efforts import Efforts  # pylint: disable=import-outside-toplevel  # which imports this module
+        return Efforts(path)
     if os.path.isdir(path):
         folder, bag = path, None
     elif path.endswith(".bag") and os.path.isfile(path):
@@ -134,7 +137,7 @@ def find_job(path):
             raise ReportError(f"{path}: the folder {folder} with the files of this job is not beside the bag; jobs before 0.2 have none, "
                               "simulate or optimize again")
     else:
-        raise ReportError(f"{path}: neither a folder nor a bag")
+        raise ReportError(f"{path}: neither a folder nor a bag nor a file of codesign efforts --json")
     if not any(os.path.isfile(os.path.join(folder, name)) for name in ("result.json", "identification.json")):
         raise ReportError(f"{folder}: no result.json and no identification.json; "
                           "codesign optimize --output and codesign identify --output write them")

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import jinja2
 
-from . import asked, drawing, geometry, numbers, results, signals, words
+from . import asked, drawing, efforts, geometry, numbers, results, signals, words
 from .job import ReportError, read_text
 from .numbers import Markup
 
@@ -112,6 +112,8 @@ def environment():
 
 def render(job):
     """The page as text. Curves get coarser until it is at most two megabytes."""
+    if isinstance(job, efforts.Efforts):
+        return environment().get_template("efforts.html.j2").render(efforts.context(job))
     template = environment().get_template("page.html.j2")
     for scale in (1.0, 0.5, 0.2, 0.0):
         text = template.render(context(job, scale))

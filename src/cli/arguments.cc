@@ -104,7 +104,7 @@ const std::map<std::string, Option>& options() {
        {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->fill = true; }}},
       {"--run",
        {Value::kRequired,
-        {"simulate", "efforts", "equilibrium"},
+        {"simulate", "efforts", "equilibrium", "gradient"},
         [](const std::string& text, Arguments* to) { to->run = text; }}},
       {"--signals", {Value::kRequired, {"simulate", "efforts", "equilibrium"}, add_signals}},
       {"--csv",
@@ -222,6 +222,7 @@ const CommandHelp kCommands[] = {
     --verify               compare with a complex step (with idas: Ridders' differences) along one
                            direction; where that disagrees, by each parameter
     --verify=METHOD        compare by each parameter, with complex_step or ridders
+    --run NAME             one of the study's runs, in place of the measure over all
 )"},
     {"optimize",
      R"(  optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
@@ -244,7 +245,8 @@ const CommandHelp kCommands[] = {
     --from MACHINE         the machine whose model and study are copied
 )"},
     {"report",
-     R"(  report DIR|BAG           a page with all that an optimization or identification has found
+     R"(  report DIR|BAG           a page with all that an optimization or identification has found, or
+                           with the curves and maps of a file of efforts --json
     -o FILE                the page; by default report.html
 )"},
     {"apply",

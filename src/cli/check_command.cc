@@ -3,13 +3,14 @@
 #include "assembly/count_equations.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/recordings.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "mechanism_codesign/simulation.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
+#include "text/table.h"
 
 namespace codesign::cli {
 namespace {

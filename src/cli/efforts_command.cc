@@ -6,10 +6,10 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "cli/series.h"
-#include "cli/table.h"
 #include "jobs/effort_recorder.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
+#include "text/table.h"
 
 namespace codesign::cli {
 namespace {

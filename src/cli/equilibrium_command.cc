@@ -5,12 +5,12 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/run_recorder.h"
 #include "statics/equilibrium.h"
 #include "text/number_text.h"
+#include "text/table.h"
 
 namespace codesign::cli {
 namespace {

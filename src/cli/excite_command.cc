@@ -7,7 +7,6 @@
 #include "cli/inputs.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "excitation/excite.h"
 #include "jobs/csv_writer.h"
 #include "jobs/files.h"
@@ -15,6 +14,7 @@
 #include "jobs/json.h"
 #include "jobs/recording_records.h"
 #include "text/number_text.h"
+#include "text/table.h"
 
 namespace codesign::cli {
 namespace {

@@ -2,11 +2,11 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
 #include "math/arrays.h"
 #include "text/number_text.h"
+#include "text/table.h"
 
 namespace codesign::cli {
 namespace {

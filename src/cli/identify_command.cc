@@ -7,8 +7,8 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/progress_line.h"
+#include "cli/recordings.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "identification/identify.h"
 #include "jobs/files.h"
 #include "jobs/identification_records.h"
@@ -16,6 +16,7 @@
 #include "jobs/json.h"
 #include "jobs/trial_lines.h"
 #include "text/number_text.h"
+#include "text/table.h"
 
 namespace codesign::cli {
 namespace {

@@ -7,7 +7,6 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "jobs/files.h"
 #include "text/nearest_name.h"
 

@@ -7,52 +7,16 @@
 #include "cli/job_folder.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
-#include "cli/table.h"
 #include "engine/dispatcher.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
-#include "jobs/shown_signals.h"
 #include "jobs/trial_lines.h"
 #include "math/arrays.h"
+#include "optimization/result_report.h"
 #include "optimization/search_hooks.h"
-#include "optimization/search_results.h"
-#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
-
-void print_design(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
-  const std::vector<std::string> names = problem.tuned_names();
-  Table table;
-  table.add({"parameter", "initial", "tuned", "lower", "upper", "gradient"});
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const Parameter& parameter = problem.study().parameters[to_index(problem.study().tuned[k])];
-    const auto i = to_signed(k);
-    table.add({names[k], readable(result.initial_rho[i]), readable(result.rho[i]),
-               readable(parameter.lower), readable(parameter.upper),
-               is_evaluated(problem, result) ? readable(result.gradient[i]) : "not evaluated"});
-  }
-  table.print(out);
-  for (std::size_t k = 0; k < problem.study().constraints.size(); ++k)
-    out << problem.study().constraints[k].text << ": margin "
-        << readable(result.margins[to_signed(k)]) << '\n';
-}
-
-void print_result(const Problem& problem, const OptimizationResult& result, std::ostream& out) {
-  print_design(problem, result, out);
-  if (is_evaluated(problem, result))
-    out << "objective " << readable(result.initial_objective) << " -> "
-        << readable(result.objective) << '\n';
-  else if (has_objective(problem, result))
-    out << "objective " << readable(result.objective) << " at the best point of screening\n";
-  for (const std::string& sentence : watched_sentences(result)) out << sentence << '\n';
-  for (const std::string& sentence : ensemble_sentences(problem, result)) out << sentence << '\n';
-  out << result.termination << " after " << result.iterations << " iterations, "
-      << result.evaluations << " evaluations (" << result.failed_evaluations << " failed), "
-      << result.statistics.steps << " steps, " << readable(result.statistics.cpu_seconds)
-      << " s of processor time\n";
-  if (const std::string stop = stop_sentence(result); !stop.empty()) out << stop << '\n';
-}
 
 void print_lines(const std::vector<std::string>& sentences, const Console& console) {
   for (const std::string& sentence : sentences)
@@ -103,7 +67,7 @@ int optimize(const Arguments& arguments, const Console& console) {
   const OptimizationResult result =
       run_search(problem, problem.optimizer_options(), hooks, &console.cancel);
   const bool designed = has_design(problem, result);
-  if (!arguments.json && designed) print_result(problem, result, console.out);
+  if (!arguments.json && designed) console.out << outcome_text(problem, result);
   Json object = optimization_json(problem, result);
   Warnings warnings = result.warnings;
   if (folder) append(folder->warnings(), &warnings);

@@ -10,7 +10,6 @@
 #include "jobs/files.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
-#include "jobs/trial_lines.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign::cli {

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "cli/inputs.h"
+#include "jobs/files.h"
+#include "jobs/job_files.h"
 
 namespace codesign::cli {
 

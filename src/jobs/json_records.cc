@@ -8,7 +8,7 @@
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
-#include "jobs/trial_lines.h"
+#include "optimization/result_report.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -39,11 +39,11 @@ const char* bound_of(const Parameter& parameter, double value) {
 /// is not compiled and takes about as long as forty gradients, or Ridders' extrapolation, about as
 /// long as twenty.
 double expected_seconds(const Problem& problem, const OptimizationResult& result) {
-  const double evaluations = std::max(1, result.evaluations);
+  const double evaluations = std::max(1, result.cost.evaluations);
   const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 40.0;
   const auto directions =
-      static_cast<double>(std::min<Eigen::Index>(result.rho.size(), kCheckedDirections));
-  return (2.0 + runs * directions) * result.statistics.cpu_seconds / evaluations;
+      static_cast<double>(std::min<Eigen::Index>(result.best.rho.size(), kCheckedDirections));
+  return (2.0 + runs * directions) * result.cost.statistics.cpu_seconds / evaluations;
 }
 
 Json skipped(const std::string& why) { return {{"skipped", why}}; }
@@ -128,8 +128,8 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
 
 Json parameter_table(const Problem& problem, const OptimizationResult& result) {
   const Study& study = problem.study();
-  const std::vector<double> initial = problem.parameters(result.initial_rho),
-                            tuned = problem.parameters(result.rho);
+  const std::vector<double> initial = problem.parameters(result.initial.rho),
+                            tuned = problem.parameters(result.best.rho);
   Json table = Json::array();
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     const Parameter& parameter = study.parameters[i];
@@ -152,14 +152,14 @@ Json gradient_check_json(const Problem& problem, const OptimizationResult& resul
   if (!is_evaluated(problem, result) || result.status.is_interrupted())
     return skipped("the search was interrupted");
   if (const double seconds = expected_seconds(problem, result);
-      seconds > std::max(kUnnoticed, kShare * result.statistics.cpu_seconds))
+      seconds > std::max(kUnnoticed, kShare * result.cost.statistics.cpu_seconds))
     return skipped("it would take about " + readable(std::ceil(seconds)) +
                    " s, more than a tenth of the search; codesign gradient --verify does it");
   const bool by_differences = problem.study().solver.integrator == IntegratorKind::kIdas;
   const CheckMethod method = by_differences ? CheckMethod::kRidders : CheckMethod::kComplexStep;
   GradientCheck check;
   try {
-    check = check_along(Ensemble(problem), result.rho, method, cancel);
+    check = check_along(Ensemble(problem), result.best.rho, method, cancel);
   } catch (const InputError& error) {
     return skipped(error.what());  // the gradient cannot be checked, for example because the
                                    // processes of the engine are missing

@@ -12,7 +12,6 @@
 #include "jobs/optimization_records.h"
 #include "jobs/robot_gains.h"
 #include "jobs/run_recorder.h"
-#include "jobs/trial_lines.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/number_text.h"
 
@@ -100,8 +99,8 @@ std::vector<Failure> ResultFolder::write_design(const std::string& json,
   const auto write = [&](const char* name, const Text& text) {
     write_file(in_folder(name), text, &failures);
   };
-  const std::vector<double> initial = problem_.parameters(result.initial_rho),
-                            tuned = problem_.parameters(result.rho);
+  const std::vector<double> initial = problem_.parameters(result.initial.rho),
+                            tuned = problem_.parameters(result.best.rho);
   const auto urdf_at = [this](const std::vector<double>& parameters) {
     return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters, std::nullopt,
                             problem_.robot().laws);
@@ -122,11 +121,11 @@ std::vector<Failure> ResultFolder::write_design(const std::string& json,
   }
   if (!problem_.study().hardware.empty())
     write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
-  if (!result.starts.empty())
+  if (!result.multistart.starts.empty())
     write("starts.csv", [&] {
       return csv_text(start_columns(problem_), start_rows(result), in_folder("starts.csv"));
     });
-  if (!result.scenarios.empty())
+  if (!result.ensemble.scenarios.empty())
     write("scenarios.csv", [&] {
       return csv_text(scenario_columns(result), scenario_rows(result), in_folder("scenarios.csv"));
     });
@@ -159,8 +158,8 @@ std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result,
     }
   };
   // The tuned design first, since it matters more if time runs out.
-  record("tuned", result.rho);
-  record("initial", result.initial_rho);
+  record("tuned", result.best.rho);
+  record("initial", result.initial.rho);
   details["gradient_check"] = gradient_check_json(problem_, result, cancel);
   write_file(
       in_folder("details.json"), [&] { return to_text(details); }, &failures);

@@ -11,7 +11,6 @@
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
 #include "jobs/robot_gains.h"
-#include "jobs/trial_lines.h"
 #include "math/arrays.h"
 #include "text/number_text.h"
 

@@ -7,7 +7,6 @@
 #include "jobs/json.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
-#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -102,8 +101,6 @@ bool exists(const SignalDescription& signal, const RobotDescription& robot,
   return true;
 }
 
-constexpr double kShown = 1e-8;  // smaller violations are rounding
-
 /// A number, or null where there is no bound.
 Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -152,9 +149,9 @@ std::vector<ShownSignal> shown_signals(const Problem& problem,
 }
 
 void add_watched(const OptimizationResult& result, Json* object) {
-  if (result.watched.empty()) return;
+  if (result.constraints.watched.empty()) return;
   Json list = Json::array();
-  for (const WatchedResult& watched : result.watched) {
+  for (const WatchedResult& watched : result.constraints.watched) {
     Json one = {{"element", watched.element},
                 {"signal", watched.signal},
                 {"lower", bound(watched.lower)},
@@ -169,25 +166,13 @@ void add_watched(const OptimizationResult& result, Json* object) {
                 {"largest_time", watched.largest_time},
                 {"violation", watched.violation},
                 {"tolerance", watched.tolerance}};
-    if (!result.scenarios.empty()) {
-      one["smallest_in"] = place(result.scenarios[to_index(watched.smallest_scenario)]);
-      one["largest_in"] = place(result.scenarios[to_index(watched.largest_scenario)]);
+    if (!result.ensemble.scenarios.empty()) {
+      one["smallest_in"] = place(result.ensemble.scenarios[to_index(watched.smallest_scenario)]);
+      one["largest_in"] = place(result.ensemble.scenarios[to_index(watched.largest_scenario)]);
     }
     list.push_back(std::move(one));
   }
   (*object)["signals"] = std::move(list);
-}
-
-std::vector<std::string> watched_sentences(const OptimizationResult& result) {
-  std::vector<std::string> sentences;
-  for (const WatchedResult& watched : result.watched)
-    sentences.push_back(
-        watched.element + ", " + watched.signal + ": from " + readable(watched.initial_smallest) +
-        " ... " + readable(watched.initial_largest) + " to " + readable(watched.smallest) +
-        " ... " + readable(watched.largest) +
-        (watched.violation > kShown ? ", beyond its bounds by " + readable(watched.violation, 3)
-                                    : ""));
-  return sentences;
 }
 
 }  // namespace codesign

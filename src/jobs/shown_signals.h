@@ -33,7 +33,4 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
 /// and after, in which run and sample, and the violation. Nothing without one.
 void add_watched(const OptimizationResult& result, Json* object);
 
-/// One sentence per such signal, for people.
-std::vector<std::string> watched_sentences(const OptimizationResult& result);
-
 }  // namespace codesign

@@ -45,24 +45,6 @@ double largest_change(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
   return largest;
 }
 
-/// "at t = 0.5 s", or nothing for what ended a search, which has no time of a run.
-std::string moment(const Status& status) {
-  switch (status.code) {
-    case StatusCode::kCancelled:
-    case StatusCode::kInfeasible:
-    case StatusCode::kAlgorithmFailed:
-    case StatusCode::kWorkerLost:
-    case StatusCode::kNonFiniteGradient:
-    case StatusCode::kNoEquilibrium:
-    case StatusCode::kNotIdentifiable:
-      if (status.time == 0.0) return "";
-      break;
-    default:
-      break;
-  }
-  return "at t = " + readable(status.time) + " s";
-}
-
 }  // namespace
 
 std::string time_left(const std::optional<double>& seconds, bool is_bound) {
@@ -120,17 +102,6 @@ std::string FitLines::line(const FitTrial& trial) {
   return line + time_left(trial.evaluation > 0 ? std::optional(seconds * left / trial.evaluation)
                                                : std::nullopt,
                           true);
-}
-
-std::string describe(const Status& status) {
-  const std::string at = moment(status);
-  return std::string(name_of(status.code)) + (at.empty() ? "" : " " + at) +
-         (status.cause.empty() ? "" : ": " + status.cause);
-}
-
-std::string reason(const Status& status) {
-  const std::string at = moment(status);
-  return status.cause + (at.empty() ? "" : " (" + at + ")");
 }
 
 }  // namespace codesign

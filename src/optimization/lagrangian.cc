@@ -149,10 +149,10 @@ void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho,
 }
 
 bool meets_constraints(const OptimizationResult& result) {
-  return all_met(result.margins) && std::all_of(result.watched.begin(), result.watched.end(),
-                                                [](const WatchedResult& watched) {
-                                                  return watched.violation <= watched.tolerance;
-                                                });
+  return all_met(result.constraints.margins) &&
+         std::all_of(
+             result.constraints.watched.begin(), result.constraints.watched.end(),
+             [](const WatchedResult& watched) { return watched.violation <= watched.tolerance; });
 }
 
 std::string describe_violated(const std::vector<WatchedResult>& watched) {

@@ -203,7 +203,7 @@ void search_squares(const OptimizerOptions& options, const Eigen::VectorXd& star
   Eigen::VectorXd x = as_vector(scaling.to_scaled(start)).cwiseMax(lower).cwiseMin(upper);
   LeastSquaresPoint best;
   LevenbergMarquardtOptions search;
-  search.max_evaluations = options.max_evaluations - trials->result().evaluations;
+  search.max_evaluations = options.max_evaluations - trials->result().cost.evaluations;
   search.relative_tolerance = options.relative_tolerance;
   trials->result().termination =
       name_of(minimize_squares(search, lower, upper, &squares, &x, &best));

@@ -101,14 +101,14 @@ class Minimization {
     const bool has_progressed =
         trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
     return ended_outside && has_progressed && restarts_ < kMostRestarts &&
-           result_.evaluations < options_.max_evaluations;
+           result_.cost.evaluations < options_.max_evaluations;
   }
 
   void restart(nlopt::opt* optimizer) {
     ++restarts_;
     violation_before_ = trials_.best_violation();
     if (program_.equalities() == 0 && options_.algorithm != kInsideFinder) move_inside();
-    run_from(result_.rho, optimizer);
+    run_from(result_.best.rho, optimizer);
   }
 
   /// Looks for a feasible point by the method of moving asymptotes, which finds one from far away,
@@ -120,12 +120,12 @@ class Minimization {
     nlopt::opt optimizer = make_optimizer(options, dimension());
     configure(&optimizer);
     moves_inside_ = true;
-    run_from(restarts_ == 1 ? result_.initial_rho : result_.rho, &optimizer);
+    run_from(restarts_ == 1 ? result_.initial.rho : result_.best.rho, &optimizer);
     moves_inside_ = false;
   }
 
   void run_from(const Eigen::VectorXd& rho, nlopt::opt* optimizer) {
-    if (trials_.interrupted() || result_.evaluations >= options_.max_evaluations) return;
+    if (trials_.interrupted() || result_.cost.evaluations >= options_.max_evaluations) return;
     std::vector<double> x = scaling_.to_scaled(rho);
     minimize(optimizer, &x);
   }
@@ -160,9 +160,9 @@ class Minimization {
 
   /// Whether a failed line search ended at an optimum: its points hardly differ, nor do they slope.
   bool has_converged() {
-    const double difference = std::abs(last_.total.objective - result_.objective);
+    const double difference = std::abs(last_.total.objective - result_.best.objective);
     if (!last_.total.status.ok() ||
-        difference > options_.relative_tolerance * std::abs(result_.objective))
+        difference > options_.relative_tolerance * std::abs(result_.best.objective))
       return false;
     return trials_.best_keeps_bounds() && trials_.slope_left() <= kSlopeLeft;
   }
@@ -182,7 +182,7 @@ class Minimization {
         constraint.row, owner.design(x), gradient.empty() ? nullptr : &by_rho);
     // A constraint that is not finite counts as violated, the more the farther from the best point.
     if (!std::isfinite(margin))
-      return 1.0 + owner.scaling_.square_distance(owner.result_.rho, x, 1.0, &gradient);
+      return 1.0 + owner.scaling_.square_distance(owner.result_.best.rho, x, 1.0, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
     for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
       gradient[k] = -by_rho[to_signed(k)] * owner.scaling_.range(k);
@@ -259,27 +259,27 @@ class Minimization {
   }
 
   void evaluate(const Eigen::VectorXd& rho) {
-    is_at_limit_ = result_.evaluations >= options_.max_evaluations;
+    is_at_limit_ = result_.cost.evaluations >= options_.max_evaluations;
     if (is_at_limit_) throw nlopt::forced_stop();
     if (!trials_.evaluate(rho, Derivatives::kGradient)) throw nlopt::forced_stop();
     if (moves_inside_ && trials_.best_violation() == 0.0) throw nlopt::forced_stop();
-    if (result_.evaluations == 1) take_unit();
+    if (result_.cost.evaluations == 1) take_unit();
   }
 
   // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at
   // most 1 in scaled variables, (24).
   void take_unit() {
     if (trials_.have_best())
-      unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial_gradient));
+      unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial.gradient));
   }
 
   // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger
   // with growing distance from the best point, so that a line search turns back.
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
     if (!trials_.have_best()) throw std::runtime_error("the start could not be evaluated");
-    const double weight = std::abs(worst_) + std::abs(result_.objective) + 1e-300;
-    return (worst_ +
-            weight * (1.0 + scaling_.square_distance(result_.rho, x, weight / unit_, gradient))) /
+    const double weight = std::abs(worst_) + std::abs(result_.best.objective) + 1e-300;
+    return (worst_ + weight * (1.0 + scaling_.square_distance(result_.best.rho, x, weight / unit_,
+                                                              gradient))) /
            unit_;
   }
 
@@ -328,14 +328,14 @@ class Search {
     OptimizerOptions attempt = options_;
     std::size_t algorithm = 0;
     for (int k = 0; k < kMostAttempts; ++k) {
-      const double before = result_.objective, outside = trials_.best_violation();
+      const double before = result_.best.objective, outside = trials_.best_violation();
       const bool had_best = trials_.have_best();
-      try_from(had_best ? result_.rho : start, algorithms_[algorithm], &attempt);
+      try_from(had_best ? result_.best.rho : start, algorithms_[algorithm], &attempt);
       if (!goes_on()) break;
       const bool has_gained =
-          had_best &&
-          (before - result_.objective > options_.relative_tolerance * std::abs(result_.objective) ||
-           trials_.best_violation() < 0.9 * outside);
+          had_best && (before - result_.best.objective >
+                           options_.relative_tolerance * std::abs(result_.best.objective) ||
+                       trials_.best_violation() < 0.9 * outside);
       // Least squares do not know the constraints, and would leave them again.
       const bool leaves_constraints = is_least_squares(last_) && !study_.constraints.empty();
       const bool begins_anew = trials_.have_best() && !leaves_constraints && (k == 0 || has_gained);
@@ -364,7 +364,7 @@ class Search {
 
   /// Whether the search may not end at the stop of the attempt, and has evaluations left.
   bool goes_on() {
-    if (trials_.interrupted() || result_.evaluations >= options_.max_evaluations) return false;
+    if (trials_.interrupted() || result_.cost.evaluations >= options_.max_evaluations) return false;
     if (result_.termination == "max_evaluations_reached" || !uses_gradients(last_)) return false;
     // A weight of this start is negative, so that the objective is no sum of squares.
     if (!trials_.have_best()) return trials_.first_failure().code == StatusCode::kInvalidDesign;

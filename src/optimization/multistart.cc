@@ -56,9 +56,9 @@ class Multistart {
     screen();
     std::vector<OptimizationResult> found = search();
     OptimizationResult result = combine(&found);
-    result.screened = usable_ + unusable_;
-    result.unusable = unusable_;
-    result.failed_evaluations += unusable_;
+    result.multistart.screened = usable_ + unusable_;
+    result.multistart.unusable = unusable_;
+    result.cost.failed_evaluations += unusable_;
     if (is_set(cancel_) || observer_.is_stopped()) {
       result.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
       result.termination = "cancelled";
@@ -148,7 +148,7 @@ class Multistart {
       if (is_set(cancel_) || observer_.is_stopped()) return;
       found[k] = search_locally(study_, options_, starts_[k].rho, ensemble_,
                                 observer_.of(static_cast<int>(k) + 1), cancel_);
-      meter_.end_search(found[k].evaluations);
+      meter_.end_search(found[k].cost.evaluations);
     });
     for (const OptimizationResult& one : found)
       if (one.status.code == StatusCode::kWorkerLost) lost_ = one.status;
@@ -165,8 +165,8 @@ class Multistart {
     }
     std::vector<Optimum> optima = cluster_optima(scaled, asked_.cluster, &starts);
     OptimizationResult best = choose(found);
-    best.starts = std::move(starts);
-    best.optima = std::move(optima);
+    best.multistart.starts = std::move(starts);
+    best.multistart.optima = std::move(optima);
     add_sums(*found, &best);
     take_study_start(&best);
     describe_scenarios(problem_, ensemble_, cancel_, &meter_, &best);
@@ -175,7 +175,7 @@ class Multistart {
 
   static StartResult describe(const Eigen::VectorXd& start, double objective,
                               const OptimizationResult& result) {
-    if (result.evaluations == 0)
+    if (result.cost.evaluations == 0)
       return {start,
               start,
               objective,
@@ -184,23 +184,24 @@ class Multistart {
               "not_started",
               0,
               -1};
-    const bool has_point = result.gradient.size() > 0;
+    const bool has_point = result.best.gradient.size() > 0;
     return {start,
-            has_point ? result.rho : start,
+            has_point ? result.best.rho : start,
             objective,
-            has_point ? result.objective : objective,
+            has_point ? result.best.objective : objective,
             result.status,
             result.termination,
-            result.evaluations,
+            result.cost.evaluations,
             -1};
   }
 
   OptimizationResult choose(std::vector<OptimizationResult>* found) const {
     const OptimizationResult* best = nullptr;
     for (const OptimizationResult& result : *found) {
-      if (result.gradient.size() == 0) continue;
+      if (result.best.gradient.size() == 0) continue;
       const bool met = meets_constraints(result), best_met = best && meets_constraints(*best);
-      if (!best || (met && !best_met) || (met == best_met && result.objective < best->objective))
+      if (!best || (met && !best_met) ||
+          (met == best_met && result.best.objective < best->best.objective))
         best = &result;
     }
     if (best) return *best;
@@ -210,38 +211,38 @@ class Multistart {
                                "no point that meets the constraints could be evaluated"}
                       : first_failure_;
     none.termination = "start_failed";
-    none.initial_rho = none.rho = problem_.start();
+    none.initial.rho = none.best.rho = problem_.start();
     if (!starts_.empty()) {
-      none.rho = starts_.front().rho;
-      none.objective = starts_.front().objective;
+      none.best.rho = starts_.front().rho;
+      none.best.objective = starts_.front().objective;
     }
-    none.margins = parameter_rows_.margins(none.rho);
-    none.influences.assign(study_.tuned.size(), false);
+    none.constraints.margins = parameter_rows_.margins(none.best.rho);
+    none.optimality.influences.assign(study_.tuned.size(), false);
     return none;
   }
 
   void add_sums(const std::vector<OptimizationResult>& found, OptimizationResult* best) const {
-    best->evaluations = usable_ + unusable_;
-    best->failed_evaluations = 0;
-    best->statistics = statistics_;
+    best->cost.evaluations = usable_ + unusable_;
+    best->cost.failed_evaluations = 0;
+    best->cost.statistics = statistics_;
     for (const OptimizationResult& result : found) {
-      best->evaluations += result.evaluations;
-      best->failed_evaluations += result.failed_evaluations;
-      best->statistics += result.statistics;
+      best->cost.evaluations += result.cost.evaluations;
+      best->cost.failed_evaluations += result.cost.failed_evaluations;
+      best->cost.statistics += result.cost.statistics;
     }
   }
 
   /// The initial values in the result are the values at the study's start, if that can be
   /// evaluated.
   void take_study_start(OptimizationResult* best) const {
-    if (best->gradient.size() == 0 || is_set(cancel_)) return;
+    if (best->best.gradient.size() == 0 || is_set(cancel_)) return;
     const EnsembleEvaluation start = ensemble_.evaluate(problem_.start(), true, cancel_);
     if (!start.total.status.ok()) return;
-    best->initial_rho = problem_.start();
-    best->initial_objective = start.total.objective;
-    best->initial_gradient = start.total.gradient;
-    best->initial_values = start.values;
-    best->initial_failed = start.failed;
+    best->initial.rho = problem_.start();
+    best->initial.objective = start.total.objective;
+    best->initial.gradient = start.total.gradient;
+    best->initial.values = start.values;
+    best->initial.failed = start.failed;
   }
 
   const Problem& problem_;

@@ -43,6 +43,12 @@ inline TrialObserver counted_trials(const SearchHooks& hooks, ProgressMeter* met
 OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options,
                               const SearchHooks& hooks, const std::atomic<bool>* cancel);
 
+/// optimize() of a compiled system: one search from the start values, without its scenarios
+/// described.
+OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
+                            const OptimizerOptions& options, const TrialObserver& observer = {},
+                            const std::atomic<bool>* cancel = nullptr);
+
 /// Passes the trials of searches in several threads to one observer: one trial at a time, numbered
 /// consecutively over all searches, with the best objective of all searches.
 class SharedObserver {

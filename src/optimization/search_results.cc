@@ -49,10 +49,10 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   const std::vector<Scenario> scenarios = make_validation_scenarios(problem, options.validate);
   meter->begin(SearchStage::kValidating, 1, scenarios.size());
   const std::vector<Evaluation> members =
-      ensemble.engine().evaluate(tasks_at(scenarios, design.rho, Derivatives::kNone), cancel);
+      ensemble.engine().evaluate(tasks_at(scenarios, design.best.rho, Derivatives::kNone), cancel);
   Validation validation;
   validation.samples = options.validate;
-  validation.promised = design.objective;
+  validation.promised = design.best.objective;
   std::vector<double> values, weights;
   for (std::size_t k = 0; k < members.size(); ++k) {
     if (members[k].status.is_interrupted()) {
@@ -77,9 +77,9 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
     return std::nullopt;
   }
   validation.objective = measured.value;
-  if (design.value_at_risk) {
+  if (design.ensemble.value_at_risk) {
     validation.value_at_risk = measured.threshold;
-    validation.within = share_within(*design.value_at_risk, values, weights);
+    validation.within = share_within(*design.ensemble.value_at_risk, values, weights);
   }
   validation.mean = w.dot(psi);
   validation.worst = psi.maxCoeff();
@@ -144,13 +144,13 @@ void add_stop_warning(const Study& study, const OptimizerOptions& options,
 
 void add_flat_warning(const Study& study, const OptimizerOptions& options,
                       const OptimizationResult& result, Warnings* warnings) {
-  const Eigen::Index count = result.flat_directions.cols();
+  const Eigen::Index count = result.optimality.flat_directions.cols();
   if (count == 0) return;
   std::string list;
   for (Eigen::Index d = 0; d < std::min<Eigen::Index>(count, kMostListed); ++d) {
     std::string direction;
-    for (Eigen::Index k = 0; k < result.flat_directions.rows(); ++k) {
-      const double by = result.flat_directions(k, d);
+    for (Eigen::Index k = 0; k < result.optimality.flat_directions.rows(); ++k) {
+      const double by = result.optimality.flat_directions(k, d);
       if (by == 0.0) continue;
       const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
       direction += (direction.empty() ? "" : ", ") + parameter.name + (by > 0.0 ? " +" : " ") +
@@ -193,36 +193,40 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
                         const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result) {
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
-  const bool known = result->values.size() == to_signed(scenarios.size()) &&
-                     result->initial_values.size() == result->values.size();
+  const bool known = result->best.values.size() == to_signed(scenarios.size()) &&
+                     result->initial.values.size() == result->best.values.size();
   if (!problem.study().ensemble.is_ensemble() || !known) return;
   for (std::size_t k = 0; k < scenarios.size(); ++k) {
     const auto i = to_signed(k);
-    result->scenarios.push_back(
-        describe(problem.study(), scenarios[k], result->initial_values[i], result->values[i]));
+    result->ensemble.scenarios.push_back(
+        describe(problem.study(), scenarios[k], result->initial.values[i], result->best.values[i]));
   }
-  for (int k : result->initial_failed) result->scenarios[to_index(k)].initial_failed = true;
-  for (int k : result->failed) result->scenarios[to_index(k)].failed = true;
+  for (int k : result->initial.failed)
+    result->ensemble.scenarios[to_index(k)].initial_failed = true;
+  for (int k : result->best.failed) result->ensemble.scenarios[to_index(k)].failed = true;
   if (ensemble.options().measure == RobustMeasure::kCvar)
-    result->value_at_risk =
-        measure(ensemble.options(), result->values, ensemble.weights()).threshold;
+    result->ensemble.value_at_risk =
+        measure(ensemble.options(), result->best.values, ensemble.weights()).threshold;
   if (ensemble.options().validate == 0 || is_set(cancel)) return;
   Status failure;
-  result->validation = validate(problem, ensemble, *result, cancel, meter, &failure);
+  result->ensemble.validation = validate(problem, ensemble, *result, cancel, meter, &failure);
   if (failure.ok()) return;
   result->status = with_best_kept(failure);
   result->termination = name_of(failure.code);
 }
 
 std::string stop_sentence(const OptimizationResult& result) {
-  if (!std::isfinite(result.stationarity)) return "";
-  if (is_success(result.termination)) return "stationary to " + readable(result.stationarity, 2);
+  if (!std::isfinite(result.optimality.stationarity)) return "";
+  if (is_success(result.termination))
+    return "stationary to " + readable(result.optimality.stationarity, 2);
   // A start at which nothing has an effect on the objective has no slope.
-  const std::string slope =
-      result.initial_slope > 0.0
-          ? "the slope is " + readable(result.slope / result.initial_slope, 2) + " of the start's, "
-          : "";
-  return "stopped early: " + slope + "stationary to " + readable(result.stationarity, 2) + " only";
+  const std::string slope = result.initial.slope > 0.0
+                                ? "the slope is " +
+                                      readable(result.best.slope / result.initial.slope, 2) +
+                                      " of the start's, "
+                                : "";
+  return "stopped early: " + slope + "stationary to " +
+         readable(result.optimality.stationarity, 2) + " only";
 }
 
 Warnings search_warnings(const Study& study, const OptimizerOptions& options,
@@ -233,15 +237,15 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options,
   for (std::size_t k = 0; k < study.tuned.size(); ++k) {
     const Parameter& parameter = study.parameters[to_index(study.tuned[k])];
     const auto i = to_signed(k);
-    add_bound_warning(parameter, result.rho[i], result.bound_multipliers[i], result.objective,
-                      &warnings);
-    if (!result.influences[k])
+    add_bound_warning(parameter, result.best.rho[i], result.optimality.bound_multipliers[i],
+                      result.best.objective, &warnings);
+    if (!result.optimality.influences[k])
       warnings.push_back(warn("parameter_without_influence",
                               {parameter.where, parameter.name,
                                "the objective did not change with this parameter at any trial "
                                "point, so its value is not tuned; remove it from the "
                                "study's parameters, or give {tune: false}",
-                               to_decimal(result.rho[i]), ""}));
+                               to_decimal(result.best.rho[i]), ""}));
   }
   add_flat_warning(study, options, result, &warnings);
   return warnings;

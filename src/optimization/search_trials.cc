@@ -40,8 +40,8 @@ SearchTrials::SearchTrials(const Study& study, const OptimizerOptions& options,
       parameter_rows_(study, ensemble.scenarios()) {}
 
 void SearchTrials::start(const Eigen::VectorXd& rho) {
-  result_.initial_rho = result_.rho = rho;
-  result_.influences.assign(study_.tuned.size(), false);
+  result_.initial.rho = result_.best.rho = rho;
+  result_.optimality.influences.assign(study_.tuned.size(), false);
   parameter_rows_.require_numbers_at(rho);
 }
 
@@ -57,10 +57,10 @@ bool SearchTrials::evaluate(const Eigen::VectorXd& rho, Derivatives derivatives)
 }
 
 void SearchTrials::conclude(const std::string& failure) {
-  result_.margins = parameter_rows_.margins(result_.rho);
-  result_.watched = watched_at_best();
+  result_.constraints.margins = parameter_rows_.margins(result_.best.rho);
+  result_.constraints.watched = watched_at_best();
   for (std::size_t k = 0; k < study_.tuned.size(); ++k)
-    if (program_.bounds_read(study_.tuned[k])) result_.influences[k] = true;
+    if (program_.bounds_read(study_.tuned[k])) result_.optimality.influences[k] = true;
   if (have_best_) judge_stop();
   if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
   append(lost_branches_, &result_.warnings);
@@ -79,8 +79,8 @@ void SearchTrials::conclude(const std::string& failure) {
 // The range of a signal takes a run.
 const std::vector<WatchedResult>& SearchTrials::watched_at_best() {
   if (!best_watched_) {
-    best_watched_ = program_.describe(best_.extremes, initial_extremes_, result_.rho);
-    count_range_of_run(ensemble_.scenarios().front(), result_.rho, cancel_, &*best_watched_);
+    best_watched_ = program_.describe(best_.extremes, initial_extremes_, result_.best.rho);
+    count_range_of_run(ensemble_.scenarios().front(), result_.best.rho, cancel_, &*best_watched_);
   }
   return *best_watched_;
 }
@@ -88,9 +88,9 @@ const std::vector<WatchedResult>& SearchTrials::watched_at_best() {
 bool SearchTrials::best_keeps_bounds() {
   if (best_violation_ == 0.0) return true;
   OptimizationResult best;
-  best.margins = parameter_rows_.margins(result_.rho);
-  best.watched = watched_at_best();
-  return !best.watched.empty() && meets_constraints(best);
+  best.constraints.margins = parameter_rows_.margins(result_.best.rho);
+  best.constraints.watched = watched_at_best();
+  return !best.constraints.watched.empty() && meets_constraints(best);
 }
 
 // If no point meets the constraints, rounding decides in which way an algorithm ends. The status is
@@ -101,14 +101,15 @@ void SearchTrials::judge_end(const std::string& failure) {
              is_outside = !best_keeps_bounds();
   std::string cause;
   if (is_outside)
-    cause = all_met(result_.margins) ? describe_violated(result_.watched)
-                                     : describe_unmet(study_, result_.margins);
+    cause = all_met(result_.constraints.margins)
+                ? describe_violated(result_.constraints.watched)
+                : describe_unmet(study_, result_.constraints.margins);
   if (has_failed)
     cause += (cause.empty() ? "" : "; ") +
              ("the algorithm \"" + result_.algorithm + "\" failed (" + failure) +
              "); the best point so far is kept; try another algorithm or another start";
   if (cause.empty()) return;
-  const bool has_tried = !has_failed || result_.evaluations > 1;
+  const bool has_tried = !has_failed || result_.cost.evaluations > 1;
   result_.status = {
       is_outside && has_tried ? StatusCode::kInfeasible : StatusCode::kAlgorithmFailed,
       study_.duration, cause};
@@ -122,13 +123,13 @@ Optimality SearchTrials::optimality_at(const EnsembleEvaluation& all, const Eige
 }
 
 const Optimality& SearchTrials::best_optimality() {
-  if (!best_optimality_) best_optimality_ = optimality_at(best_, result_.rho);
+  if (!best_optimality_) best_optimality_ = optimality_at(best_, result_.best.rho);
   return *best_optimality_;
 }
 
 double SearchTrials::slope_left() {
   const double slope = best_optimality().slope;
-  return slope > 0.0 ? slope / result_.initial_slope : 0.0;
+  return slope > 0.0 ? slope / result_.initial.slope : 0.0;
 }
 
 double SearchTrials::stationarity() {
@@ -137,7 +138,7 @@ double SearchTrials::stationarity() {
 }
 
 double SearchTrials::scale() const {
-  return std::max(std::abs(result_.objective), kStartCounts * result_.initial_slope);
+  return std::max(std::abs(result_.best.objective), kStartCounts * result_.initial.slope);
 }
 
 // Near an optimum the objective falls with the square of the slope.
@@ -152,13 +153,13 @@ void SearchTrials::judge_stop() {
   if (cancel_ && *cancel_) {
     // The multipliers may have been cut short.
     if (!interrupted()) interruption_ = {StatusCode::kCancelled, 0.0, "cancelled"};
-    result_.bound_multipliers.setZero(result_.rho.size());
+    result_.optimality.bound_multipliers.setZero(result_.best.rho.size());
     return;
   }
-  result_.slope = at_best.slope;
-  result_.stationarity = stationarity();
+  result_.best.slope = at_best.slope;
+  result_.optimality.stationarity = stationarity();
   // A multiplier far below the objective is what rounding leaves.
-  result_.bound_multipliers =
+  result_.optimality.bound_multipliers =
       (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
   if (interrupted()) return;
   if (is_success(result_.termination) && best_keeps_bounds() && !is_stationary())
@@ -174,8 +175,8 @@ void SearchTrials::find_flat_directions() {
     // The Jacobian of so many parameters costs too much.
     if (size > kMostRootColumns && prefers_adjoint(*ensemble_.scenarios().front().system)) return;
     const EnsembleEvaluation again =
-        ensemble_.evaluate(result_.rho, Derivatives::kGaussNewton, cancel_);
-    result_.statistics += again.total.statistics;
+        ensemble_.evaluate(result_.best.rho, Derivatives::kGaussNewton, cancel_);
+    result_.cost.statistics += again.total.statistics;
     if (!again.total.status.ok()) return;
     root = again.total.jacobian_root;
   }
@@ -183,20 +184,20 @@ void SearchTrials::find_flat_directions() {
   for (std::size_t k = 0; k < held.size(); ++k) {
     const auto i = to_signed(k);
     root.col(i) *= scaling_.range(k);
-    held[k] = !result_.influences[k] || result_.bound_multipliers[i] != 0.0;
+    held[k] = !result_.optimality.influences[k] || result_.optimality.bound_multipliers[i] != 0.0;
   }
-  result_.flat_directions = flat_directions(root, best_optimality().active, held);
+  result_.optimality.flat_directions = flat_directions(root, best_optimality().active, held);
   for (Eigen::Index k = 0; k < size; ++k)
-    result_.flat_directions.row(k) *= scaling_.range(to_index(k));
+    result_.optimality.flat_directions.row(k) *= scaling_.range(to_index(k));
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
   const Evaluation& evaluation = all.total;
   Trial trial;
-  trial.evaluation = ++result_.evaluations;
+  trial.evaluation = ++result_.cost.evaluations;
   trial.status = evaluation.status;
   trial.rho = rho;
-  result_.statistics += evaluation.statistics;
+  result_.cost.statistics += evaluation.statistics;
   // At any trial point, since a jump of the objective there may end the search elsewhere.
   for (const Warning& warning : evaluation.warnings)
     if (warning.code == "branch_lost" && lost_branches_.empty()) lost_branches_.push_back(warning);
@@ -208,19 +209,19 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     for (const Extremes& extremes : all.extremes) note_influences(extremes.gradients);
     take_best(all, rho);
   } else {
-    ++result_.failed_evaluations;
-    if (result_.evaluations == 1) first_failure_ = evaluation.status;
+    ++result_.cost.failed_evaluations;
+    if (result_.cost.evaluations == 1) first_failure_ = evaluation.status;
   }
-  trial.iteration = result_.iterations;
-  trial.best_objective = result_.objective;
+  trial.iteration = result_.cost.iterations;
+  trial.best_objective = result_.best.objective;
   trial.best_violation = best_violation_;
   return trial;
 }
 
 /// @param gradients one row per tuned parameter.
 void SearchTrials::note_influences(const Eigen::MatrixXd& gradients) {
-  for (std::size_t k = 0; k < result_.influences.size(); ++k)
-    if ((gradients.row(to_signed(k)).array() != 0.0).any()) result_.influences[k] = true;
+  for (std::size_t k = 0; k < result_.optimality.influences.size(); ++k)
+    if ((gradients.row(to_signed(k)).array() != 0.0).any()) result_.optimality.influences[k] = true;
 }
 
 double SearchTrials::violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
@@ -239,27 +240,27 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   const double outside = violation(all, rho);
   if (first) {
     initial_extremes_ = all.extremes;
-    result_.initial_objective = evaluation.objective;
-    result_.initial_values = all.values;
-    result_.initial_failed = all.failed;
-    result_.initial_gradient = evaluation.gradient;
-    result_.initial_slope = optimality_at(all, rho).slope;
+    result_.initial.objective = evaluation.objective;
+    result_.initial.values = all.values;
+    result_.initial.failed = all.failed;
+    result_.initial.gradient = evaluation.gradient;
+    result_.initial.slope = optimality_at(all, rho).slope;
   }
   const bool better = first || outside < best_violation_ ||
-                      (outside == best_violation_ && evaluation.objective < result_.objective);
+                      (outside == best_violation_ && evaluation.objective < result_.best.objective);
   if (!better) return;
-  if (!first) ++result_.iterations;
+  if (!first) ++result_.cost.iterations;
   have_best_ = true;
   best_violation_ = outside;
-  result_.objective = evaluation.objective;
-  result_.values = all.values;
+  result_.best.objective = evaluation.objective;
+  result_.best.values = all.values;
   best_ = all;
   best_optimality_.reset();
   best_watched_.reset();
-  result_.failed = all.failed;
-  result_.gradient = evaluation.gradient;
+  result_.best.failed = all.failed;
+  result_.best.gradient = evaluation.gradient;
   result_.warnings = evaluation.warnings;
-  result_.rho = rho;
+  result_.best.rho = rho;
 }
 
 }  // namespace codesign

@@ -11,6 +11,7 @@
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/version.h"
+#include "optimization/result_report.h"
 #include "python/callbacks.h"
 #include "python/conversions.h"
 #include "python/interruption.h"
@@ -185,6 +186,8 @@ void add_jobs(py::module_* module) {
           "status", [](const Optimized& of) { return to_python(to_json(of.result.status)); })
       .def_property_readonly(
           "warnings", [](const Optimized& of) { return to_python(to_json(of.result.warnings)); })
+      .def_property_readonly("text",
+                             [](const Optimized& of) { return report(of.problem, of.result); })
       .def_property_readonly("has_point",
                              [](const Optimized& of) { return has_design(of.problem, of.result); })
       .def_property_readonly("best_objectives",
@@ -194,11 +197,12 @@ void add_jobs(py::module_* module) {
                                  best[to_signed(k)] = of.trials[k].best_objective;
                                return to_array(best);
                              })
-      .def_property_readonly("rho", [](const Optimized& of) { return to_array(of.result.rho); })
+      .def_property_readonly("rho",
+                             [](const Optimized& of) { return to_array(of.result.best.rho); })
       .def_property_readonly("initial_rho",
-                             [](const Optimized& of) { return to_array(of.result.initial_rho); })
+                             [](const Optimized& of) { return to_array(of.result.initial.rho); })
       .def_property_readonly("gradient",
-                             [](const Optimized& of) { return to_array(of.result.gradient); })
+                             [](const Optimized& of) { return to_array(of.result.best.gradient); })
       .def("write", [](const Optimized& of, const std::string& folder) {
         require_written(interruptible([&](const std::atomic<bool>* cancel) {
                           return write_folder(of, folder, cancel);

@@ -39,16 +39,16 @@ TEST(ArmLimits, TheTunedArmKeepsItsLimitsAtAllTimes) {
   const Problem problem = shipped_problem("arm_limits", {});
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_NEAR(result.objective, 2.79816, 1e-4);
-  EXPECT_LE(result.evaluations, 40);
-  ASSERT_EQ(result.watched.size(), kLimits.size());
-  for (const WatchedResult& watched : result.watched)
+  EXPECT_NEAR(result.best.objective, 2.79816, 1e-4);
+  EXPECT_LE(result.cost.evaluations, 40);
+  ASSERT_EQ(result.constraints.watched.size(), kLimits.size());
+  for (const WatchedResult& watched : result.constraints.watched)
     EXPECT_LE(watched.violation, 1e-8) << watched.signal;
-  EXPECT_NEAR(magnitude(result.watched[0]), 18.0, 1e-6) << "the bound is active";
+  EXPECT_NEAR(magnitude(result.constraints.watched[0]), 18.0, 1e-6) << "the bound is active";
   // Samples of the same design stay within the limits, too.
   std::vector<std::string> signals;
-  for (const WatchedResult& watched : result.watched) signals.push_back(watched.signal);
-  Simulation simulation(problem, problem.parameters(result.rho), signals);
+  for (const WatchedResult& watched : result.constraints.watched) signals.push_back(watched.signal);
+  Simulation simulation(problem, problem.parameters(result.best.rho), signals);
   const Status status = simulate(&simulation, 2.0, 1001, [&](const Frame& frame) {
     for (std::size_t k = 0; k < kLimits.size(); ++k)
       EXPECT_LE(std::abs(frame.signals[k]), kLimits[k] + 1e-6)
@@ -62,10 +62,11 @@ TEST(ArmLimits, WithoutLimitsTheSameTuningExceedsAllOfThem) {
   const OptimizationResult result =
       optimize(shipped_problem("arm_limits", {}, {{"limit_share", 100.0}}));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_NEAR(result.objective, 1.49643, 1e-3);
-  ASSERT_EQ(result.watched.size(), kLimits.size());
+  EXPECT_NEAR(result.best.objective, 1.49643, 1e-3);
+  ASSERT_EQ(result.constraints.watched.size(), kLimits.size());
   for (std::size_t k = 0; k < kLimits.size(); ++k)
-    EXPECT_GT(magnitude(result.watched[k]), kLimits[k]) << result.watched[k].signal;
+    EXPECT_GT(magnitude(result.constraints.watched[k]), kLimits[k])
+        << result.constraints.watched[k].signal;
 }
 
 TEST(ArmLimits, OtherAlgorithmsEndAtTheSamePoint) {
@@ -73,7 +74,7 @@ TEST(ArmLimits, OtherAlgorithmsEndAtTheSamePoint) {
     const OptimizationResult result = optimize(shipped_problem(
         "arm_limits", {{"algorithm: slsqp", std::string("algorithm: ") + algorithm}}));
     ASSERT_TRUE(result.status.ok()) << algorithm << ": " << result.status.cause;
-    EXPECT_NEAR(result.objective, 2.79816, 1e-3) << algorithm;
+    EXPECT_NEAR(result.best.objective, 2.79816, 1e-3) << algorithm;
   }
 }
 

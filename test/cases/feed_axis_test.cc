@@ -16,7 +16,7 @@ Problem continuous_axis() {
 /// The objective of the sampled axis at the gains of a result.
 double sampled_objective(const OptimizationResult& result) {
   const Problem problem = shipped_problem("feed_axis", {});
-  const Evaluation evaluation = Evaluator(problem).evaluate(result.rho, false);
+  const Evaluation evaluation = Evaluator(problem).evaluate(result.best.rho, false);
   EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   return evaluation.objective;
 }
@@ -24,19 +24,19 @@ double sampled_objective(const OptimizationResult& result) {
 TEST(FeedAxis, TheTunedCascadeKeepsToTheRateOfItsDrive) {
   const OptimizationResult result = optimize(shipped_problem("feed_axis", {}));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_NEAR(result.initial_objective, 90.42, 0.01);
-  EXPECT_LT(result.objective, 3.5);
-  ASSERT_EQ(result.watched.size(), 1u);
-  EXPECT_LE(result.watched[0].violation, 2e-8 * 2e4);
-  EXPECT_NEAR(result.watched[0].largest, 2e4, 10.0) << "the bound is active";
-  EXPECT_EQ(sampled_objective(result), result.objective);
+  EXPECT_NEAR(result.initial.objective, 90.42, 0.01);
+  EXPECT_LT(result.best.objective, 3.5);
+  ASSERT_EQ(result.constraints.watched.size(), 1u);
+  EXPECT_LE(result.constraints.watched[0].violation, 2e-8 * 2e4);
+  EXPECT_NEAR(result.constraints.watched[0].largest, 2e4, 10.0) << "the bound is active";
+  EXPECT_EQ(sampled_objective(result), result.best.objective);
 }
 
 TEST(FeedAxis, GainsTunedWithoutSamplesDoNotHoldOnTheSampledDrive) {
   const OptimizationResult result = optimize(continuous_axis());
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LT(result.objective, 2.0);
-  EXPECT_GT(sampled_objective(result), 50.0 * result.objective);
+  EXPECT_LT(result.best.objective, 2.0);
+  EXPECT_GT(sampled_objective(result), 50.0 * result.best.objective);
 }
 
 TEST(FeedAxis, BothIntegratorsAgree) {

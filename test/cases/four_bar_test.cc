@@ -7,6 +7,7 @@
 
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 #include "sensitivity/postures.h"
 #include "text/number_text.h"
 
@@ -58,10 +59,10 @@ TEST(FourBarFunction, ThreePositionsHaveFreudensteinsLinks) {
           list(rocker) + "}]}\noptimizer: {relative_tolerance: 1.0e-12}\n");
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LT(result.objective, 1e-20);
-  EXPECT_NEAR(result.rho[0], exact.a, 1e-9);
-  EXPECT_NEAR(result.rho[1], exact.b, 1e-9);
-  EXPECT_NEAR(result.rho[2], exact.c, 1e-9);
+  EXPECT_LT(result.best.objective, 1e-20);
+  EXPECT_NEAR(result.best.rho[0], exact.a, 1e-9);
+  EXPECT_NEAR(result.best.rho[1], exact.b, 1e-9);
+  EXPECT_NEAR(result.best.rho[2], exact.c, 1e-9);
 }
 
 // The start of the shipped case is Freudenstein's linkage of the test above.
@@ -70,7 +71,7 @@ TEST(FourBarFunction, BeatsThreePrecisionPoints) {
   const OptimizationResult squares =
       optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(squares.status.ok()) << squares.status.cause;
-  EXPECT_LT(squares.objective, 0.2 * squares.initial_objective);
+  EXPECT_LT(squares.best.objective, 0.2 * squares.initial.objective);
 }
 
 TEST(FourBarPath, IsNearerToThePointsThanThePublishedLinkages) {
@@ -79,8 +80,8 @@ TEST(FourBarPath, IsNearerToThePointsThanThePublishedLinkages) {
       optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   // Kunjur and Krishnamurty (1997) report 0.043, Cabrera et al. (2002) 0.034.
-  EXPECT_LT(result.objective, 0.011);
-  for (double margin : result.margins) EXPECT_GE(margin, -1e-9);
+  EXPECT_LT(result.best.objective, 0.011);
+  for (double margin : result.constraints.margins) EXPECT_GE(margin, -1e-9);
 }
 
 TEST(SixBarDwell, RestsWhileTheCrankTurnsBy100Degrees) {
@@ -88,9 +89,9 @@ TEST(SixBarDwell, RestsWhileTheCrankTurnsBy100Degrees) {
   const OptimizationResult result =
       optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LT(result.objective, 0.01 * result.initial_objective);
-  ASSERT_EQ(result.watched.size(), 2U);
-  EXPECT_GE(result.watched[0].smallest, 0.5 - 1e-6) << "the swing in a whole turn";
+  EXPECT_LT(result.best.objective, 0.01 * result.initial.objective);
+  ASSERT_EQ(result.constraints.watched.size(), 2U);
+  EXPECT_GE(result.constraints.watched[0].smallest, 0.5 - 1e-6) << "the swing in a whole turn";
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ double best_ratio(const std::string& losses) {
       load_problem({"turntable.urdf", turntable(losses)}, {}, {"study.yaml", kTurntableStudy});
   const OptimizationResult result = optimize(problem);
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
-  return result.rho[0];
+  return result.best.rho[0];
 }
 
 TEST(GearRatio, OfTheGreatestAcceleration) {

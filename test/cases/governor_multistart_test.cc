@@ -12,13 +12,15 @@ TEST(GovernorMultistart, TwoStartsFindTheirWayIntoTheValley) {
                                               {"max_evaluations: 120", "max_evaluations: 25"}});
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.starts.size(), 2U);
-  EXPECT_EQ(result.screened - result.unusable, 4);
-  EXPECT_LE(result.starts[0].start_objective, result.starts[1].start_objective);
-  for (const StartResult& start : result.starts) EXPECT_LT(start.objective, 0.64);
-  EXPECT_LT(result.objective, 0.62);
-  EXPECT_EQ(result.objective, std::min(result.starts[0].objective, result.starts[1].objective));
-  EXPECT_NEAR(result.initial_objective, 18.9929, 1e-3) << "of the study's own start";
+  ASSERT_EQ(result.multistart.starts.size(), 2U);
+  EXPECT_EQ(result.multistart.screened - result.multistart.unusable, 4);
+  EXPECT_LE(result.multistart.starts[0].start_objective,
+            result.multistart.starts[1].start_objective);
+  for (const StartResult& start : result.multistart.starts) EXPECT_LT(start.objective, 0.64);
+  EXPECT_LT(result.best.objective, 0.62);
+  EXPECT_EQ(result.best.objective,
+            std::min(result.multistart.starts[0].objective, result.multistart.starts[1].objective));
+  EXPECT_NEAR(result.initial.objective, 18.9929, 1e-3) << "of the study's own start";
 }
 
 // The best design that the shipped study finds, at the tolerances of the case governor.

@@ -6,6 +6,7 @@
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 
 namespace codesign {
 namespace {
@@ -66,8 +67,8 @@ TEST(Governor, TunesIntoItsFlatValley) {
   const OptimizationResult result =
       optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LE(result.objective, 0.6198);
-  EXPECT_LE(result.evaluations, 40);
+  EXPECT_LE(result.best.objective, 0.6198);
+  EXPECT_LE(result.cost.evaluations, 40);
 }
 
 // Workers of a search take designs in any order, yet its results have the same bits for any number

@@ -29,9 +29,9 @@ double largest_effort(const Problem& problem) {
 TEST(GravityBalance, TheOptimumIsTheClosedForm) {
   const OptimizationResult result = optimize(shipped_problem("gravity_balance", {}));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.rho.size(), 2);
-  EXPECT_NEAR(result.rho[0], kSecond, 1e-4 * kSecond);
-  EXPECT_NEAR(result.rho[1], kHeight, 1e-4 * kHeight);
+  ASSERT_EQ(result.best.rho.size(), 2);
+  EXPECT_NEAR(result.best.rho[0], kSecond, 1e-4 * kSecond);
+  EXPECT_NEAR(result.best.rho[1], kHeight, 1e-4 * kHeight);
 }
 
 TEST(GravityBalance, ABalancedArmNeedsNoTorqueAndRestsAnywhere) {

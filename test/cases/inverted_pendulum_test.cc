@@ -7,6 +7,7 @@
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/simulation.h"
+#include "optimization/search_hooks.h"
 
 namespace codesign {
 namespace {
@@ -128,13 +129,13 @@ void expect_tuned(const std::string& name, double objective, const Eigen::Vector
   const OptimizationResult result =
       optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LE(result.objective, objective);
+  EXPECT_LE(result.best.objective, objective);
   for (Eigen::Index k = 0; k < 3; ++k)
-    EXPECT_NEAR(result.rho[k], optimum[k], 0.02 * optimum[k] + 1.0) << k;
+    EXPECT_NEAR(result.best.rho[k], optimum[k], 0.02 * optimum[k] + 1.0) << k;
   // The gradient at the start is ten thousand times the variables' unit: without scaling, the first
   // step of the search would end where the pendulum falls.
-  EXPECT_EQ(result.failed_evaluations, 0);
-  EXPECT_LE(result.evaluations, 80);
+  EXPECT_EQ(result.cost.failed_evaluations, 0);
+  EXPECT_LE(result.cost.evaluations, 80);
 }
 
 TEST(InvertedPendulum, TunesToTheBestKnownGains) {

@@ -47,16 +47,17 @@ TEST(PendulumRobust, TheWorstCaseOnFreshSamplesIsBetterThanThatOfTheNominalGains
   const Problem problem = pendulum_with({{"validate: 1000", "validate: 100"}});
   const OptimizationResult robust = optimize(problem);
   ASSERT_TRUE(robust.status.ok()) << robust.status.cause;
-  EXPECT_LE(robust.objective, 3716.0);
+  EXPECT_LE(robust.best.objective, 3716.0);
   const Eigen::Vector3d gains(576.53, 779.75, 97.72);
-  for (Eigen::Index k = 0; k < 3; ++k) EXPECT_NEAR(robust.rho[k], gains[k], 0.01 * gains[k]) << k;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    EXPECT_NEAR(robust.best.rho[k], gains[k], 0.01 * gains[k]) << k;
   const OptimizationResult nominal =
       optimize(pendulum_with({{"validate: 1000", "validate: 100"}, {"samples: 32", "samples: 1"}}));
-  ASSERT_TRUE(robust.validation && nominal.validation);
-  EXPECT_EQ(robust.validation->failed + nominal.validation->failed, 0);
-  EXPECT_LT(robust.validation->worst, nominal.validation->worst);
-  EXPECT_GT(nominal.validation->worst, 1.1 * nominal.validation->promised);
-  EXPECT_LT(robust.validation->worst, 1.05 * robust.validation->promised);
+  ASSERT_TRUE(robust.ensemble.validation && nominal.ensemble.validation);
+  EXPECT_EQ(robust.ensemble.validation->failed + nominal.ensemble.validation->failed, 0);
+  EXPECT_LT(robust.ensemble.validation->worst, nominal.ensemble.validation->worst);
+  EXPECT_GT(nominal.ensemble.validation->worst, 1.1 * nominal.ensemble.validation->promised);
+  EXPECT_LT(robust.ensemble.validation->worst, 1.05 * robust.ensemble.validation->promised);
 }
 
 }  // namespace

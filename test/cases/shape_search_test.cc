@@ -30,9 +30,9 @@ bool warns(const OptimizationResult& result) {
 TEST(ShapeSearch, AutoEndsAtTheOptimum) {
   const OptimizationResult result = search("auto", 1e-6);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.rho.size(), 200);
-  EXPECT_NEAR(result.objective, kOptimum, 1e-3 * kOptimum);
-  EXPECT_LT(result.stationarity, 1e-3);
+  ASSERT_EQ(result.best.rho.size(), 200);
+  EXPECT_NEAR(result.best.objective, kOptimum, 1e-3 * kOptimum);
+  EXPECT_LT(result.optimality.stationarity, 1e-3);
   EXPECT_FALSE(warns(result));
 }
 
@@ -40,8 +40,8 @@ TEST(ShapeSearch, AutoEndsAtTheOptimum) {
 TEST(ShapeSearch, LbfgsEndsAtTheOptimumOrWarns) {
   const OptimizationResult result = search("lbfgs", 1e-4);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_TRUE(result.objective < 1.001 * kOptimum || warns(result))
-      << result.objective << " " << result.termination;
+  EXPECT_TRUE(result.best.objective < 1.001 * kOptimum || warns(result))
+      << result.best.objective << " " << result.termination;
 }
 
 }  // namespace

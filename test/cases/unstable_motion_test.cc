@@ -6,6 +6,7 @@
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/search_hooks.h"
 
 namespace codesign {
 namespace {
@@ -79,8 +80,8 @@ TEST_F(HardSliderCrank, AnOptimizerThatStepsThereGoesOn) {
   const auto failed = std::count(codes.begin(), codes.end(), StatusCode::kUnstableMotion);
   EXPECT_GT(failed, 0);
   EXPECT_EQ(codes.back(), StatusCode::kSuccess) << "it went on";
-  EXPECT_EQ(result.failed_evaluations, failed);
-  EXPECT_LT(result.objective, result.initial_objective);
+  EXPECT_EQ(result.cost.failed_evaluations, failed);
+  EXPECT_LT(result.best.objective, result.initial.objective);
 }
 
 TEST_F(HardSliderCrank, AnOptimizerThatStartsThereSaysWhy) {
@@ -88,7 +89,7 @@ TEST_F(HardSliderCrank, AnOptimizerThatStartsThereSaysWhy) {
   const OptimizationResult result =
       optimize(make_system(shipped.robot, shipped.study), shipped.study.optimizer);
   EXPECT_EQ(result.status.code, StatusCode::kUnstableMotion);
-  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_EQ(result.cost.evaluations, 1);
 }
 
 TEST_F(HardSliderCrank, AStuckSliderNeedsNoTinySteps) {

@@ -105,7 +105,7 @@ TEST(SimulateCommand, TakesOneRun) {
   EXPECT_EQ(objective("still"), 0.0);
   EXPECT_GT(objective("wide"), 0.0);
   EXPECT_GT(objective("pushed"), 0.0);
-  EXPECT_EQ(run_words({"gradient", "m", "s", "--run", "a"}).code, kBadInput) << "no such option";
+  EXPECT_EQ(run_words({"optimize", "m", "s", "--run", "a"}).code, kBadInput) << "no such option";
 }
 
 TEST(EffortsCommand, RefusesWhatItCannotUse) {

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "cli/slider_crank.h"
 #include "jobs/json.h"
 
@@ -36,6 +38,24 @@ TEST(GradientCommand, ShippedStudiesGiveThePublishedDigits) {
                   {1.674310, 0.0386376, 0.895474, 3.578859, -0.1185753});
   expect_gradient("slider_crank_haug", 0.717975196477,
                   {32.0105032, -15.462857, -0.0754624, -0.3394216, -1.0274846});
+}
+
+TEST(GradientCommand, OfOneRunIsThatOfTheStudyWithItsChanges) {
+  const ScratchFolder folder;
+  const std::string plain = short_study(folder), runs = folder.path("runs.yaml");
+  std::ifstream of_plain(plain);
+  std::ofstream(runs)
+      << of_plain.rdbuf()
+      << "\nruns: {as_is: {}, pushed: {loads: [{joint: crank_joint, effort: 0.5}]}}\n";
+  const auto gradient = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"gradient", kModel, runs, "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return json_of(run_words(words))["gradient"];
+  };
+  EXPECT_EQ(gradient({"--run", "as_is"}),
+            json_of(run_words({"gradient", kModel, plain, "--json"}))["gradient"]);
+  EXPECT_NE(gradient({"--run", "pushed"}), gradient({"--run", "as_is"}));
+  EXPECT_NE(gradient({}), gradient({"--run", "as_is"})) << "the mean over both";
 }
 
 TEST(GradientCommand, VerifySetsAReferenceBesideTheGradient) {

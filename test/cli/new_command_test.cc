@@ -92,13 +92,16 @@ TEST_F(NewCommand, RefusesWhatItDoesNotKnow) {
 TEST_F(NewCommand, ReplacesNothing) {
   const std::string mine = folder_.path("mine");
   fs::create_directories(mine);
-  expect_refused({"new", mine, "--from", "press"}, "this already exists, and codesign new does not overwrite anything");
+  expect_refused({"new", mine, "--from", "press"},
+                 "this already exists, and codesign new does not overwrite anything");
   EXPECT_TRUE(fs::is_empty(mine));
   std::ofstream(folder_.path("file")) << "text";
-  expect_refused({"new", folder_.path("file"), "--from", "press"}, "codesign new does not overwrite anything");
+  expect_refused({"new", folder_.path("file"), "--from", "press"},
+                 "codesign new does not overwrite anything");
   expect_refused({"new", folder_.path("file/mine"), "--from", "press"}, "cannot be created");
   fs::create_symlink(folder_.path("nowhere"), folder_.path("link"));
-  expect_refused({"new", folder_.path("link"), "--from", "press"}, "codesign new does not overwrite anything");
+  expect_refused({"new", folder_.path("link"), "--from", "press"},
+                 "codesign new does not overwrite anything");
 }
 
 TEST_F(NewCommand, HasItsOwnOptions) {

@@ -84,6 +84,24 @@ TEST_P(VaryingLoad, OfTheSpeedBrakesLikeDragOnBothSidesOfZero) {
         v0 / (1.0 + 0.8 * 3.0 * 1.0 / 2.0), 1e-8);
 }
 
+// The natural cubic spline through (0, 0), (1, 2), (2, 0) has f'' = -6 at 1 and the slopes 3 and -3
+// at its ends.
+TEST_P(VaryingLoad, OfATableFollowsItsSplineAndGoesOnAlongItsTangents) {
+  const std::string table =
+      "{joint: slide, effort: {type: table, signal: slide/position, at: [0, 1, 2], values: [0, 2, "
+      "0]";
+  const auto at = [&](double position, const std::string& interpolation) {
+    return slide(table + interpolation + "}}", 1e-6, {"${slide/acceleration*2}"},
+                 "initial_state: {slide: {position: " + std::to_string(position) + "}}\n")[0];
+  };
+  EXPECT_NEAR(at(0.5, ""), 1.375, 1e-8);
+  EXPECT_NEAR(at(1.0, ""), 2.0, 1e-8);
+  EXPECT_NEAR(at(-1.0, ""), -3.0, 1e-8);
+  EXPECT_NEAR(at(3.0, ""), -3.0, 1e-8);
+  EXPECT_NEAR(at(0.5, ", interpolation: linear"), 1.0, 1e-8);
+  EXPECT_NEAR(at(3.0, ", interpolation: linear"), -2.0, 1e-8);
+}
+
 TEST_P(VaryingLoad, MayContainTheTimeAndSignals) {
   // m v' = -2 t v: v = v0 exp(-t^2/2).
   EXPECT_NEAR(slide("{joint: slide, effort: \"${-2*t*slide/velocity}\"}", 1.2, {"slide/velocity"},
@@ -129,6 +147,18 @@ TEST(LoadSignals, OfWhatDependsOnLoadsAreRefused) {
       EXPECT_EQ(error.fault().element, "loads") << error.what();
       EXPECT_NE(error.fault().message.find("cannot depend on"), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(LoadSignals, AMisspeltQuantityIsNamedAsOne) {
+  try {
+    compile(robot(mass("piston", 2.0) + lift("slide", "piston", 0.0)),
+            "duration: 1.0\nloads: [{joint: slide, effort: \"${2*slide/positon}\"}]\n");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, "loads[0].effort") << error.what();
+    EXPECT_NE(error.fault().message.find("did you mean \"position\"?"), std::string::npos)
+        << error.what();
   }
 }
 

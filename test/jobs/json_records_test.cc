@@ -10,10 +10,10 @@ namespace {
 
 OptimizationResult result_at(const Problem& problem, double length, double gain) {
   OptimizationResult result;
-  result.initial_rho = problem.start();
-  result.rho = Eigen::Vector2d(length, gain);
-  result.gradient = Eigen::Vector2d::Ones();
-  result.evaluations = 1;
+  result.initial.rho = problem.start();
+  result.best.rho = Eigen::Vector2d(length, gain);
+  result.best.gradient = Eigen::Vector2d::Ones();
+  result.cost.evaluations = 1;
   return result;
 }
 
@@ -44,7 +44,7 @@ TEST(ParameterRecords, TheGradientAgreesWithItsReference) {
 TEST(ParameterRecords, ALongCheckIsLeftOut) {
   const Problem problem = pendulum();
   OptimizationResult result = result_at(problem, 0.5, 1.0);
-  result.statistics.cpu_seconds = 10.0;
+  result.cost.statistics.cpu_seconds = 10.0;
   EXPECT_NE(
       gradient_check_json(problem, result, nullptr)["skipped"].get<std::string>().find("420 s"),
       std::string::npos);

@@ -77,9 +77,9 @@ class TakenAway : public testing::Test {
 TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
   EXPECT_TRUE(folder_.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
   for (const auto& [model, design, objective] :
-       {std::tuple{"tuned.urdf", "result.json", result_.objective},
-        std::tuple{"initial.urdf", "result.json", result_.objective},
-        std::tuple{"initial.urdf", "initial.json", result_.initial_objective}}) {
+       {std::tuple{"tuned.urdf", "result.json", result_.best.objective},
+        std::tuple{"initial.urdf", "result.json", result_.best.objective},
+        std::tuple{"initial.urdf", "initial.json", result_.initial.objective}}) {
     const Problem again =
         load_problem(read_source(path(model)), {}, read_source(path("job_study.yaml")),
                      read_result(read_source(path(design))));
@@ -87,7 +87,7 @@ TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
     ASSERT_TRUE(evaluation.status.ok());
     EXPECT_NEAR(evaluation.objective, objective, 1e-12 * objective) << model << " with " << design;
   }
-  EXPECT_NE(result_.objective, result_.initial_objective);
+  EXPECT_NE(result_.best.objective, result_.initial.objective);
 }
 
 TEST_F(TakenAway, EveryFileIsThere) {
@@ -116,7 +116,7 @@ TEST_F(TakenAway, FilesThatTheStudyNamesGoAlong) {
     const Problem problem =
         load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {}, {}, files);
     OptimizationResult result;
-    result.rho = result.initial_rho = problem.start();
+    result.best.rho = result.initial.rho = problem.start();
     return ResultFolder(directory_.path().string(), problem).write_design("{}\n", result).size();
   };
   EXPECT_EQ(written("rig/i.json", "/elsewhere/rig/i.json"), 0U);

@@ -84,7 +84,7 @@ class FinishedPendulum : public testing::Test {
   std::string path(const std::string& name = "") const {
     return (directory_.path() / "job" / name).string();
   }
-  std::string tuned(int k) const { return to_decimal(result_.rho[k]); }
+  std::string tuned(int k) const { return to_decimal(result_.best.rho[k]); }
 
   /// Replaces each `from` in a file, which must have one.
   void change(const std::string& name, const std::string& from, const std::string& to) const {
@@ -120,14 +120,14 @@ TEST_F(FinishedPendulum, IsTakenWithItsDesign) {
   ASSERT_EQ(tuned(0) + " " + tuned(1), "0.7654 0.4321") << "the tests below look for these";
   for (const std::string& given : {path(), (directory_.path() / "job.bag").string()}) {
     const FinishedJob job = read_finished_job(given);
-    EXPECT_EQ(job.parameters, problem_.parameters(result_.rho));
+    EXPECT_EQ(job.parameters, problem_.parameters(result_.best.rho));
     EXPECT_EQ(job.tuned, problem_.tuned_names());
-    EXPECT_EQ(job.objective, result_.objective);
+    EXPECT_EQ(job.objective, result_.best.objective);
   }
 }
 
 TEST_F(FinishedPendulum, AValueChangedInOneFileIsRefused) {
-  const std::string other = to_decimal(std::nextafter(result_.rho[1], 10.0));
+  const std::string other = to_decimal(std::nextafter(result_.best.rho[1], 10.0));
   change("result.json", tuned(1), other);
   EXPECT_NE(refusal().find("no trial point of convergence.csv has"), std::string::npos)
       << refusal();
@@ -162,14 +162,14 @@ TEST_F(FinishedPendulum, AGainChangedInGainsYamlIsRefusedWithItsLine) {
 TEST_F(FinishedPendulum, AValueChangedInEveryFileIsRefusedByTheSimulation) {
   for (const char* file : {"result.json", "convergence.csv", "gains.yaml"})
     change(file, tuned(1), "2.5");
-  EXPECT_NE(refusal().find("the objective is " + to_decimal(result_.objective) + ", but "),
+  EXPECT_NE(refusal().find("the objective is " + to_decimal(result_.best.objective) + ", but "),
             std::string::npos)
       << refusal();
 }
 
 TEST_F(FinishedPendulum, AParameterThatWasNotTunedKeepsItsValue) {
   change("result.json", "\"mass\": 1.0", "\"mass\": 1.5");
-  std::vector<double> heavy = problem_.parameters(result_.rho);
+  std::vector<double> heavy = problem_.parameters(result_.best.rho);
   heavy[1] = 1.5;
   write_whole_file(path("tuned.urdf"), write_tuned_urdf(problem_.urdf(), {}, heavy));
   EXPECT_NE(refusal().find("mass is 1.5, but 1 in"), std::string::npos) << refusal();

@@ -37,16 +37,16 @@ TEST(Lagrangian, HasNoGradientAtABoundedOptimum) {
   Conditions conditions(block("path: [{signal: hold/output, between: [-6, 6]}]\n", kTight));
   const OptimizationResult result = optimize(conditions.problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  const double free = conditions.scaling.gradient_norm(result.gradient);
+  const double free = conditions.scaling.gradient_norm(result.best.gradient);
   EXPECT_GT(free, 0.0);
-  const Optimality optimum = conditions.at(result.rho);
+  const Optimality optimum = conditions.at(result.best.rho);
   EXPECT_LT(optimum.slope, 1e-3 * free) << "the bound holds the gradient";
   EXPECT_GT(optimum.active.cols(), 0);
-  EXPECT_EQ(result.slope, optimum.slope);
+  EXPECT_EQ(result.best.slope, optimum.slope);
   // At the start the bound is not reached; a row may hold as much of the gradient as its distance
   // permits.
   const double start = conditions.at(conditions.problem.start()).slope;
-  EXPECT_LE(start, conditions.scaling.gradient_norm(result.initial_gradient));
+  EXPECT_LE(start, conditions.scaling.gradient_norm(result.initial.gradient));
   EXPECT_GT(start, 100.0 * optimum.slope);
 }
 
@@ -55,11 +55,11 @@ TEST(Lagrangian, WorstCaseAndTailAreStationaryInTheirSmoothForm) {
     Conditions conditions(block(kThreeRuns + "robust: {measure: " + measure + "}\n", kTight));
     const OptimizationResult result = optimize(conditions.problem);
     ASSERT_TRUE(result.status.ok()) << result.status.cause;
-    EXPECT_LT(result.stationarity, 1e-3) << measure;
-    EXPECT_LT(result.slope, 1e-3 * result.initial_slope) << measure;
-    Eigen::VectorXd beside = result.rho;
+    EXPECT_LT(result.optimality.stationarity, 1e-3) << measure;
+    EXPECT_LT(result.best.slope, 1e-3 * result.initial.slope) << measure;
+    Eigen::VectorXd beside = result.best.rho;
     beside[0] *= 1.1;
-    EXPECT_GT(conditions.at(beside).slope, 10.0 * result.slope) << measure;
+    EXPECT_GT(conditions.at(beside).slope, 10.0 * result.best.slope) << measure;
   }
 }
 
@@ -71,8 +71,8 @@ TEST(Lagrangian, ATailAtLooseToleranceStopsWhereATightOneDoes) {
   const OptimizationResult loose =
       optimize(block(runs, "{algorithm: slsqp, relative_tolerance: 1.0e-3}"));
   ASSERT_TRUE(tight.status.ok() && loose.status.ok());
-  EXPECT_LE(loose.objective, tight.objective * (1.0 + 1e-4));
-  EXPECT_LT(loose.stationarity, 1e-2);
+  EXPECT_LE(loose.best.objective, tight.best.objective * (1.0 + 1e-4));
+  EXPECT_LT(loose.optimality.stationarity, 1e-2);
 }
 
 // Least squares come first and leave the constraint; the search ends where the constrained one
@@ -82,9 +82,10 @@ TEST(Lagrangian, AutoKeepsAnActiveConstraintAmongParameters) {
   const OptimizationResult constrained = optimize(block(constraint, kTight));
   const OptimizationResult automatic = optimize(block(constraint, "{algorithm: auto}"));
   ASSERT_TRUE(constrained.status.ok() && automatic.status.ok());
-  ASSERT_NEAR(constrained.margins[0], 0.0, 1e-6) << "not active";
+  ASSERT_NEAR(constrained.constraints.margins[0], 0.0, 1e-6) << "not active";
   EXPECT_EQ(automatic.algorithm, "levenberg_marquardt, slsqp");
-  EXPECT_NEAR(automatic.objective, constrained.objective, 1e-6 * constrained.objective);
+  EXPECT_NEAR(automatic.best.objective, constrained.best.objective,
+              1e-6 * constrained.best.objective);
 }
 
 // Thousands of rows of signals in 24 samples: the work is that of few matrices of the variables.
@@ -116,10 +117,10 @@ TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
   };
   for (const char* constraint : {"", "constraints: [\"Kp + 10*Kd <= 60\"]\n"}) {
     const OptimizationResult result = tune(constraint, 30.0), wider = tune(constraint, 30.3);
-    ASSERT_NEAR(result.rho[0], 30.0, 1e-9) << constraint;
-    ASSERT_LT(result.bound_multipliers[0], 0.0) << constraint;
-    const double worth = -0.01 * result.bound_multipliers[0];
-    EXPECT_NEAR(result.objective - wider.objective, worth, 0.05 * worth) << constraint;
+    ASSERT_NEAR(result.best.rho[0], 30.0, 1e-9) << constraint;
+    ASSERT_LT(result.optimality.bound_multipliers[0], 0.0) << constraint;
+    const double worth = -0.01 * result.optimality.bound_multipliers[0];
+    EXPECT_NEAR(result.best.objective - wider.best.objective, worth, 0.05 * worth) << constraint;
   }
 }
 
@@ -150,14 +151,14 @@ TEST(ViolatedBounds, TheToleranceFollowsTheRangeOfSignalAndBounds) {
 TEST(ViolatedBounds, ARestIsNoViolation) {
   OptimizationResult result;
   EXPECT_TRUE(meets_constraints(result)) << "there are none";
-  result.watched.resize(2);
-  result.watched[1].violation = 1e-9;
-  result.margins = Eigen::Vector2d(0.0, 3.0);
+  result.constraints.watched.resize(2);
+  result.constraints.watched[1].violation = 1e-9;
+  result.constraints.margins = Eigen::Vector2d(0.0, 3.0);
   EXPECT_TRUE(meets_constraints(result));
-  result.watched[1].violation = 1e-6;
+  result.constraints.watched[1].violation = 1e-6;
   EXPECT_FALSE(meets_constraints(result));
-  result.watched[1].violation = 0.0;
-  result.margins[0] = -1e-3;
+  result.constraints.watched[1].violation = 0.0;
+  result.constraints.margins[0] = -1e-3;
   EXPECT_FALSE(meets_constraints(result));
 }
 

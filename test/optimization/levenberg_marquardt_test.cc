@@ -236,12 +236,12 @@ TEST(LeastSquaresSearch, FindsTheOptimumOfOtherAlgorithms) {
                            slsqp = optimize(block("", kSlsqp));
   ASSERT_TRUE(squares.status.ok()) << squares.status.cause;
   EXPECT_EQ(squares.termination, "objective_tolerance_reached");
-  EXPECT_NEAR(squares.objective, slsqp.objective, 1e-7 * slsqp.objective);
-  EXPECT_EQ(squares.initial_objective, slsqp.initial_objective)
+  EXPECT_NEAR(squares.best.objective, slsqp.best.objective, 1e-7 * slsqp.best.objective);
+  EXPECT_EQ(squares.initial.objective, slsqp.initial.objective)
       << "the same bits of the same evaluation";
-  EXPECT_EQ(squares.initial_gradient, slsqp.initial_gradient);
-  EXPECT_EQ(squares.influences, std::vector<bool>(2, true));
-  EXPECT_LT(squares.evaluations, 40);
+  EXPECT_EQ(squares.initial.gradient, slsqp.initial.gradient);
+  EXPECT_EQ(squares.optimality.influences, std::vector<bool>(2, true));
+  EXPECT_LT(squares.cost.evaluations, 40);
 }
 
 TEST(LeastSquaresSearch, TakesTheMeanOfRunsAndSamples) {
@@ -252,8 +252,8 @@ TEST(LeastSquaresSearch, TakesTheMeanOfRunsAndSamples) {
   const OptimizationResult squares = optimize(block(blocks, kSquares)),
                            slsqp = optimize(block(blocks, kSlsqp));
   ASSERT_TRUE(squares.status.ok()) << squares.status.cause;
-  EXPECT_NEAR(squares.objective, slsqp.objective, 1e-6 * slsqp.objective);
-  EXPECT_EQ(squares.values.size(), 8);
+  EXPECT_NEAR(squares.best.objective, slsqp.best.objective, 1e-6 * slsqp.best.objective);
+  EXPECT_EQ(squares.best.values.size(), 8);
 }
 
 TEST(LeastSquaresSearch, ResultsDoNotDependOnTheNumberOfWorkers) {
@@ -262,15 +262,15 @@ TEST(LeastSquaresSearch, ResultsDoNotDependOnTheNumberOfWorkers) {
   const OptimizationResult one = optimize(block(uncertain + "engine: {type: serial}\n", kSquares));
   const OptimizationResult two =
       optimize(block(uncertain + "engine: {type: threads, workers: 2}\n", kSquares));
-  EXPECT_EQ(one.rho, two.rho);
-  EXPECT_EQ(one.evaluations, two.evaluations);
+  EXPECT_EQ(one.best.rho, two.best.rho);
+  EXPECT_EQ(one.cost.evaluations, two.cost.evaluations);
 }
 
 TEST(LeastSquaresSearch, StartsFromManyPoints) {
   const OptimizationResult many = optimize(block("multistart: {starts: 4, screen: 8}\n", kSquares));
   ASSERT_TRUE(many.status.ok()) << many.status.cause;
-  EXPECT_EQ(many.starts.size(), 4u);
-  EXPECT_LE(many.objective, optimize(block("", kSquares)).objective * (1.0 + 1e-8));
+  EXPECT_EQ(many.multistart.starts.size(), 4u);
+  EXPECT_LE(many.best.objective, optimize(block("", kSquares)).best.objective * (1.0 + 1e-8));
 }
 
 /// A sentence about the fault of a study; empty if it has none. @param trials receives the number
@@ -308,16 +308,16 @@ TEST(LeastSquaresSearch, CancelKeepsTheBestPoint) {
       optimize(block("", kSquares), [](const Trial& trial) { return trial.evaluation < 3; });
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.termination, "cancelled");
-  EXPECT_EQ(result.evaluations, 3);
-  EXPECT_LE(result.objective, result.initial_objective);
-  EXPECT_EQ(result.gradient.size(), 2);
+  EXPECT_EQ(result.cost.evaluations, 3);
+  EXPECT_LE(result.best.objective, result.initial.objective);
+  EXPECT_EQ(result.best.gradient.size(), 2);
 }
 
 TEST(LeastSquaresSearch, EndsAtTheLimitOfEvaluations) {
   const OptimizationResult result = optimize(block(
       "", "{algorithm: levenberg_marquardt, max_evaluations: 3, relative_tolerance: 1.0e-12}"));
   EXPECT_EQ(result.termination, "max_evaluations_reached");
-  EXPECT_EQ(result.evaluations, 3);
+  EXPECT_EQ(result.cost.evaluations, 3);
   ASSERT_FALSE(result.warnings.empty());
 }
 

@@ -25,11 +25,11 @@ TEST(LocalSearch, TheWorstCaseIsLowerThanThatOfTheMean) {
                            worst = tune("measure: worst", slsqp);
   ASSERT_TRUE(mean.status.ok()) << mean.status.cause;
   ASSERT_TRUE(worst.status.ok()) << worst.status.cause;
-  EXPECT_EQ(worst.objective, worst.values.maxCoeff());
-  EXPECT_LE(worst.objective, mean.values.maxCoeff() * (1.0 + 1e-9));
-  EXPECT_LE(mean.objective, worst.values.mean() * (1.0 + 1e-9))
+  EXPECT_EQ(worst.best.objective, worst.best.values.maxCoeff());
+  EXPECT_LE(worst.best.objective, mean.best.values.maxCoeff() * (1.0 + 1e-9));
+  EXPECT_LE(mean.best.objective, worst.best.values.mean() * (1.0 + 1e-9))
       << "and the mean is lowest where the mean was minimized";
-  EXPECT_LT(worst.objective, worst.initial_objective);
+  EXPECT_LT(worst.best.objective, worst.initial.objective);
 }
 
 TEST(LocalSearch, AlgorithmsWithConstraintsAgreeOnTheTail) {
@@ -40,7 +40,7 @@ TEST(LocalSearch, AlgorithmsWithConstraintsAgreeOnTheTail) {
            "{algorithm: mma, relative_tolerance: 1.0e-9, max_evaluations: 400}");
   ASSERT_TRUE(slsqp.status.ok()) << slsqp.status.cause;
   ASSERT_TRUE(mma.status.ok()) << mma.status.cause;
-  EXPECT_NEAR(mma.objective, slsqp.objective, 1e-4 * slsqp.objective);
+  EXPECT_NEAR(mma.best.objective, slsqp.best.objective, 1e-4 * slsqp.best.objective);
 }
 
 TEST(LocalSearch, MeasuresWithConstraintsRefuseOtherAlgorithms) {
@@ -74,8 +74,8 @@ TEST(LocalSearch, ALostWorkerEndsTheSearchWithTheBestPoint) {
     EXPECT_EQ(result.status.code, StatusCode::kWorkerLost);
     EXPECT_EQ(result.status.cause, "rank 1 is gone; the best point so far is kept");
     EXPECT_EQ(result.termination, "worker_lost");
-    EXPECT_EQ(result.evaluations, calls) << "what was interrupted does not count";
-    EXPECT_EQ(result.gradient.size() > 0, calls > 0);
+    EXPECT_EQ(result.cost.evaluations, calls) << "what was interrupted does not count";
+    EXPECT_EQ(result.best.gradient.size() > 0, calls > 0);
   }
 }
 

@@ -20,22 +20,23 @@ OptimizationResult search(const std::string& engine) {
 TEST(Multistart, SearchesFromTheBestPointsAndListsTheOptima) {
   const OptimizationResult result = search("type: serial");
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_EQ(result.screened, 12);
-  ASSERT_EQ(result.starts.size(), 4u);
+  EXPECT_EQ(result.multistart.screened, 12);
+  ASSERT_EQ(result.multistart.starts.size(), 4u);
   for (std::size_t k = 1; k < 4; ++k)
-    EXPECT_LE(result.starts[k - 1].start_objective, result.starts[k].start_objective);
-  ASSERT_FALSE(result.optima.empty());
-  EXPECT_EQ(result.objective, result.optima[0].objective);
-  EXPECT_EQ(result.rho, result.optima[0].rho);
-  int found = 0, evaluations = result.screened;
-  for (const Optimum& optimum : result.optima) found += optimum.found;
-  for (const StartResult& start : result.starts) {
+    EXPECT_LE(result.multistart.starts[k - 1].start_objective,
+              result.multistart.starts[k].start_objective);
+  ASSERT_FALSE(result.multistart.optima.empty());
+  EXPECT_EQ(result.best.objective, result.multistart.optima[0].objective);
+  EXPECT_EQ(result.best.rho, result.multistart.optima[0].rho);
+  int found = 0, evaluations = result.multistart.screened;
+  for (const Optimum& optimum : result.multistart.optima) found += optimum.found;
+  for (const StartResult& start : result.multistart.starts) {
     EXPECT_LE(start.objective, start.start_objective);
     evaluations += start.evaluations;
   }
   EXPECT_EQ(found, 4);
-  EXPECT_EQ(result.evaluations, evaluations);
-  EXPECT_EQ(result.initial_rho, Eigen::Vector2d(20.0, 5.0))
+  EXPECT_EQ(result.cost.evaluations, evaluations);
+  EXPECT_EQ(result.initial.rho, Eigen::Vector2d(20.0, 5.0))
       << "compared with the study's own start";
 }
 
@@ -43,13 +44,13 @@ TEST(Multistart, AnyNumberOfWorkersGivesTheSameBits) {
   const OptimizationResult one = search("type: serial"), two = search("workers: 2"),
                            five = search("workers: 5");
   for (const OptimizationResult* other : {&two, &five}) {
-    EXPECT_EQ(one.rho, other->rho);
-    EXPECT_EQ(one.objective, other->objective);
-    EXPECT_EQ(one.evaluations, other->evaluations);
-    ASSERT_EQ(one.starts.size(), other->starts.size());
-    for (std::size_t k = 0; k < one.starts.size(); ++k) {
-      EXPECT_EQ(one.starts[k].rho, other->starts[k].rho);
-      EXPECT_EQ(one.starts[k].optimum, other->starts[k].optimum);
+    EXPECT_EQ(one.best.rho, other->best.rho);
+    EXPECT_EQ(one.best.objective, other->best.objective);
+    EXPECT_EQ(one.cost.evaluations, other->cost.evaluations);
+    ASSERT_EQ(one.multistart.starts.size(), other->multistart.starts.size());
+    for (std::size_t k = 0; k < one.multistart.starts.size(); ++k) {
+      EXPECT_EQ(one.multistart.starts[k].rho, other->multistart.starts[k].rho);
+      EXPECT_EQ(one.multistart.starts[k].optimum, other->multistart.starts[k].optimum);
     }
   }
 }
@@ -63,11 +64,12 @@ TEST(Multistart, PartsOfTheScreeningMakeNoDifference) {
     return optimize(block(ensemble, "{algorithm: lbfgs, max_evaluations: 1}"));
   };
   const OptimizationResult two = screen("type: serial"), one = screen("workers: 80");
-  EXPECT_EQ(two.screened, 1200);
-  ASSERT_EQ(two.starts.size(), 3u);
-  ASSERT_EQ(one.starts.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(one.starts[k].start, two.starts[k].start);
-  EXPECT_EQ(one.objective, two.objective);
+  EXPECT_EQ(two.multistart.screened, 1200);
+  ASSERT_EQ(two.multistart.starts.size(), 3u);
+  ASSERT_EQ(one.multistart.starts.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(one.multistart.starts[k].start, two.multistart.starts[k].start);
+  EXPECT_EQ(one.best.objective, two.best.objective);
 }
 
 TEST(Multistart, TheObserverSeesOneSequenceAndCanEndIt) {
@@ -85,7 +87,7 @@ TEST(Multistart, TheObserverSeesOneSequenceAndCanEndIt) {
   });
   EXPECT_EQ(expected, 5);
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
-  EXPECT_LE(result.objective, best)
+  EXPECT_LE(result.best.objective, best)
       << "the trials of other searches that were under way count, too";
 }
 
@@ -93,11 +95,11 @@ TEST(Multistart, SearchesThatDidNotBeginHaveFoundNothing) {
   const Problem problem =
       block("multistart: {starts: 5, screen: 6}\nengine: {type: serial}\n", "{algorithm: lbfgs}");
   const OptimizationResult result = optimize(problem, [](const Trial&) { return false; });
-  ASSERT_EQ(result.starts.size(), 5u);
-  EXPECT_EQ(result.starts[4].termination, "not_started");
-  EXPECT_EQ(result.starts[4].status.code, StatusCode::kCancelled);
-  EXPECT_EQ(result.starts[4].optimum, -1);
-  EXPECT_TRUE(result.optima.empty());
+  ASSERT_EQ(result.multistart.starts.size(), 5u);
+  EXPECT_EQ(result.multistart.starts[4].termination, "not_started");
+  EXPECT_EQ(result.multistart.starts[4].status.code, StatusCode::kCancelled);
+  EXPECT_EQ(result.multistart.starts[4].optimum, -1);
+  EXPECT_TRUE(result.multistart.optima.empty());
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
 }
 

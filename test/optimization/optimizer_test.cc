@@ -5,6 +5,7 @@
 
 #include "assembly/make_system.h"
 #include "description/study.h"
+#include "optimization/search_hooks.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
@@ -33,17 +34,17 @@ TEST(Optimizer, TunesTheSliderCrank) {
   const Case c = shipped("slider_crank");
   const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LE(result.objective, 8.80e-4);
-  EXPECT_EQ(result.influences, std::vector<bool>(c.study.tuned.size(), true));
-  EXPECT_NEAR(result.initial_objective, 0.0592527, 1e-5);
+  EXPECT_LE(result.best.objective, 8.80e-4);
+  EXPECT_EQ(result.optimality.influences, std::vector<bool>(c.study.tuned.size(), true));
+  EXPECT_NEAR(result.initial.objective, 0.0592527, 1e-5);
 }
 
 TEST(Optimizer, KeepsToTheParameterConstraint) {
   const Case c = shipped("slider_crank_haug");
   const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study.optimizer);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LE(result.objective, 0.02122);
-  EXPECT_GE(result.rho[1] - result.rho[0], 0.165 - 1e-7);
+  EXPECT_LE(result.best.objective, 0.02122);
+  EXPECT_GE(result.best.rho[1] - result.best.rho[0], 0.165 - 1e-7);
 }
 
 TEST(Optimizer, RefusesConstraintsWhereTheyAreNotTaken) {
@@ -58,9 +59,9 @@ TEST(Optimizer, CancelKeepsTheBestPoint) {
       optimize(make_system(c.robot, c.study), c.study.optimizer,
                [](const Trial& trial) { return trial.evaluation < 2; });
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
-  EXPECT_EQ(result.evaluations, 2);
-  EXPECT_LE(result.objective, result.initial_objective);
-  EXPECT_EQ(result.gradient.size(), 5);
+  EXPECT_EQ(result.cost.evaluations, 2);
+  EXPECT_LE(result.best.objective, result.initial.objective);
+  EXPECT_EQ(result.best.gradient.size(), 5);
 }
 
 TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
@@ -84,8 +85,8 @@ TEST(Optimizer, SurvivesPointsThatCannotBeAssembled) {
   c.study.duration = 0.02;
   const OptimizationResult result = optimize(make_system(c.robot, c.study), c.study.optimizer);
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_GT(result.failed_evaluations, 0);
-  EXPECT_LT(result.objective, result.initial_objective);
+  EXPECT_GT(result.cost.failed_evaluations, 0);
+  EXPECT_LT(result.best.objective, result.initial.objective);
 }
 
 }  // namespace

@@ -54,10 +54,10 @@ TEST(Outcome, OutsideTheConstraintsIsNoSuccess) {
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
   EXPECT_NE(result.status.cause.find("sqrt(length) >= 1.5"), std::string::npos)
       << result.status.cause;
-  ASSERT_EQ(result.margins.size(), 1);
-  EXPECT_NEAR(result.margins[0], std::sqrt(result.rho[0]) - 1.5, 1e-15);
-  EXPECT_LT(result.margins[0], 0.0);
-  EXPECT_EQ(result.gradient.size(), 1) << "the best point is kept";
+  ASSERT_EQ(result.constraints.margins.size(), 1);
+  EXPECT_NEAR(result.constraints.margins[0], std::sqrt(result.best.rho[0]) - 1.5, 1e-15);
+  EXPECT_LT(result.constraints.margins[0], 0.0);
+  EXPECT_EQ(result.best.gradient.size(), 1) << "the best point is kept";
 }
 
 // The tolerance only decides how the end is called: the search is the same.
@@ -66,13 +66,13 @@ TEST(Outcome, ABoundIsMetWithinItsTolerance) {
                     bound = "{signal: hinge/position, between: [-2.0, -2.0]";
   const OptimizationResult strict = search(problem_of("final: [" + bound + "}]" + slsqp));
   EXPECT_EQ(strict.status.code, StatusCode::kInfeasible);
-  ASSERT_EQ(strict.watched.size(), 1U);
-  EXPECT_DOUBLE_EQ(strict.watched[0].tolerance, 2e-5);
+  ASSERT_EQ(strict.constraints.watched.size(), 1U);
+  EXPECT_DOUBLE_EQ(strict.constraints.watched[0].tolerance, 2e-5);
   const OptimizationResult loose =
       search(problem_of("final: [" + bound + ", tolerance: 5.0}]" + slsqp));
   EXPECT_TRUE(loose.status.ok()) << loose.status.cause;
-  EXPECT_EQ(loose.rho, strict.rho);
-  EXPECT_GT(loose.watched[0].violation, 1.0);
+  EXPECT_EQ(loose.best.rho, strict.best.rho);
+  EXPECT_GT(loose.constraints.watched[0].violation, 1.0);
   EXPECT_THROW(problem_of("final: [" + bound + ", tolerance: 0.0}]" + slsqp), InputError);
 }
 
@@ -93,9 +93,10 @@ TEST(Outcome, EveryAlgorithmKeepsToTheLimitOfEvaluations) {
                                   "optimizer: {relative_tolerance: 1.0e-15, algorithm: " + name +
                                   ", max_evaluations: " + std::to_string(most) + "}\n",
                               "1", "length: {}, idle: {}"));
-        EXPECT_LE(result.evaluations, most) << name;
+        EXPECT_LE(result.cost.evaluations, most) << name;
         const bool at_limit = result.termination == "max_evaluations_reached";
-        EXPECT_TRUE(result.evaluations == most || !at_limit) << name << ": " << result.evaluations;
+        EXPECT_TRUE(result.cost.evaluations == most || !at_limit)
+            << name << ": " << result.cost.evaluations;
         EXPECT_TRUE(most > 1 || at_limit) << name << ": " << result.termination;
       }
     }
@@ -106,9 +107,9 @@ TEST(Outcome, MarginsAreToldOfASuccessToo) {
   const OptimizationResult result = search(problem_of(
       "constraints: [\"length >= 0.9\", \"length <= 1.1\"]\noptimizer: {algorithm: slsqp}\n"));
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.margins.size(), 2);
-  EXPECT_NEAR(result.margins[0], result.rho[0] - 0.9, 1e-15);
-  EXPECT_NEAR(result.margins[1], 1.1 - result.rho[0], 1e-15);
+  ASSERT_EQ(result.constraints.margins.size(), 2);
+  EXPECT_NEAR(result.constraints.margins[0], result.best.rho[0] - 0.9, 1e-15);
+  EXPECT_NEAR(result.constraints.margins[1], 1.1 - result.best.rho[0], 1e-15);
 }
 
 TEST(Outcome, AConstraintThatIsNoNumberAtTheStartIsBadInput) {
@@ -131,7 +132,7 @@ TEST(Outcome, ASearchTurnsBackWhereAConstraintIsNoNumber) {
   const OptimizationResult result = search(
       problem_of("constraints: [\"sqrt(1.2 - length) >= -1\"]\noptimizer: {algorithm: mma}\n"));
   EXPECT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LE(result.rho[0], 1.2);
+  EXPECT_LE(result.best.rho[0], 1.2);
 }
 
 TEST(Outcome, AGradientThatIsNotFiniteIsNoSuccess) {
@@ -167,11 +168,11 @@ TEST(Outcome, WarnsOfParametersOnTheirBound) {
   // shortest is best.
   const OptimizationResult result = search(problem_of(""));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_EQ(result.rho[0] == 0.5 || result.rho[0] == 2.0,
+  EXPECT_EQ(result.best.rho[0] == 0.5 || result.best.rho[0] == 2.0,
             has_warning(result.warnings, "parameter_on_bound", "length"))
-      << result.rho[0];
+      << result.best.rho[0];
   const OptimizationResult narrow = search(problem_of("", "1", "length: {lower: 0.9, upper: 1.1}"));
-  EXPECT_TRUE(has_warning(narrow.warnings, "parameter_on_bound", "length")) << narrow.rho[0];
+  EXPECT_TRUE(has_warning(narrow.warnings, "parameter_on_bound", "length")) << narrow.best.rho[0];
 }
 
 Problem stop_problem(const std::string& model, const std::string& study,
@@ -188,36 +189,37 @@ TEST(Outcome, NamesTheParametersOfAFlatOptimum) {
         "arm", "spring_balance", std::string("optimizer: {algorithm: ") + algorithm + "}\n");
     const OptimizationResult result = search(problem);
     ASSERT_TRUE(result.status.ok()) << result.status.cause;
-    EXPECT_LT(result.objective, 1e-9 * result.initial_objective);
-    ASSERT_EQ(result.flat_directions.cols(), 2)
+    EXPECT_LT(result.best.objective, 1e-9 * result.initial.objective);
+    ASSERT_EQ(result.optimality.flat_directions.cols(), 2)
         << algorithm << ": only the product of stiffness, post and hook counts";
     for (const char* name : {"stiffness", "post", "hook"})
       EXPECT_TRUE(has_warning(result.warnings, "flat_direction", name)) << algorithm;
     EXPECT_FALSE(has_warning(result.warnings, "parameter_on_bound")) << algorithm;
     // d log k + d log a + d log b = 0 along each of them.
     for (int d = 0; d < 2; ++d)
-      EXPECT_NEAR(result.flat_directions.col(d).cwiseQuotient(result.rho).sum(), 0.0,
-                  1e-5 * result.flat_directions.col(d).cwiseQuotient(result.rho).norm());
+      EXPECT_NEAR(
+          result.optimality.flat_directions.col(d).cwiseQuotient(result.best.rho).sum(), 0.0,
+          1e-5 * result.optimality.flat_directions.col(d).cwiseQuotient(result.best.rho).norm());
   }
-  EXPECT_EQ(search(problem_of("")).flat_directions.cols(), 0);
+  EXPECT_EQ(search(problem_of("")).optimality.flat_directions.cols(), 0);
 }
 
 TEST(Outcome, SaysHowStationaryItsPointIs) {
   const OptimizationResult result = search(stop_problem("arm", "arm_pid"));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_EQ(result.algorithm, "levenberg_marquardt") << "of a sum of squares";
-  EXPECT_LE(result.stationarity, 1e-3);
-  EXPECT_LT(result.slope, 1e-3 * result.initial_slope);
+  EXPECT_LE(result.optimality.stationarity, 1e-3);
+  EXPECT_LT(result.best.slope, 1e-3 * result.initial.slope);
   EXPECT_EQ(stop_sentence(result).find("stationary to "), 0U) << stop_sentence(result);
   OptimizationResult early = result;
   early.termination = "stopped_early";
-  early.slope = 0.4 * early.initial_slope;
-  early.stationarity = 0.4;
+  early.best.slope = 0.4 * early.initial.slope;
+  early.optimality.stationarity = 0.4;
   EXPECT_EQ(stop_sentence(early).find("stopped early: the slope is 0.4 of the start's"), 0U)
       << stop_sentence(early);
   const Problem problem = problem_of("");
   const Study& study = problem.study();
-  early.rho = early.bound_multipliers = Eigen::VectorXd::Constant(1, 0.0);
+  early.best.rho = early.optimality.bound_multipliers = Eigen::VectorXd::Constant(1, 0.0);
   EXPECT_TRUE(has_warning(search_warnings(study, study.optimizer, early), "not_stationary",
                           "no algorithm gains"));
 }

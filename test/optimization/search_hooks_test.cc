@@ -57,11 +57,11 @@ void expect_to_go_on(const Problem& problem) {
     const OptimizationResult result =
         run_search(problem, options, {nullptr, nullptr, memory}, nullptr);
     EXPECT_EQ(memory->kept, whole->kept) << "nothing is computed twice";
-    EXPECT_EQ(result.rho, expected.rho);
-    EXPECT_EQ(result.objective, expected.objective);
-    EXPECT_EQ(result.gradient, expected.gradient);
-    EXPECT_EQ(result.statistics.steps, expected.statistics.steps);
-    EXPECT_EQ(result.validation->objective, expected.validation->objective);
+    EXPECT_EQ(result.best.rho, expected.best.rho);
+    EXPECT_EQ(result.best.objective, expected.best.objective);
+    EXPECT_EQ(result.best.gradient, expected.best.gradient);
+    EXPECT_EQ(result.cost.statistics.steps, expected.cost.statistics.steps);
+    EXPECT_EQ(result.ensemble.validation->objective, expected.ensemble.validation->objective);
   }
 }
 
@@ -106,12 +106,12 @@ TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPoint) {
       run_search(problem, problem.optimizer_options(), {nullptr, nullptr, memory}, &memory->cancel);
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.termination, "cancelled");
-  EXPECT_GE(result.screened, 20);
-  EXPECT_LT(result.screened, 1000) << "only those that were evaluated";
-  EXPECT_NE(result.rho, problem.start());
+  EXPECT_GE(result.multistart.screened, 20);
+  EXPECT_LT(result.multistart.screened, 1000) << "only those that were evaluated";
+  EXPECT_NE(result.best.rho, problem.start());
   const auto start = memory->find({problem.system(), problem.parameters(), Derivatives::kNone});
   ASSERT_TRUE(start);
-  EXPECT_LT(result.objective, start->objective);
+  EXPECT_LT(result.best.objective, start->objective);
 }
 
 Trial trial(double objective, double best) {

@@ -17,26 +17,27 @@ robust: {samples: 4, validate: 10}
 )");
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.scenarios.size(), 8u);
-  EXPECT_EQ(result.scenarios[4].run, "heavy");
-  EXPECT_EQ(result.scenarios[5].sample, 1);
-  ASSERT_EQ(result.scenarios[5].values.size(), 2u);
-  EXPECT_EQ(result.scenarios[5].values[0], (std::pair<std::string, double>("mass", 4.0)));
-  EXPECT_EQ(result.scenarios[5].values[1].first, "mu");
+  ASSERT_EQ(result.ensemble.scenarios.size(), 8u);
+  EXPECT_EQ(result.ensemble.scenarios[4].run, "heavy");
+  EXPECT_EQ(result.ensemble.scenarios[5].sample, 1);
+  ASSERT_EQ(result.ensemble.scenarios[5].values.size(), 2u);
+  EXPECT_EQ(result.ensemble.scenarios[5].values[0], (std::pair<std::string, double>("mass", 4.0)));
+  EXPECT_EQ(result.ensemble.scenarios[5].values[1].first, "mu");
   double before = 0.0, after = 0.0;
-  for (const ScenarioResult& scenario : result.scenarios) {
+  for (const ScenarioResult& scenario : result.ensemble.scenarios) {
     before += scenario.weight * scenario.initial_objective;
     after += scenario.weight * scenario.objective;
   }
-  EXPECT_NEAR(before, result.initial_objective, 1e-12 * before);
-  EXPECT_NEAR(after, result.objective, 1e-12 * after);
-  ASSERT_TRUE(result.validation);
-  EXPECT_EQ(result.validation->failed, 0);
-  EXPECT_EQ(result.validation->promised, result.objective);
-  EXPECT_NEAR(result.validation->objective, result.objective, 0.1 * result.objective);
-  EXPECT_NEAR(result.validation->mean, result.validation->objective, 1e-14)
+  EXPECT_NEAR(before, result.initial.objective, 1e-12 * before);
+  EXPECT_NEAR(after, result.best.objective, 1e-12 * after);
+  ASSERT_TRUE(result.ensemble.validation);
+  EXPECT_EQ(result.ensemble.validation->failed, 0);
+  EXPECT_EQ(result.ensemble.validation->promised, result.best.objective);
+  EXPECT_NEAR(result.ensemble.validation->objective, result.best.objective,
+              0.1 * result.best.objective);
+  EXPECT_NEAR(result.ensemble.validation->mean, result.ensemble.validation->objective, 1e-14)
       << "the measure is the mean";
-  EXPECT_GT(result.validation->worst, result.validation->mean);
+  EXPECT_GT(result.ensemble.validation->worst, result.ensemble.validation->mean);
 }
 
 TEST(ScenarioResults, TellTheValueAtRisk) {
@@ -45,16 +46,17 @@ TEST(ScenarioResults, TellTheValueAtRisk) {
       "validate: 64}\n");
   const OptimizationResult result = optimize(problem);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_TRUE(result.value_at_risk);
+  ASSERT_TRUE(result.ensemble.value_at_risk);
   int beyond = 0;
-  for (const ScenarioResult& scenario : result.scenarios)
-    beyond += scenario.objective > *result.value_at_risk ? 1 : 0;
+  for (const ScenarioResult& scenario : result.ensemble.scenarios)
+    beyond += scenario.objective > *result.ensemble.value_at_risk ? 1 : 0;
   EXPECT_EQ(beyond, 2) << "a quarter of the samples";
-  EXPECT_LE(*result.value_at_risk, result.objective)
+  EXPECT_LE(*result.ensemble.value_at_risk, result.best.objective)
       << "the mean of the worst quarter is beyond its edge";
-  ASSERT_TRUE(result.validation);
-  EXPECT_NEAR(result.validation->value_at_risk, *result.value_at_risk, 0.2 * result.objective);
-  EXPECT_NEAR(result.validation->within, 0.75, 0.15);
+  ASSERT_TRUE(result.ensemble.validation);
+  EXPECT_NEAR(result.ensemble.validation->value_at_risk, *result.ensemble.value_at_risk,
+              0.2 * result.best.objective);
+  EXPECT_NEAR(result.ensemble.validation->within, 0.75, 0.15);
 }
 
 // With one sample there is no deviation; among the fresh samples its square overflows.
@@ -68,20 +70,20 @@ TEST(ScenarioResults, AValidationThatIsNotFiniteIsAFailure) {
   problem = with_study(problem, study);
   const OptimizationResult result = optimize(problem);
   EXPECT_EQ(result.status.code, StatusCode::kNonFinite) << result.status.cause;
-  EXPECT_FALSE(result.validation);
-  EXPECT_GT(result.objective, 0.0) << "the best point is kept";
+  EXPECT_FALSE(result.ensemble.validation);
+  EXPECT_GT(result.best.objective, 0.0) << "the best point is kept";
 }
 
 TEST(ScenarioResults, OtherMeasuresHaveNoValueAtRisk) {
   EXPECT_FALSE(optimize(block("uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {samples: 4}\n"))
-                   .value_at_risk);
+                   .ensemble.value_at_risk);
 }
 
 TEST(ScenarioResults, StudiesWithOneRunHaveNone) {
   const OptimizationResult result = optimize(block(""));
-  EXPECT_TRUE(result.scenarios.empty());
-  EXPECT_FALSE(result.validation);
-  EXPECT_TRUE(result.starts.empty());
+  EXPECT_TRUE(result.ensemble.scenarios.empty());
+  EXPECT_FALSE(result.ensemble.validation);
+  EXPECT_TRUE(result.multistart.starts.empty());
 }
 
 TEST(ScenarioResults, AnInterruptedValidationIsNone) {
@@ -101,7 +103,7 @@ TEST(ScenarioResults, AnInterruptedValidationIsNone) {
       problem, 1, {nullptr, [&meter](bool computed) { meter.count_run(computed); }, nullptr});
   describe_scenarios(problem, counted, &cancel, &meter, &result);
   EXPECT_TRUE(cancel);
-  EXPECT_FALSE(result.validation);
+  EXPECT_FALSE(result.ensemble.validation);
   EXPECT_EQ(result.status.code, StatusCode::kCancelled);
   EXPECT_EQ(result.termination, "cancelled");
 }

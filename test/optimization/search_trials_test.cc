@@ -42,11 +42,11 @@ TEST_F(SearchTrialsTest, TheBestPointIsKept) {
   trials.conclude("");
   const OptimizationResult& result = trials.result();
   EXPECT_TRUE(result.status.ok());
-  EXPECT_EQ(result.rho, better);
-  EXPECT_EQ(result.objective, told[1].objective);
-  EXPECT_EQ(result.gradient, told[1].gradient);
-  EXPECT_EQ(result.initial_objective, told[0].objective);
-  EXPECT_EQ(result.evaluations, 3);
+  EXPECT_EQ(result.best.rho, better);
+  EXPECT_EQ(result.best.objective, told[1].objective);
+  EXPECT_EQ(result.best.gradient, told[1].gradient);
+  EXPECT_EQ(result.initial.objective, told[0].objective);
+  EXPECT_EQ(result.cost.evaluations, 3);
 }
 
 TEST_F(SearchTrialsTest, AnObserverOrACancelEndsTheSearch) {
@@ -58,12 +58,12 @@ TEST_F(SearchTrialsTest, AnObserverOrACancelEndsTheSearch) {
   stopped.conclude("");
   EXPECT_EQ(stopped.result().termination, "cancelled");
   EXPECT_EQ(stopped.result().status.code, StatusCode::kCancelled);
-  EXPECT_EQ(stopped.result().evaluations, 1) << "the trial counts that it was told of";
+  EXPECT_EQ(stopped.result().cost.evaluations, 1) << "the trial counts that it was told of";
   const std::atomic<bool> cancel{true};
   SearchTrials cancelled = trials(none_, &cancel);
   cancelled.start(problem_.start());
   EXPECT_FALSE(cancelled.evaluate(problem_.start(), Derivatives::kGradient));
-  EXPECT_EQ(cancelled.result().evaluations, 0);
+  EXPECT_EQ(cancelled.result().cost.evaluations, 0);
 }
 
 TEST_F(SearchTrialsTest, AnAlgorithmThatGaveUpSaysWhy) {

@@ -23,11 +23,11 @@ TEST(SearchWithMeasures, TheLargestMaximumWithinAStroke) {
       "duration: 5\nobjective: {maximum: [{signal: slide/position, weight: -1}]}\n"
       "constraints: [{stroke: slide/position, at_most: 1.0}]\n");
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_NEAR(result.objective, -0.5, 1e-6);
-  ASSERT_EQ(result.watched.size(), 2U);
-  EXPECT_EQ(result.watched[0].signal, "stroke of slide/position");
-  EXPECT_NEAR(result.watched[0].largest, 1.0, 1e-6);
-  EXPECT_NEAR(result.watched[0].initial_largest, 2.0, 1e-8);
+  EXPECT_NEAR(result.best.objective, -0.5, 1e-6);
+  ASSERT_EQ(result.constraints.watched.size(), 2U);
+  EXPECT_EQ(result.constraints.watched[0].signal, "stroke of slide/position");
+  EXPECT_NEAR(result.constraints.watched[0].largest, 1.0, 1e-6);
+  EXPECT_NEAR(result.constraints.watched[0].initial_largest, 2.0, 1e-8);
 }
 
 TEST(SearchWithMeasures, TheLeastStrokeThatReachesAHeight) {
@@ -36,8 +36,8 @@ TEST(SearchWithMeasures, TheLeastStrokeThatReachesAHeight) {
       "constraints: [{maximum: slide/position, at_least: 0.7}, {minimum: slide/position, "
       "at_most: -0.6}]\n");
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_NEAR(result.objective, 1.4, 1e-6);
-  EXPECT_NEAR(result.rho[1], 0.7, 1e-6);
+  EXPECT_NEAR(result.best.objective, 1.4, 1e-6);
+  EXPECT_NEAR(result.best.rho[1], 0.7, 1e-6);
 }
 
 TEST(SearchWithMeasures, TheEarliestArrivalWithAShortDwell) {
@@ -49,8 +49,8 @@ TEST(SearchWithMeasures, TheEarliestArrivalWithAShortDwell) {
   const OptimizationResult result = optimize(problem);
   // The run ends within the band: the dwell is what the arrival leaves of 0.69 s.
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_NEAR(result.objective, 0.4, 1e-6);
-  EXPECT_NEAR(result.rho[0], std::pow(kPi / 3.0 / 0.4, 2), 1e-4);
+  EXPECT_NEAR(result.best.objective, 0.4, 1e-6);
+  EXPECT_NEAR(result.best.rho[0], std::pow(kPi / 3.0 / 0.4, 2), 1e-4);
 }
 
 TEST(SearchWithMeasures, ABoundThatCannotBeMetIsReported) {

@@ -68,31 +68,33 @@ TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
                                                "path: [{signal: hold/output, between: [-6, 6]}]\n");
   ASSERT_TRUE(free.status.ok()) << free.status.cause;
   ASSERT_TRUE(bounded.status.ok()) << bounded.status.cause;
-  ASSERT_EQ(bounded.watched.size(), 1U);
-  EXPECT_LE(bounded.watched[0].violation, 1e-8);
-  EXPECT_GT(bounded.objective, free.objective);
-  EXPECT_NEAR(std::max(bounded.watched[0].largest, -bounded.watched[0].smallest), 6.0, 1e-6)
+  ASSERT_EQ(bounded.constraints.watched.size(), 1U);
+  EXPECT_LE(bounded.constraints.watched[0].violation, 1e-8);
+  EXPECT_GT(bounded.best.objective, free.best.objective);
+  EXPECT_NEAR(
+      std::max(bounded.constraints.watched[0].largest, -bounded.constraints.watched[0].smallest),
+      6.0, 1e-6)
       << "the bound is active";
-  EXPECT_EQ(bounded.watched[0].lower, -6.0);
-  EXPECT_EQ(bounded.watched[0].upper, 6.0);
-  EXPECT_EQ(bounded.watched[0].before, 0.8);
-  EXPECT_EQ(free.watched.size(), 0U);
+  EXPECT_EQ(bounded.constraints.watched[0].lower, -6.0);
+  EXPECT_EQ(bounded.constraints.watched[0].upper, 6.0);
+  EXPECT_EQ(bounded.constraints.watched[0].before, 0.8);
+  EXPECT_EQ(free.constraints.watched.size(), 0U);
 }
 
 TEST(SmoothProgram, TellsInWhichRunASignalWasExtreme) {
   // The set-point of the second run is farther away, so the controller pushes harder there.
   const OptimizationResult result =
       tune_with(kTwoRuns + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
-  ASSERT_EQ(result.watched.size(), 1U);
-  EXPECT_EQ(result.watched[0].largest_scenario, 1);
-  EXPECT_DOUBLE_EQ(result.watched[0].lower, -result.rho[0]);
+  ASSERT_EQ(result.constraints.watched.size(), 1U);
+  EXPECT_EQ(result.constraints.watched[0].largest_scenario, 1);
+  EXPECT_DOUBLE_EQ(result.constraints.watched[0].lower, -result.best.rho[0]);
 }
 
 TEST(SmoothProgram, AlgorithmsAgreeOnABoundedDesign) {
   const std::string bound = "path: [{signal: hold/output, between: [-6, 6]}]\n";
   const OptimizationResult slsqp = tune_with(bound), mma = tune_with(bound, "mma");
   ASSERT_TRUE(slsqp.status.ok() && mma.status.ok()) << slsqp.status.cause << mma.status.cause;
-  EXPECT_NEAR(mma.objective, slsqp.objective, 1e-4 * slsqp.objective);
+  EXPECT_NEAR(mma.best.objective, slsqp.best.objective, 1e-4 * slsqp.best.objective);
 }
 
 TEST(SmoothProgram, AnImpossibleBoundIsInfeasible) {
@@ -100,7 +102,7 @@ TEST(SmoothProgram, AnImpossibleBoundIsInfeasible) {
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible);
   EXPECT_NE(result.status.cause.find("final[0] (slide/position)"), std::string::npos)
       << result.status.cause;
-  EXPECT_GT(result.watched.at(0).violation, 1.0);
+  EXPECT_GT(result.constraints.watched.at(0).violation, 1.0);
 }
 
 TEST(SmoothProgram, DependentConstraintsAreNoSuccess) {
@@ -109,7 +111,7 @@ TEST(SmoothProgram, DependentConstraintsAreNoSuccess) {
                            twice = tune_with("final: [" + one + ", " + one + "]\n");
   ASSERT_TRUE(once.status.ok()) << once.status.cause;
   if (twice.status.ok()) {
-    EXPECT_NEAR(twice.objective, once.objective, 1e-4 * once.objective);
+    EXPECT_NEAR(twice.best.objective, once.best.objective, 1e-4 * once.best.objective);
   }
 }
 
@@ -118,10 +120,10 @@ TEST(SmoothProgram, APeakInConstraintsIsABoundOnBothSides) {
   const std::string peak = "constraints: [{peak: hold/output, reference: 1.0, at_most: 6}]\n";
   const OptimizationResult a = tune_with(kTwoRuns + path), b = tune_with(kTwoRuns + peak);
   ASSERT_TRUE(a.status.ok() && b.status.ok()) << a.status.cause << b.status.cause;
-  EXPECT_EQ(a.objective, b.objective) << "bit for bit";
-  EXPECT_EQ(a.rho, b.rho);
-  EXPECT_EQ(b.watched.at(0).element, "constraints[0]");
-  EXPECT_LE(b.watched.at(0).violation, 1e-8);
+  EXPECT_EQ(a.best.objective, b.best.objective) << "bit for bit";
+  EXPECT_EQ(a.best.rho, b.best.rho);
+  EXPECT_EQ(b.constraints.watched.at(0).element, "constraints[0]");
+  EXPECT_LE(b.constraints.watched.at(0).violation, 1e-8);
   EXPECT_THROW(tune_with(peak, "lbfgs"), InputError);
 }
 
@@ -130,10 +132,10 @@ TEST(SmoothProgram, AConstraintOnParametersHoldsInEveryRun) {
   const std::string runs = "runs: {light: {set: {mass: 0.3}}, heavy: {set: {mass: 4.0}}}\n";
   const OptimizationResult result = tune_with(runs + "constraints: [\"Kd**2 <= 0.5*Kp*mass\"]\n");
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  const double Kp = result.rho[0], Kd = result.rho[1];
+  const double Kp = result.best.rho[0], Kd = result.best.rho[1];
   EXPECT_GE(0.5 * Kp * 0.3 - Kd * Kd, -1e-7);
-  EXPECT_NEAR(result.margins[0], 0.5 * Kp * 0.3 - Kd * Kd, 1e-12);
-  EXPECT_NEAR(result.margins[0], 0.0, 1e-5) << "it is active";
+  EXPECT_NEAR(result.constraints.margins[0], 0.5 * Kp * 0.3 - Kd * Kd, 1e-12);
+  EXPECT_NEAR(result.constraints.margins[0], 0.0, 1e-5) << "it is active";
 }
 
 TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
@@ -162,9 +164,10 @@ optimizer: {algorithm: slsqp, relative_tolerance: 1.0e-10}
 )"};
   const OptimizationResult result = optimize(load_problem(kCart, {}, study));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  EXPECT_LT(result.objective, 4.001);
-  EXPECT_GT(result.objective, 4.0);
-  for (const WatchedResult& watched : result.watched) EXPECT_LE(watched.violation, 1e-8);
+  EXPECT_LT(result.best.objective, 4.001);
+  EXPECT_GT(result.best.objective, 4.0);
+  for (const WatchedResult& watched : result.constraints.watched)
+    EXPECT_LE(watched.violation, 1e-8);
 }
 
 // r int u^2 + a (x - 1/2)^2 + b v^2 at the end of 1 s is least for a force c0 + c1 t, which
@@ -188,8 +191,8 @@ optimizer: {max_evaluations: 400, algorithm: )" +
     const OptimizationResult result = optimize(load_problem(kCart, {}, study));
     ASSERT_TRUE(result.status.ok()) << algorithm << ": " << result.status.cause;
     EXPECT_NE(result.termination, "stopped_early") << algorithm;
-    EXPECT_NEAR(result.objective, optimum, 1e-4 * optimum)
-        << algorithm << ": " << result.evaluations << " evaluations";
+    EXPECT_NEAR(result.best.objective, optimum, 1e-4 * optimum)
+        << algorithm << ": " << result.cost.evaluations << " evaluations";
   }
 }
 
@@ -210,10 +213,10 @@ optimizer: {max_evaluations: 200}
 )"};
   const OptimizationResult result = optimize(load_problem(urdf, {}, study));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
-  ASSERT_EQ(result.watched.size(), 2U);
-  EXPECT_NEAR(result.watched[0].tolerance, 3.14e-5, 1e-6);
-  EXPECT_NEAR(result.watched[1].tolerance, 6.1e-5, 1e-5) << "of 6.1 rad/s on the way";
-  for (const WatchedResult& watched : result.watched)
+  ASSERT_EQ(result.constraints.watched.size(), 2U);
+  EXPECT_NEAR(result.constraints.watched[0].tolerance, 3.14e-5, 1e-6);
+  EXPECT_NEAR(result.constraints.watched[1].tolerance, 6.1e-5, 1e-5) << "of 6.1 rad/s on the way";
+  for (const WatchedResult& watched : result.constraints.watched)
     EXPECT_LE(watched.violation, watched.tolerance);
 }
 

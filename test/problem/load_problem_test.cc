@@ -74,8 +74,8 @@ TEST(Problem, OptionsOfASearchComeInPlaceOfTheStudys) {
   OptimizerOptions options = problem.optimizer_options();
   options.max_evaluations = 2;
   const OptimizationResult result = optimize(problem, options);
-  EXPECT_LE(result.evaluations, 2);
-  EXPECT_EQ(result.initial_rho, problem.start());
+  EXPECT_LE(result.cost.evaluations, 2);
+  EXPECT_EQ(result.initial.rho, problem.start());
   EXPECT_NE(problem.optimizer_options().max_evaluations, 2);
 }
 

@@ -86,7 +86,10 @@ class Optimization(Files):
         page = result.report(self.path("page.html"))
         self.assertIn("pendulum", page)
         self.assertEqual(self.text("page.html"), page)
-        self.assertIn("<svg", codesign.Problem(PENDULUM, SWING).optimize().report())
+        result = codesign.Problem(PENDULUM, SWING).optimize()
+        self.assertIn("<svg", result.report())
+        self.assertIn(f"{result.termination} after {result.record['iterations']} iterations", str(result))
+        self.assertIn("stationary to ", str(result))
 
     def text(self, name):
         with open(self.path(name), encoding="utf-8") as file:

@@ -273,6 +273,38 @@ class Report(unittest.TestCase):
                     file.write(",".join(f"{math.sin(0.1 * row * (k + 1)):.17g}" if k else str(row) for k in range(601)) + "\n")
         self.page_of("large")
 
+    def page_of_efforts(self, name, study):
+        for suffix, text in ((".urdf", PENDULUM), (".yaml", study)):
+            with open(self.path(name + suffix), "w", encoding="utf-8") as file:
+                file.write(text)
+        done = run("efforts", self.path(name + ".urdf"), self.path(name + ".yaml"), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path(name + ".json"), "w", encoding="utf-8") as file:
+            file.write(done.stdout)
+        shown = run("report", self.path(name + ".json"), "-o", self.path(name + ".html"))
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        page = Page(read(self.path(name + ".html")).decode())
+        self.assertEqual(page.faults + page.open, [])
+        return page, json.loads(done.stdout)
+
+    def test_efforts_are_curves_along_a_motion_and_maps_over_postures(self):
+        page, efforts = self.page_of_efforts("along", STUDY)
+        self.assertIn(numbers.short(efforts["joints"]["hinge"]["effort"]["value"], 6), page.text)
+        self.assertEqual([tag for tag, _ in page.tags].count("figure"), 3, "effort, velocity, friction")
+        page, efforts = self.page_of_efforts("over", "duration: 1\nefforts: {grid: {hinge: {from: -1, to: 1, count: 21}}}\n")
+        self.assertIn("Statics in 21 postures of hinge", page.text)
+        self.assertEqual([tag for tag, _ in page.tags].count("figure"), 1)
+        # A map has a cell for each posture.
+        efforts["series"] = {"hinge/position": [0.0, 0.0, 1.0, 1.0], "slide/position": [0.0, 2.0, 0.0, 2.0], "hinge/effort": [1.0, -2.0, 4.0, None],
+                             "hinge/holding": [0.0, 0.0, 0.0, None]}
+        efforts["joints"]["slide"] = efforts["joints"]["hinge"]
+        with open(self.path("map.json"), "w", encoding="utf-8") as file:
+            json.dump(efforts, file)
+        self.assertEqual(run("report", self.path("map.json"), "-o", self.path("map.html")).returncode, 0)
+        cells = re.findall(r'<rect class="cell (\w+)" fill-opacity="([0-9.]+)"[^>]*><title>([^<]*)<', read(self.path("map.html")).decode())
+        self.assertEqual(cells[:4], [("plus", "0.250", "hinge 0, slide 0: 1"), ("plus", "1.000", "hinge 1, slide 0: 4"),
+                                     ("minus", "0.500", "hinge 0, slide 2: \u22122"), ("unknown", "0.150", "hinge 1, slide 2: not known")])
+
     def test_what_is_refused(self):
         os.makedirs(self.path("empty"))
         with open(self.path("alone.bag"), "w", encoding="utf-8") as file:
@@ -285,6 +317,9 @@ class Report(unittest.TestCase):
             done = run("report", self.path(job))
             self.assertEqual(done.returncode, 2, job)
             self.assertIn(sentence, done.stderr)
+        done = run("report", self.path("job", "result.json"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no output of codesign efforts --json", done.stderr)
         done = run("report", self.path("job"), "-o", self.path("no", "such", "folder.html"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("cannot be written", done.stderr)

@@ -31,6 +31,8 @@ std::string arm_study() {
          "  - {joint: elbow, effort: \"${-k*elbow/position*abs(elbow/velocity) + 0.2*t}\"}\n"
          "  - {link: lower, force: [\"${-A*lower/velocity/x^3}\", 0, \"${exp(-k*t)}\"], "
          "torque: [0, \"${0.1*lower/position/z}\", 0], point: [0, 0, -0.5], frame: link}\n"
+         "  - {joint: elbow, effort: {type: table, signal: elbow/position, at: [0.1, 0.25, 0.4], "
+         "values: [0, \"${A*k}\", -0.2]}}\n"
          "objective:\n"
          "  integral: [{signal: \"${shoulder/effort*shoulder/velocity/k}\"}, {signal: "
          "\"${max(elbow/position, 0.1)^1.5}\", reference: \"${A*t}\"}]\n"

@@ -66,6 +66,11 @@ TEST(NumberText, EndsAreComparedWhole) {
   EXPECT_FALSE(ends_with("constraints", "constraint"));
 }
 
+TEST(Readable, HasTenDigits) {
+  EXPECT_EQ(readable(0.05925272691234), "0.05925272691");
+  EXPECT_EQ(readable(-10.0), "-10");
+}
+
 }  // namespace
 
 }  // namespace codesign

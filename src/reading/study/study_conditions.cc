@@ -2,11 +2,13 @@
 #include "reading/study/study_blocks.h"
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <utility>
 
 #include "math/scalar.h"
 #include "mechanism/signal_catalog.h"
+#include "reading/study/signal_table.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -126,6 +128,12 @@ void read_initial_state(const YamlValue& study_value, const RobotDescription& ro
 
 namespace {
 
+bool is_table(const YamlValue& value) {
+  if (!value.is_map()) return false;
+  const auto type = value.find("type");
+  return type && type->text() == "table";
+}
+
 /// What the loads of a study are read with.
 struct LoadReader {
   const RobotDescription& robot;
@@ -135,17 +143,43 @@ struct LoadReader {
 
   LoadFunction read(const YamlValue& value) const {
     LoadFunction function;
-    if (!value.is_map() && is_expression(value.text())) {
-      SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
-      if (!signal.terms.empty()) {
-        check_signal(signal, robot, study.controllers, value.path());
-        use_parameters(signal, table);
-        function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
-        return function;
-      }
+    SignalDescription signal;
+    if (is_table(value))
+      signal = read_signal_table(value, table);
+    else if (!value.is_map() && is_expression(value.text()))
+      signal = parse_signal(value.text(), value.where(), value.path());
+    if (signal.terms.empty()) {
+      if (!value.is_map()) refuse_unknown_quantity(value);
+      function.of_time = read_reference(value, table, loader);
+      return function;
     }
-    function.of_time = read_reference(value, table, loader);
+    check_signal(signal, robot, study.controllers, value.path());
+    use_parameters(signal, table);
+    function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
     return function;
+  }
+
+  /// In `${2*elbow/positon}` the word after the joint is no quantity, so that there is no signal:
+  /// the error shall tell that, not that `elbow` is no parameter.
+  void refuse_unknown_quantity(const YamlValue& value) const {
+    const std::string text = value.text();
+    const auto is_letter = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    const auto check = [&](const std::string& name) {
+      const std::size_t at = text.find(name + "/"), word = at + name.size() + 1;
+      if (at == std::string::npos || table.index.count(name) > 0 || is_letter(text[at - 1])) return;
+      std::size_t end = word;
+      while (end < text.size() && is_letter(text[end])) ++end;
+      const std::string quantity = text.substr(word, end - word);
+      if (quantity.empty() || table.index.count(quantity) > 0) return;
+      check_signal({name + "/" + quantity, {{1.0, name, quantity, ""}}, value.where(), nullptr},
+                   robot, study.controllers, value.path());
+    };
+    if (!is_expression(text)) return;
+    for (const JointDescription& joint : robot.joints) check(joint.name);
+    for (const LinkDescription& link : robot.links) check(link.name);
+    for (const ControllerDescription& controller : study.controllers) check(controller.name);
   }
 
   std::array<LoadFunction, 3> read_components(const YamlValue& value) const {

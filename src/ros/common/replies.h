@@ -8,7 +8,6 @@
 #include <string>
 #include <type_traits>
 
-#include "jobs/trial_lines.h"
 #include "mechanism_codesign/status.h"
 #include "mechanism_codesign/version.h"
 

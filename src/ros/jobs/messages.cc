@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "jobs/optimization_records.h"
-#include "jobs/trial_lines.h"
 #include "math/arrays.h"
+#include "optimization/result_report.h"
 #include "ros/bags/job_bag.h"
 #include "ros/common/replies.h"
 
@@ -159,37 +159,41 @@ mechanism_codesign::OptimizeResult optimization_message(const Problem& problem,
   message.parameters = problem.tuned_names();
   for (const ParameterConstraint& constraint : problem.study().constraints)
     message.constraints.push_back(constraint.text);
-  message.margins = to_array(result.margins);
-  message.initial = to_array(result.initial_rho);
-  message.tuned = to_array(result.rho);
-  message.initial_objective = result.initial_objective;
-  message.objective = result.objective;
-  message.initial_gradient = to_array(result.initial_gradient);
-  message.gradient = to_array(result.gradient);
+  message.margins = to_array(result.constraints.margins);
+  message.initial = to_array(result.initial.rho);
+  message.tuned = to_array(result.best.rho);
+  message.initial_objective = result.initial.objective;
+  message.objective = result.best.objective;
+  message.initial_gradient = to_array(result.initial.gradient);
+  message.gradient = to_array(result.best.gradient);
   message.termination = result.termination;
-  message.iterations = static_cast<std::uint32_t>(result.iterations);
-  message.evaluations = static_cast<std::uint32_t>(result.evaluations);
-  message.failed_evaluations = static_cast<std::uint32_t>(result.failed_evaluations);
-  message.steps = static_cast<std::uint64_t>(result.statistics.steps);
-  message.rejected_steps = static_cast<std::uint64_t>(result.statistics.rejected_steps);
-  message.cpu_seconds = result.statistics.cpu_seconds;
-  message.constraint_drift = result.statistics.constraint_drift;
-  message.energy_error = result.statistics.energy_error;
+  message.iterations = static_cast<std::uint32_t>(result.cost.iterations);
+  message.evaluations = static_cast<std::uint32_t>(result.cost.evaluations);
+  message.failed_evaluations = static_cast<std::uint32_t>(result.cost.failed_evaluations);
+  message.steps = static_cast<std::uint64_t>(result.cost.statistics.steps);
+  message.rejected_steps = static_cast<std::uint64_t>(result.cost.statistics.rejected_steps);
+  message.cpu_seconds = result.cost.statistics.cpu_seconds;
+  message.constraint_drift = result.cost.statistics.constraint_drift;
+  message.energy_error = result.cost.statistics.energy_error;
   set_ensemble(result, &message);
-  message.signals = watched_messages(result.watched, !result.scenarios.empty());
+  message.signals =
+      watched_messages(result.constraints.watched, !result.ensemble.scenarios.empty());
   return message;
 }
 
 void set_ensemble(const OptimizationResult& result, mechanism_codesign::OptimizeResult* message) {
-  for (const ScenarioResult& scenario : result.scenarios)
+  for (const ScenarioResult& scenario : result.ensemble.scenarios)
     message->scenarios.push_back(to_message(scenario));
   message->worst = count(worst_scenario(result) + 1);
-  message->value_at_risk = result.value_at_risk.value_or(0.0);
-  if (result.validation) message->validation.push_back(to_message(*result.validation));
-  for (const StartResult& search : result.starts) message->searches.push_back(to_message(search));
-  for (const Optimum& optimum : result.optima) message->optima.push_back(to_message(optimum));
-  message->screened = count(result.screened);
-  message->unusable = count(result.unusable);
+  message->value_at_risk = result.ensemble.value_at_risk.value_or(0.0);
+  if (result.ensemble.validation)
+    message->validation.push_back(to_message(*result.ensemble.validation));
+  for (const StartResult& search : result.multistart.starts)
+    message->searches.push_back(to_message(search));
+  for (const Optimum& optimum : result.multistart.optima)
+    message->optima.push_back(to_message(optimum));
+  message->screened = count(result.multistart.screened);
+  message->unusable = count(result.multistart.unusable);
 }
 
 std::vector<mechanism_codesign::WatchedSignal> watched_messages(

@@ -18,6 +18,7 @@
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/result_report.h"
 #include "optimization/search_hooks.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/bags/job_bag.h"
@@ -41,8 +42,8 @@ BagRuns run_both(const Problem& problem, const OptimizationResult& result, const
                          find_friction(laws, scenario.friction_law), laws),
         record_run(scenario.system, parameters, rate, [patience] { return (*patience)(); })};
   };
-  BagSide tuned = side(result.rho);
-  return {side(result.initial_rho), std::move(tuned)};
+  BagSide tuned = side(result.best.rho);
+  return {side(result.initial.rho), std::move(tuned)};
 }
 
 JobFiles files_of(const std::string& resume, const std::string& directory,
@@ -103,13 +104,13 @@ class Job {
   /// cancelled. A cancelled job is recorded as well; before the first evaluation its tuned design
   /// is the start.
   void record(const std::atomic<bool>& cancel) {
-    const bool is_evaluated = result_.gradient.size() > 0;
+    const bool is_evaluated = result_.best.gradient.size() > 0;
     has_ended_ = !is_evaluated && !is_interrupted();
     if (has_ended_) return;
     constexpr double kUnevaluated = std::numeric_limits<double>::quiet_NaN();
     if (!is_evaluated) outcome_->result.initial_objective = kUnevaluated;
     // Screening computes objectives without gradients.
-    if (!is_evaluated && result_.screened <= result_.unusable)
+    if (!is_evaluated && result_.multistart.screened <= result_.multistart.unusable)
       outcome_->result.objective = kUnevaluated;
     Patience patience(cancel);
     Scenario nominal;

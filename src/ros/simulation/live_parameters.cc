@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jobs/trial_lines.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"

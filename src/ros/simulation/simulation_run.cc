@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "jobs/trial_lines.h"
 #include "ros/simulation/simulation_node.h"
 #include "text/number_text.h"
 

@@ -158,7 +158,7 @@ TEST(StudyLoads, ReadsFunctionsOfTimeAndExpressionsOfSignals) {
   expect_fault(with("{joint: slider_joint, effort: \"${slider_jont/position}\"}"),
                "loads[0].effort", "did you mean \"slider_joint\"", 5);
   expect_fault(with("{joint: slider_joint, effort: \"${slider_joint/positon}\"}"),
-               "loads[0].effort", "unknown name", 5);
+               "loads[0].effort", "did you mean \"position\"", 5);
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ using Numbers = std::vector<double>;
 
 TEST(EnsembleMessages, ScenariosAndTheWorstAreNumberedFromOne) {
   OptimizationResult result;
-  result.scenarios = {{"light", -1, 0.5, {{"mass", 1.0}}, 3.0, 2.0},
-                      {"heavy", 4, 0.5, {{"mass", 9.0}, {"mu", 0.25}}, 5.0, 4.0, "lugre"}};
-  result.scenarios[0].failed = true;
+  result.ensemble.scenarios = {{"light", -1, 0.5, {{"mass", 1.0}}, 3.0, 2.0},
+                               {"heavy", 4, 0.5, {{"mass", 9.0}, {"mu", 0.25}}, 5.0, 4.0, "lugre"}};
+  result.ensemble.scenarios[0].failed = true;
   mechanism_codesign::OptimizeResult message;
   set_ensemble(result, &message);
   ASSERT_EQ(message.scenarios.size(), 2U);
@@ -38,8 +38,8 @@ TEST(EnsembleMessages, ScenariosAndTheWorstAreNumberedFromOne) {
 
 TEST(EnsembleMessages, Validation) {
   OptimizationResult result;
-  result.validation = Validation{100, 2, 1.5, 1.75, 1.25, 3.25, 2.5, 0.875};
-  result.value_at_risk = 2.25;
+  result.ensemble.validation = Validation{100, 2, 1.5, 1.75, 1.25, 3.25, 2.5, 0.875};
+  result.ensemble.value_at_risk = 2.25;
   mechanism_codesign::OptimizeResult message;
   set_ensemble(result, &message);
   ASSERT_EQ(message.validation.size(), 1U);
@@ -55,18 +55,18 @@ TEST(EnsembleMessages, Validation) {
 TEST(EnsembleMessages, SearchesNameTheirOptimum) {
   OptimizationResult result;
   const Eigen::Vector2d start(1.0, 2.0), end(3.0, 4.0);
-  result.starts = {{start, end, 9.0, 0.5, {}, "objective_tolerance_reached", 12, 0},
-                   {start,
-                    start,
-                    10.0,
-                    10.0,
-                    {StatusCode::kUnstableMotion, 0.1, "too fast"},
-                    "start_failed",
-                    1,
-                    -1}};
-  result.optima = {{end, 0.5, 1}};
-  result.screened = 8;
-  result.unusable = 3;
+  result.multistart.starts = {{start, end, 9.0, 0.5, {}, "objective_tolerance_reached", 12, 0},
+                              {start,
+                               start,
+                               10.0,
+                               10.0,
+                               {StatusCode::kUnstableMotion, 0.1, "too fast"},
+                               "start_failed",
+                               1,
+                               -1}};
+  result.multistart.optima = {{end, 0.5, 1}};
+  result.multistart.screened = 8;
+  result.multistart.unusable = 3;
   mechanism_codesign::OptimizeResult message;
   set_ensemble(result, &message);
   ASSERT_EQ(message.searches.size(), 2U);

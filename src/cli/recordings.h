@@ -11,16 +11,6 @@
 
 namespace codesign::cli {
 
-/// Prints rows of text in columns, the first one aligned to the left, the others to the right.
-class Table {
- public:
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  void print(std::ostream& out) const;
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
 /// Reads the recordings of the study, which has a block `identify`. Relative paths count from the
 /// study's folder. @throws InputError as load_recordings().
 StudyRecordings read_recordings(const Problem& problem, const Console& console, Warnings* warnings);
