@@ -298,6 +298,11 @@ class PairBuilder {
     d.rotor_inertia = actuator.rotor_inertia.at(parameters_);
     d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
     if (actuator.gear) d.gear = gear(*actuator.gear, d.gear_ratio);
+    if (!actuator.elastic) return;
+    d.elastic.stiffness = actuator.elastic->stiffness.at(parameters_);
+    d.elastic.damping = actuator.elastic->damping.at(parameters_);
+    d.elastic.plays = actuator.elastic->backlash.has_value();
+    if (d.elastic.plays) d.elastic.backlash = actuator.elastic->backlash->at(parameters_);
   }
 
   // The same loss in both directions of power makes eta_b = 2 - 1/eta.

@@ -34,8 +34,9 @@ Names friction_attributes() {
 }
 
 Names actuator_attributes() {
-  Names names{"gear_ratio",           "rotor_inertia", "efficiency",
-              "backdrive_efficiency", "coulomb",       "viscous"};
+  Names names{"gear_ratio", "rotor_inertia", "efficiency", "backdrive_efficiency",
+              "coulomb",    "viscous",       "stiffness",  "damping",
+              "backlash"};
   visit_friction_numbers([&names](const FrictionNumberRule& rule) {
     if (rule.of_gears) names.emplace_back(rule.attribute);
   });

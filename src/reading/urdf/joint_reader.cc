@@ -187,6 +187,10 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context,
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, context);
   if (actuator) joint->actuator = read_actuator(*actuator, joint->type, context);
+  if (joint->is_loop && joint->has_elastic_gear())
+    actuator->fail_at("stiffness",
+                      "an elastic gear needs a joint of the tree, which gives its motor a start",
+                      "no stiffness; or a tree with this joint, and a <loop> elsewhere");
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
     spring->fail("a joint of this type has no single coordinate for a spring", "",
