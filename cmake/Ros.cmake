@@ -36,7 +36,12 @@ foreach(space ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake ${PROJECT_BINAR
   file(RENAME ${space}/mechanism_codesignConfig.cmake ${space}/mechanism_codesign-catkin.cmake)
   configure_file(cmake/mechanism_codesignConfig.cmake.in ${space}/mechanism_codesignConfig.cmake COPYONLY)
 endforeach()
-install(FILES ${PROJECT_BINARY_DIR}/catkin_generated/installspace/mechanism_codesign-catkin.cmake DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+# For the prefix /usr, Debian's catkin puts the configuration beside the libraries of the architecture.
+set(codesign_config_destination ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND CMAKE_LIBRARY_ARCHITECTURE)
+  set(codesign_config_destination ${CATKIN_GLOBAL_LIB_DESTINATION}/cmake/${PROJECT_NAME})
+endif()
+install(FILES ${PROJECT_BINARY_DIR}/catkin_generated/installspace/mechanism_codesign-catkin.cmake DESTINATION ${codesign_config_destination})
 
 # What decompresses the chunks of a bag; development packages of rosbag_storage bring both.
 find_package(BZip2 REQUIRED)
@@ -61,6 +66,8 @@ codesign_sanitize(codesign_bags)
 add_library(codesign_bag_module MODULE $<TARGET_OBJECTS:codesign_bags>)
 set_target_properties(codesign_bag_module PROPERTIES OUTPUT_NAME codesign_bags LINKER_LANGUAGE CXX)
 target_link_libraries(codesign_bag_module PRIVATE codesign_bags)
+# CMake gives modules no name of their own, which Debian asks of every file among the libraries.
+target_link_options(codesign_bag_module PRIVATE -Wl,-soname,libcodesign_bags.so)
 codesign_sanitize(codesign_bag_module)
 target_sources(codesign PRIVATE ${PROJECT_SOURCE_DIR}/src/ros/loaded_bag_files.cc)
 target_link_libraries(codesign PRIVATE ${CMAKE_DL_LIBS})

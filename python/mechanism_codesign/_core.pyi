@@ -10,7 +10,7 @@ Source = Tuple[str, Optional[str]]
 Tell = Optional[Callable[[str, Dict[str, Any]], object]]
 
 def version() -> str:
-    """The version of the package, such as "0.1.0"."""
+    """The version of the package, such as "0.2.0"."""
 
 class Optimized:
     record: Dict[str, Any]

@@ -257,7 +257,7 @@ const CommandHelp kCommands[] = {
 
 constexpr const char* kOtherCommands =
     R"(  help [COMMAND]           this text, or the options of one command
-  --version                the version of this program, as "codesign 0.1.0"
+  --version                the version of this program, as "codesign 0.2.0"
 )";
 
 constexpr const char* kSharedOptions =
@@ -276,7 +276,7 @@ Names command_names() {
 
 constexpr const char* kExitCodes = R"(
 exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
-the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
+the codes of failures (error.code in JSON) are listed in doc/statuses.md
 )";
 
 }  // namespace

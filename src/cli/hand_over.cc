@@ -76,7 +76,8 @@ void become(const std::string& program, const std::vector<std::string>& words) {
   if (path.empty())
     throw std::runtime_error("the program " + program + ", which needs ROS, is not beside " +
                              self.string() +
-                             ": build the package where ROS is installed (doc/building.md)");
+                             ": install ros-mechanism-codesign, or build where ROS is installed "
+                             "(doc/building.md)");
   std::vector<std::string> arguments = words;
   arguments.insert(arguments.begin(), path);
   execv(path.c_str(), pointers_to(&arguments).data());

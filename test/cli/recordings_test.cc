@@ -73,7 +73,7 @@ TEST_F(RecordingsTable, ABagNeedsAReader) {
   const Outcome outcome =
       run_words({"check", folder_.path("model.urdf"), folder_.path("study.yaml")});
   EXPECT_EQ(outcome.code, kBadInput);
-  EXPECT_NE(outcome.err.find("this program was built without ROS"), std::string::npos)
+  EXPECT_NE(outcome.err.find("this program is installed without ROS"), std::string::npos)
       << outcome.err;
 }
 

@@ -132,7 +132,7 @@ TEST_F(LoadRecordings, BagsAreReadByTheCaller) {
   identification_.data[0].file = "swing.bag";
   const InputFault fault = refusal_of([this] { load(); });
   EXPECT_EQ(fault.element, "identify.data[0].bag");
-  expect_word(fault.message, "built without ROS");
+  expect_word(fault.message, "installed without ROS");
   std::string asked;
   const BagReader reader = [&asked](const RecordingDescription&, const std::string& path,
                                     const std::vector<std::string>& joints, Warnings*) {

@@ -35,19 +35,20 @@ class FreshTest(unittest.TestCase):
         self.assertEqual(plan("./tools/test")[0], "release: bookworm")
 
     def test_takes_options(self):
-        lines = plan("--user", "--read-only-home", "--copy", "a/b", "--copy", "c", "bookworm")
+        lines = plan("--user", "--read-only-home", "--copy", "a/b", "--copy", "c", "--with", "tools", "bookworm")
         self.assertEqual(lines[1:3], ["user: user", "home: /home/user, read-only"])
-        self.assertEqual(lines[-2:], ["copy: a/b", "copy: c"])
+        self.assertEqual(lines[-3:], ["with: tools", "copy: a/b", "copy: c"])
 
     def test_refuses_what_it_does_not_know(self):
-        for arguments, complaint in ((["--usr"], "no such option: --usr"), (["sid"], "no such release here: sid"), (["--copy"], "--copy needs a path")):
+        for arguments, complaint in ((["--usr"], "no such option: --usr"), (["sid"], "no such release here: sid"), (["--copy"], "--copy needs a path"),
+                                     (["--with", "no/such"], "there is no no/such")):
             result = fresh(*arguments)
             self.assertEqual(result.returncode, 2)
             self.assertIn(complaint, result.stderr)
 
     def test_help_shows_every_option(self):
         text = fresh("--help").stdout
-        for option in ("--user", "--read-only-home", "--copy", "--dry-run", "RELEASE", "COMMAND"):
+        for option in ("--user", "--read-only-home", "--with", "--copy", "--dry-run", "RELEASE", "COMMAND"):
             self.assertIn(option, text)
 
     def test_says_what_is_missing(self):
