@@ -24,6 +24,7 @@ constexpr Part kParts[] = {{"kernels", measure_kernels},
                            {"stops", measure_stops},
                            {"scaling", measure_scaling},
                            {"setup", measure_setup},
+                           {"planar", measure_planar},
                            {"ensembles", measure_ensembles},
                            {"identification", measure_identification},
                            {"ranks", measure_ranks},
@@ -34,7 +35,7 @@ constexpr const char* kUsage =
     "usage: benchmarks [--markdown] [PART...]\n"
     "Run it where urdf/ and config/ are. PART: kernels, steps, work_precision, parameters, "
     "optimization, stops, scaling, setup, "
-    "ensembles, identification, ranks, robots, simbody; all by default.\n";
+    "planar, ensembles, identification, ranks, robots, simbody; all by default.\n";
 
 Table summary(const std::vector<Finding>& findings) {
   Table table{"summary",

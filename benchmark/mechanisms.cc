@@ -167,6 +167,53 @@ GeneratedCase stacked_four_bars(int loops, bool with_friction) {
           {"stack.yaml", study(initial, "", "crank_hinge_0/velocity")}};
 }
 
+std::vector<PlanarCase> planar_linkages(bool held) {
+  const auto at = [](double x, double z) {
+    return "<origin xyz=" + quoted(to_decimal(x) + " 0 " + to_decimal(z)) + "/>";
+  };
+  const auto pin = [&at](const std::string& name, const std::string& predecessor, double z,
+                         const std::string& successor, double w) {
+    return "<loop name=" + quoted(name) +
+           " type=\"continuous\"><predecessor link=" + quoted(predecessor) + ">" + at(0.0, z) +
+           "</predecessor><successor link=" + quoted(successor) + ">" + at(0.0, w) +
+           "</successor><axis xyz=\"0 1 0\"/></loop>\n";
+  };
+  const std::string y = "0 1 0";
+  const std::string slider = robot(
+      "slider_crank",
+      bar("crank") + bar("rod") + bar("slider") +
+          hinge("crank_hinge", "ground", "crank", "", y, friction()) +
+          hinge("rod_hinge", "crank", "rod", on_z(-0.5 * kLength), y, "") +
+          "<joint name=\"slide\" type=\"prismatic\"><parent link=\"ground\"/><child "
+          "link=\"slider\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"0\" "
+          "velocity=\"0\"/></joint>" +
+          pin("slider_pin", "rod", -kLength, "slider", 0.0));
+  GeneratedCase four = stacked_four_bars(1, true), six = four;
+  six.urdf.text.insert(
+      six.urdf.text.rfind("</robot>"),
+      bar("rod") + bar("output") + hinge("rod_hinge", "coupler_0", "rod", on_z(-kLength), y, "") +
+          hinge("output_hinge", "ground", "output", at(3.0 * kLength, 0.0), y, "") +
+          pin("output_pin", "rod", -1.8 * kLength, "output", -kLength));
+  six.study.text.replace(six.study.text.find("{position: 0.2}"), 15,
+                         "{position: 0.2}, rod_hinge: {guess: 0.0}, output_hinge: {guess: 0.4}");
+  std::vector<PlanarCase> cases = {
+      {"four-bar", four},
+      {"slider-crank",
+       {{"slider.urdf", slider},
+        {"slider.yaml", study("crank_hinge: {position: 1.0}, rod_hinge: {guess: -1.4}, slide: "
+                              "{guess: -0.24}",
+                              "", "crank_hinge/velocity")}}},
+      {"six-bar", six}};
+  const std::string absolute = "coordinates: absolute, ";
+  for (PlanarCase& c : cases)
+    c.texts.study.text.erase(c.texts.study.text.find(absolute), absolute.size());
+  if (!held) return cases;
+  for (PlanarCase& c : cases)
+    for (std::size_t k = 0; (k = c.texts.urdf.text.find("<loop ", k)) != std::string::npos; k += 6)
+      c.texts.urdf.text.insert(k + 6, "codesign:out_of_plane=\"zero\" ");
+  return cases;
+}
+
 GeneratedCase bricard_ring() {
   // The angles alternate between theta and phi with cos theta + cos phi + cos theta cos phi = 0.
   const double theta = 1.2, phi = std::acos(-std::cos(theta) / (1.0 + std::cos(theta)));

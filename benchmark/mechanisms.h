@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
@@ -31,6 +33,17 @@ GeneratedCase ladder(int loops);
 /// @param with_friction whether the cranks' hinges have friction; it depends on undetermined
 /// reactions, theory (23).
 GeneratedCase stacked_four_bars(int loops, bool with_friction);
+
+/// A planar linkage of hinges and slides with friction in its crank, and its name.
+struct PlanarCase {
+  const char* name;
+  GeneratedCase texts;
+};
+
+/// A four-bar, a slider-crank and a six-bar (a four-bar whose coupler moves an output by a rod),
+/// each with revolute loops. @param held whether the loops are held in their plane only, theory
+/// (23c)
+std::vector<PlanarCase> planar_linkages(bool held);
 
 /// Bricard's threefold symmetric ring: six bars, one of which is the ground, and six hinges, each
 /// at right angles to the next. One degree of freedom, though counting says none: one constraint is

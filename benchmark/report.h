@@ -36,6 +36,7 @@ void measure_optimization(Report* report);
 void measure_stops(Report* report);
 void measure_scaling(Report* report);
 void measure_setup(Report* report);
+void measure_planar(Report* report);
 void measure_ensembles(Report* report);
 /// Part of the one before: whether samples could share vector lanes.
 void measure_lanes(Report* report);

@@ -8,7 +8,7 @@ from typing import Any, Mapping, NamedTuple
 class Status(NamedTuple):
     """How a computation ended."""
 
-    code: str  #: "success", "cancelled", "step_size_too_small", ...; doc/study.md lists them
+    code: str  #: "success", "cancelled", "step_size_too_small", ...; doc/statuses.md lists them
     message: str  #: one sentence; empty on success
     time: float  #: simulated time at which it ended [s]
 

@@ -148,7 +148,7 @@ class _Job:
         self._folder: Optional[str] = None
         #: The whole record, as `--json` prints it and doc/results.md describes it.
         self.record: Dict[str, Any] = core.record
-        self.status = Status(**core.status)  #: doc/study.md lists the codes
+        self.status = Status(**core.status)  #: doc/statuses.md lists the codes
         self.warnings = [Warning(**w) for w in core.warnings]
 
     @property

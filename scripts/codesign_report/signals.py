@@ -17,7 +17,7 @@ def group_of(name, used):
     quantity = name.rsplit("/", 1)[-1]
     if name.startswith("mechanism/"):
         return 3
-    if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss"):
+    if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss", "gear_deflection"):
         return 1
     if name in used or quantity in ("error", "output", "effort", "integral"):
         return 0

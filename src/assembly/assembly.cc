@@ -326,6 +326,7 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
   } else if (origin_.is_known && guess_.size() == 0) {
     status = keep_branch(status, parameters, equations);
   }
+  follow_gears();
   if (status.ok()) place(parameters, equations, state);
   return status;
 }
@@ -377,6 +378,7 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters,
                                   Equations<double>* equations, State<double>* state) {
   if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
   const Status branch = choose_branch(parameters, equations);
+  follow_gears();
   place(parameters, equations, state);
   return branch;
 }

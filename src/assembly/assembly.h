@@ -242,6 +242,13 @@ class Assembly {
   ReferenceMotion<double> given_motion(const Equations<double>& equations,
                                        const Coupling& coupling) const;
   void find_given_rates(const Equations<double>& equations);
+  /// The motor behind an elastic gear starts with its joint: nothing is deflected.
+  void follow_gears() {
+    for (const auto& [motor, joint] : tree_.motors) {
+      theta_[motor] = theta_[joint];
+      theta_rate_[motor] = theta_rate_[joint];
+    }
+  }
   /// Sets work_.loops.
   void scale_loops(const std::vector<double>& parameters, const Equations<double>& equations);
   /// Sets work_.rows to the rows of the loops and couplings of work_.errors; dropped rows are zero

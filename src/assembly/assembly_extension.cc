@@ -106,8 +106,10 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   };
   place_extended();
   correct(positions_, w.Phi, workspace, &w.theta);
+  for (const auto& [motor, joint] : tree_.motors) w.theta[motor] = w.theta[joint];
   place_extended();
   correct(velocities_, w.Phi_rate, workspace, &w.rate);
+  for (const auto& [motor, joint] : tree_.motors) w.rate[motor] = w.rate[joint];
   place_extended();
   if (system_.begins_controllers()) equations->begin_controllers(state);
   extend_rates(start.z, equations, workspace, state);

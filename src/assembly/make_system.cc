@@ -11,6 +11,7 @@
 #include "description/study.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
+#include "mechanism/loop_plane.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
 
@@ -114,6 +115,22 @@ std::string name_list(const RobotDescription& robot, const std::vector<int>& joi
   return text;
 }
 
+/// That the loops may be held in their plane, if this determines all reactions: if all loops that
+/// share them are planar.
+std::string plane_advice(const CompiledSystem& system, const ReactionSharing& sharing) {
+  std::vector<int> loops;
+  for (int p : sharing.pairs) {
+    const Pair& pair = system.topology().pairs[to_index(p)];
+    if (!pair.is_loop) continue;
+    if (!could_be_in_plane(system.robot(), system.topology(), pair, system.parameters())) return "";
+    loops.push_back(pair.chain[0].joint);
+  }
+  return "; or, as the motion is planar, leave what acts out of the plane to the joints of the "
+         "tree "
+         "by codesign:out_of_plane=\"zero\" on " +
+         name_list(system.robot(), loops);
+}
+
 /// What removes the warning below, checked by the rank of the constraints that remain.
 std::string advice_text(const RobotDescription& robot, const std::vector<Release>& releases) {
   if (releases.empty())
@@ -156,8 +173,10 @@ Warning undetermined_friction(const CompiledSystem& system, const Redundancy& re
                    "bearings share it, so that nothing needs to be done unless loads across the "
                    "mechanism's plane come later; "
                  : "the reactions of least norm are used; ";
-  return warn("undetermined_friction",
-              {first.where, first.element(), message + advice_text(robot, releases), "", ""});
+  return warn(
+      "undetermined_friction",
+      {first.where, first.element(),
+       message + advice_text(robot, releases) + plane_advice(system, redundancy.sharing), "", ""});
 }
 
 /// Between the steps of idas a compliance of 1e-9 turns violations of redundant rows, which are

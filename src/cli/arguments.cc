@@ -276,7 +276,7 @@ Names command_names() {
 
 constexpr const char* kExitCodes = R"(
 exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
-the codes of failures (error.code in JSON) are listed in doc/study.md, Statuses
+the codes of failures (error.code in JSON) are listed in doc/statuses.md
 )";
 
 }  // namespace

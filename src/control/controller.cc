@@ -225,8 +225,9 @@ class Resolver {
 
   bool has_rotor(int pair) const {
     const int joint = topology_.pairs[to_index(pair)].chain.front().joint;
-    const auto& actuator = robot_.joints[to_index(joint)].actuator;
-    return actuator && !actuator->rotor_inertia.is_zero();
+    const JointDescription& of = robot_.joints[to_index(joint)];
+    // The law's model has rigid gears, whose rotors are those of the joints.
+    return of.actuator && !of.is_motor && !of.actuator->rotor_inertia.is_zero();
   }
 
   const MotionStudy& study_;

@@ -39,6 +39,8 @@ const std::map<std::string, SignalKind>& joint_kinds() {
       {"load_power", SignalKind::kLoadPower},
       {"motor_torque", SignalKind::kMotorTorque},
       {"motor_speed", SignalKind::kMotorSpeed},
+      {"motor_position", SignalKind::kMotorPosition},
+      {"gear_deflection", SignalKind::kGearDeflection},
       {"reaction_force", SignalKind::kReactionForce},
       {"reaction_torque", SignalKind::kReactionTorque}};
   return kinds;
@@ -91,6 +93,8 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
   const Pair& pair = topology.pairs[to_index(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
+  if (reference.kind == SignalKind::kGearTorque && robot.joints[to_index(joint)].motor >= 0)
+    reference.kind = SignalKind::kElasticTorque;
   if (is_reaction(term)) {
     reference.axis = axis_of(term.component);
     const int child = robot.joints[to_index(joint)].child;
@@ -173,6 +177,12 @@ std::optional<SignalKind> derivative_kind(SignalKind kind) {
     case SignalKind::kJointVelocity:
     case SignalKind::kJointSlidingVelocity:
       return SignalKind::kJointAcceleration;
+    case SignalKind::kMotorPosition:
+      return SignalKind::kMotorSpeed;
+    case SignalKind::kMotorSpeed:
+      return SignalKind::kMotorAcceleration;
+    case SignalKind::kGearDeflection:
+      return SignalKind::kGearDeflectionRate;
     case SignalKind::kLinkPosition:
       return SignalKind::kLinkVelocity;
     case SignalKind::kLinkVelocity:
@@ -236,6 +246,10 @@ bool is_of_motion(SignalKind kind) {
     case SignalKind::kSpringLength:
     case SignalKind::kSpringSpeed:
     case SignalKind::kMotorSpeed:
+    case SignalKind::kMotorPosition:
+    case SignalKind::kGearDeflection:
+    case SignalKind::kGearDeflectionRate:
+    case SignalKind::kElasticTorque:
     case SignalKind::kControllerSetpoint:
       return true;
     default:

@@ -56,7 +56,12 @@ enum class SignalKind {
   kSpringLength,
   kSpringSpeed,  ///< rate of its length
   kMotorTorque,  ///< of the actuator of a joint: effort / gear ratio
-  kMotorSpeed    ///< gear ratio times velocity
+  kMotorSpeed,   ///< gear ratio times the velocity of the motor's side
+  kMotorPosition,
+  kMotorAcceleration,
+  kGearDeflection,  ///< motor's side less joint's side of an elastic gear; theory (9c)
+  kGearDeflectionRate,
+  kElasticTorque  ///< torque of an elastic gear, which depends on the motion alone
 };
 
 /// One term of a signal with its names resolved to indices.

@@ -132,6 +132,7 @@ struct MotionStudy {
   std::vector<ControllerDescription> controllers;
   std::vector<LoadDescription> loads;
   std::vector<GivenMotion> motion;
+  bool rigid_gears = false;  ///< gears with a stiffness are rigid, since the motion is given
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]`
   /// is rho_k.
   std::vector<Parameter> parameters;

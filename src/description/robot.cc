@@ -8,11 +8,20 @@ const Laws& standard_laws() {
   return laws;
 }
 
-PairKind kind_of(const JointDescription& joint) {
+namespace {
+
+PairKind kind_in_space(const JointDescription& joint) {
   if (joint.own_kind) return *joint.own_kind;
   for (const RowReference<JointLaw>& row : standard_laws().joints)
     if (row->type == joint.type) return pair_of(*row);
   return PairKind::kFree;
+}
+
+}  // namespace
+
+PairKind kind_of(const JointDescription& joint) {
+  const PairKind kind = kind_in_space(joint);
+  return joint.in_plane ? PairKind(*kind->in_plane) : kind;
 }
 
 std::optional<FrictionModel> find_friction(const Laws& laws, const std::string& name) {

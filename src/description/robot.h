@@ -126,6 +126,12 @@ struct GearDescription {
   FrictionDescription slip;   ///< law of the flanks, direct, with T_s = T_c = 1 [rad/s or m/s]
 };
 
+/// The compliance of an actuator's gear, theory (9c), at the joint's side.
+struct ElasticGearDescription {
+  Quantity stiffness, damping;       ///< k [N m/rad or N/m], d [N m s/rad or N s/m]
+  std::optional<Quantity> backlash;  ///< b [rad or m], the whole play; none: no play
+};
+
 /// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint; theory
 /// (9a). The rotor is carried by the parent link and turns about the joint's axis.
 struct ActuatorDescription {
@@ -133,6 +139,7 @@ struct ActuatorDescription {
   Quantity
       rotor_inertia;  ///< J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
   std::optional<GearDescription> gear;
+  std::optional<ElasticGearDescription> elastic;  ///< none: the gear is rigid
   SourceLocation where;
 };
 
@@ -142,6 +149,8 @@ struct JointDescription {
   JointType type = JointType::kFixed;
   std::optional<PairKind> own_kind;  ///< kOther: the row that the file names
   bool is_loop = false;
+  bool in_plane = false;  ///< of a loop: reactions out of the plane of its motion are stated to be
+                          ///< zero; theory (23c)
   int parent = -1,
       child = -1;  ///< indices into RobotDescription::links; of a loop: predecessor, successor
   PoseDescription origin;  ///< joint frame at zero position in the parent's link frame
@@ -162,10 +171,17 @@ struct JointDescription {
   /// kFloating: the child's orientation at zero turning coordinates, as rpy in the joint frame
   /// [rad]; taken from the study's initial state.
   QuantityVector start_rotation;
+  int motor = -1;         ///< the joint of the motor's side of an elastic gear, with_motor_sides();
+                          ///< -1: motor and joint move together
+  bool is_motor = false;  ///< it is such a joint
   SourceLocation where;
 
-  /// Whether the actuator's gear loses in proportion to the torque that it transmits; theory (9b).
-  bool has_lossy_gear() const { return actuator && actuator->gear && actuator->gear->efficiency; }
+  bool has_elastic_gear() const { return actuator && actuator->elastic; }
+  /// Whether the torque that the actuator's gear transmits is known: a loss in proportion to it
+  /// needs it, (9b), and a spring determines it, (9c).
+  bool has_gear_torque() const {
+    return has_elastic_gear() || (actuator && actuator->gear && actuator->gear->efficiency);
+  }
 
   /// The element for messages: `<joint name="crank_joint">` or `<loop name="close">`.
   std::string element() const {

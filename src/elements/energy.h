@@ -3,6 +3,7 @@
 
 #include "elements/body.h"
 #include "elements/contact.h"
+#include "elements/elastic_gear.h"
 #include "elements/joint_load.h"
 #include "elements/loads.h"
 #include "elements/state_view.h"
@@ -16,8 +17,8 @@ namespace codesign {
 /// their work is in the potential energy.
 enum class PowerKind {
   kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
-  kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs and spring-dampers, and the
-              ///< dissipation of stops
+  kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs, spring-dampers and elastic
+              ///< gears, and the dissipation of stops
   kActuator,  ///< controllers, as applied within the effort limits, and drives
   kLoad       ///< the study's efforts and wrenches
 };
@@ -80,17 +81,20 @@ T total_power(const StateView<T>& view, PowerKind kind) {
   if (kind == PowerKind::kActuator) sum += drive_power(view, -1, -1);
   if (kind == PowerKind::kFriction)
     for (int pair : view.system.contacts()) sum -= contact_at(view, pair).power();
-  if (kind == PowerKind::kDamping)
+  if (kind == PowerKind::kDamping) {
     for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
       sum += spring_power(view, k);
+    for (std::size_t k = 0; k < view.system.elastic_gears().size(); ++k)
+      sum += elastic_power(view, static_cast<int>(k));
+  }
   if (kind == PowerKind::kLoad)
     for (std::size_t k = 0; k < view.system.link_loads().size(); ++k)
       sum += link_load_power(view, k);
   return sum;
 }
 
-/// The power of one kind in one joint: a pair and the index in its chain. Spring-dampers and loads
-/// on links belong to no joint.
+/// The power of one kind in one joint and its motor: a pair and the index in its chain.
+/// Spring-dampers and loads on links belong to no joint.
 template <class T>
 T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
   const Pair& p = view.pair(pair);
@@ -101,6 +105,11 @@ T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
   for (const JointLoad& load : view.system.loads())
     if (load.pair == pair && (load.element == element || load.element >= elements))
       sum += load_power(view, kind, load);
+  if (const int gear = elastic_gear_of(view.system, pair, element); gear >= 0) {
+    for (const JointLoad& load : view.system.loads())
+      if (load.is_motor && load.elastic == gear) sum += load_power(view, kind, load);
+    if (kind == PowerKind::kDamping) sum += elastic_power(view, gear);
+  }
   if (kind == PowerKind::kActuator) sum += drive_power(view, pair, element);
   const bool holds_friction = p.chain[to_index(element)].joint == p.friction_joint;
   if (kind == PowerKind::kFriction && holds_friction && slips_isotropically(p.kind))
@@ -166,7 +175,8 @@ T kinetic_energy(const StateView<T>& view) {
   return energy;
 }
 
-/// V of (14b): gravity (zero at the root's origin), spring-dampers, torsion springs and stops.
+/// V of (14b): gravity (zero at the root's origin), spring-dampers, torsion springs, stops and
+/// elastic gears.
 template <class T>
 T potential_energy(const StateView<T>& view) {
   T energy(0.0);
@@ -178,6 +188,8 @@ T potential_energy(const StateView<T>& view) {
     energy += spring_energy_at(view, k);
   for (const JointLoad& load : view.system.loads())
     if (load.needs_position()) energy += joint_energy(view, load);
+  for (std::size_t k = 0; k < view.system.elastic_gears().size(); ++k)
+    energy += elastic_energy(view, static_cast<int>(k));
   return energy;
 }
 

@@ -4,6 +4,7 @@
 #include "elements/body.h"
 #include "elements/contact.h"
 #include "elements/controllers.h"
+#include "elements/elastic_gear.h"
 #include "elements/loads.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
@@ -128,8 +129,8 @@ T applied_effort(const StateView<T>& view, const JointLoad& load) {
   return saturate(demand, limit).value;
 }
 
-/// What acts on the joint's own side of a gear: friction of the bearing, damping, spring and stop
-/// minus efforts of loads.
+/// What acts on the joint's own side of a gear: friction of the bearing, damping, spring, stop and
+/// the other side of an elastic gear, minus efforts of loads.
 template <class T>
 T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value(0.0);
@@ -137,6 +138,10 @@ T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   if (load.passive || load.constant_friction)
     value += passive_load(view, load.pair, load.element, load, rate);
   if (load.stop) value += stop_load(view, load, rate, view.system.study().limits.dissipation);
+  if (load.elastic >= 0) {
+    const T tau = elastic_torque(view, load.elastic);
+    value += load.is_motor ? tau : T(-tau);
+  }
   if (!load.given.empty()) value -= given_effort(view, load);
   return value;
 }
@@ -158,10 +163,11 @@ T coupling_load(const StateView<T>& view, int pair, int element, bool of_drive) 
 }
 
 /// The torque tau that the gear of a coordinate transmits to the joint [N m or N], positive along
-/// the coordinate; theory (9b): an unknown of a cut pair, else what the child and the loads on the
-/// joint's side need.
+/// the coordinate; theory (9b): that of the spring behind a motor, an unknown of a cut pair, else
+/// what the child and the loads on the joint's side need.
 template <class T>
 T gear_torque(const StateView<T>& view, const JointLoad& load, const T& rate) {
+  if (load.is_motor) return elastic_torque(view, load.elastic);
   if (load.gear_unknown >= 0) return view.state->z[view.layout.gear_column(load.gear_unknown)];
   const auto body = to_index(view.layout.forest.body_below[to_index(load.pair)]);
   std::array<T, 6> rows;
@@ -209,8 +215,8 @@ void gear_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* 
   if (load.gear_unknown < 0) return;
   const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
   const int column = view.layout.gear_column(load.gear_unknown);
-  T value = view.state->z[column] + gear_load(view, load, rate) +
-            coupling_load(view, load.pair, load.element, true);
+  T value = view.state->z[column] + coupling_load(view, load.pair, load.element, true);
+  if (load.gear) value += gear_load(view, load, rate);
   if (!load.controllers.empty()) value -= applied_effort(view, load);
   for (const Rotor& rotor : view.system.rotors())
     if (rotor.pair == load.pair && rotor.element == load.element) value += rotor_load(view, rotor);
@@ -269,13 +275,14 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   return state;
 }
 
-/// The effort that controllers apply along a coordinate, within the actuator's limit, and the
-/// effort of its drive; positive along the coordinate.
+/// The effort that controllers apply along a coordinate or on its motor, within the actuator's
+/// limit, and the effort of its drive; positive along the coordinate.
 template <class T>
 T joint_effort(const StateView<T>& view, int pair, int element) {
+  const CoordinateIndex motor = view.system.motor_of(pair, element);
   T sum(0.0);
   for (const JointLoad& load : view.system.loads())
-    if (load.pair == pair && load.element == element) sum += applied_effort(view, load);
+    if (load.pair == motor.pair && load.element == motor.element) sum += applied_effort(view, load);
   return sum - coupling_load(view, pair, element, true);
 }
 

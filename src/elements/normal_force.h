@@ -60,10 +60,12 @@ void pair_reaction(const StateView<T>& view, int index, Vector3<T>* F, Vector3<T
     *F = view.constants(index).C_i.transpose() * (view.body(pair.body_i).A.transpose() * on_child);
   }
   if (joint.force == ForceRows::kAcross) *F = Vector3<T>(z[row], z[row + 1], T(0.0));
+  if (joint.force == ForceRows::kAlongX) (*F)[0] = z[row];
   if (joint.force == ForceRows::kAlong) (*F)[2] = z[row];
-  if (!joint.torque_rows || joint.rows < joint.force_rows() + 2) return;
-  *torque = Vector3<T>(-z[next + 1], z[next], T(0.0));
-  if (joint.rows > joint.force_rows() + 2) (*torque)[2] = z[next + 2];
+  const int torques = joint.torque_rows ? joint.rows - joint.force_rows() : 0;
+  if (torques > 0) (*torque)[1] = z[next];
+  if (torques > 1) (*torque)[0] = -z[next + 1];
+  if (torques > 2) (*torque)[2] = z[next + 2];
 }
 
 /// The normal force N [N] in the bearing of a pair, theory (12); its joint must have a BearingLaw.

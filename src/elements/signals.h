@@ -61,12 +61,15 @@ T orientation_term(const StateView<T>& view, const SignalReference& term) {
 template <class T>
 T load_term(const StateView<T>& view, const SignalReference& term) {
   if (term.kind == SignalKind::kJointEffort) return joint_effort(view, term.pair, term.element);
+  const CoordinateIndex at = term.kind == SignalKind::kJointFriction
+                                 ? CoordinateIndex{term.pair, term.element}
+                                 : view.system.motor_of(term.pair, term.element);
   T sum(0.0);
   const auto rate = [&] {
-    return T(view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate);
+    return T(view.coordinate(at.pair, at.element, CoordinateDetail::kRate).rate);
   };
   for (const JointLoad& load : view.system.loads()) {
-    if (load.pair != term.pair || load.element != term.element) continue;
+    if (load.pair != at.pair || load.element != at.element) continue;
     if (term.kind == SignalKind::kJointEffortRate)
       sum += applied_effort_rate(view, load);
     else if (term.kind == SignalKind::kGearTorque)
@@ -94,13 +97,38 @@ T spring_term(const StateView<T>& view, const SignalReference& term) {
   return term.kind == SignalKind::kSpringForce ? force.tension : force.length;
 }
 
-/// Torque or speed of the actuator of a joint, on the motor's side of its gear.
+/// Torque, position, speed or acceleration of the actuator of a joint, on the motor's side of its
+/// gear.
 template <class T>
 T motor_term(const StateView<T>& view, const SignalReference& term) {
   const T& ratio = view.dynamics(term.pair, term.element).gear_ratio;
-  if (term.kind == SignalKind::kMotorTorque)
-    return joint_effort(view, term.pair, term.element) / ratio;
-  return ratio * view.coordinate(term.pair, term.element, CoordinateDetail::kRate).rate;
+  const CoordinateIndex motor = view.system.motor_of(term.pair, term.element);
+  switch (term.kind) {
+    case SignalKind::kMotorTorque:
+      return joint_effort(view, term.pair, term.element) / ratio;
+    case SignalKind::kMotorPosition:
+      return ratio * view.coordinate_value(motor.pair, motor.element);
+    case SignalKind::kMotorAcceleration:
+      return ratio * view.coordinate(motor.pair, motor.element, CoordinateDetail::kAcceleration)
+                         .acceleration;
+    default:
+      return ratio * view.coordinate(motor.pair, motor.element, CoordinateDetail::kRate).rate;
+  }
+}
+
+/// Deflection of a gear, its rate, or the torque of an elastic one; a rigid gear has none.
+template <class T>
+T elastic_term(const StateView<T>& view, const SignalReference& term) {
+  const int gear = elastic_gear_of(view.system, term.pair, term.element);
+  if (gear < 0) return T(0.0);
+  switch (term.kind) {
+    case SignalKind::kElasticTorque:
+      return elastic_torque(view, gear);
+    case SignalKind::kGearDeflectionRate:
+      return gear_deflection_rate(view, gear);
+    default:
+      return gear_deflection(view, gear);
+  }
 }
 
 /// A value of a controller.
@@ -122,9 +150,15 @@ T controller_term(const StateView<T>& view, const SignalReference& term) {
   }
 }
 
+inline bool is_of_elastic_gear(SignalKind kind) {
+  return kind == SignalKind::kGearDeflection || kind == SignalKind::kGearDeflectionRate ||
+         kind == SignalKind::kElasticTorque;
+}
+
 /// Any term of a signal.
 template <class T>
 T term_value(const StateView<T>& view, const SignalReference& term) {
+  if (is_of_elastic_gear(term.kind)) return elastic_term(view, term);
   switch (term.kind) {
     case SignalKind::kLinkPosition:
     case SignalKind::kLinkVelocity:
@@ -175,6 +209,8 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
       return spring_term(view, term);
     case SignalKind::kMotorTorque:
     case SignalKind::kMotorSpeed:
+    case SignalKind::kMotorPosition:
+    case SignalKind::kMotorAcceleration:
       return motor_term(view, term);
     default:
       return joint_term(view, term);

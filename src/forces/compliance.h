@@ -8,12 +8,42 @@
 
 namespace codesign {
 
+/// A ramp with a rounded corner [m or rad]: 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3
+/// s^5
+/// + s^6) with s = g/w in between; three times continuously differentiable.
+/// @param width w > 0.
+template <class T>
+T rounded_ramp(const T& g, const T& width) {
+  if (!is_less(T(0.0), g, false)) return T(0.0);
+  if (!is_less(g, width, true)) return g - T(0.5) * width;
+  const T s = g / width, s3 = s * s * s;
+  return width * s3 * s * (T(2.5) + s * (s - T(3.0)));
+}
+
+/// The slope of rounded_ramp(), 0 ... 1.
+template <class T>
+T rounded_ramp_slope(const T& g, const T& width) {
+  if (!is_less(T(0.0), g, false)) return T(0.0);
+  if (!is_less(g, width, true)) return T(1.0);
+  const T s = g / width;
+  return s * s * s * (T(10.0) + s * (T(6.0) * s - T(15.0)));
+}
+
+/// The integral of rounded_ramp() by g from 0 [m^2 or rad^2].
+template <class T>
+T rounded_ramp_integral(const T& g, const T& width) {
+  if (!is_less(T(0.0), g, false)) return T(0.0);
+  // At g = w it is w^2/7.
+  if (!is_less(g, width, true)) return width * width / T(7.0) + T(0.5) * (g - width) * g;
+  const T s = g / width, s2 = s * s;
+  return width * width * s2 * s2 * s * (T(0.5) - T(0.5) * s + s2 / T(7.0));
+}
+
 /// The force of a joint's stop, doc/theory.md (13d): F = k delta(g) h(c g') [N or N m], which
 /// pushes the joint back into its range; never negative.
 ///
-/// delta(g) is 0 for g <= 0, g - w/2 for g >= w, and w (5/2 s^4 - 3 s^5 + s^6) with s = g/w in
-/// between; three times continuously differentiable. h(y) = y + sqrt(1 + y^2) is positive and makes
-/// the force larger while the excess grows than while it falls.
+/// delta(g) is rounded_ramp(). h(y) = y + sqrt(1 + y^2) is positive and makes the force larger
+/// while the excess grows than while it falls.
 /// @param excess g, by which the joint is beyond its limit [m or rad], @param rate g' [m/s or
 /// rad/s],
 /// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m
@@ -22,13 +52,7 @@ template <class T>
 T joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
   using std::sqrt;
   if (!is_less(T(0.0), excess, false)) return T(0.0);
-  T depth;
-  if (!is_less(excess, T(width), true)) {
-    depth = excess - T(0.5 * width);
-  } else {
-    const T s = excess / T(width), s3 = s * s * s;
-    depth = T(width) * s3 * s * (T(2.5) + s * (s - T(3.0)));
-  }
+  const T depth = rounded_ramp(excess, T(width));
   const T y = T(dissipation) * rate, root = sqrt(T(1.0) + y * y);
   // h(y) = 1/(sqrt(1 + y^2) - y) avoids cancellation for negative y.
   const T growth = is_less(y, T(0.0), false) ? T(1.0) / (root - y) : y + root;
@@ -38,14 +62,7 @@ T joint_stop(const T& excess, const T& rate, double stiffness, double dissipatio
 /// The elastic energy of a stop, the integral of k delta(g) by g from 0 [J].
 template <class T>
 T stop_energy(const T& excess, double stiffness, double width) {
-  if (!is_less(T(0.0), excess, false)) return T(0.0);
-  const T w(width), k(stiffness);
-  if (is_less(excess, w, true)) {
-    const T s = excess / w, s2 = s * s;
-    return k * w * w * s2 * s2 * s * (T(0.5) - T(0.5) * s + s2 / T(7.0));
-  }
-  // The energy at g = w is k w^2/7; from there on the force is k (g - w/2).
-  return k * (w * w / T(7.0) + T(0.5) * (excess - w) * excess);
+  return T(stiffness) * rounded_ramp_integral(excess, T(width));
 }
 
 /// The force of a spring-damper.

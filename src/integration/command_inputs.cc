@@ -21,7 +21,8 @@ using Kind = CoordinateConstants<double>::Kind;
 bool is_drivable(const CompiledSystem& system, const Constants<double>& constants, std::size_t k) {
   const JointDescription& joint = system.robot().joints[k];
   const int pair = system.topology().joint_pair[k];
-  if (joint.is_loop || joint.mimic || !has_one_coordinate(joint.type) || pair < 0) return false;
+  if (joint.is_motor || joint.is_loop || joint.mimic || !has_one_coordinate(joint.type) || pair < 0)
+    return false;
   const std::vector<ChainElement>& chain = system.topology().pairs[to_index(pair)].chain;
   const auto& coordinates = constants.pairs[to_index(pair)].coordinates;
   for (std::size_t e = 0; e < chain.size() && e < coordinates.size(); ++e)

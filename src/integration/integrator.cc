@@ -6,6 +6,7 @@
 #include "integration/idas_integrator.h"
 #include "integration/posture_sequence.h"
 #include "integration/rosenbrock_integrator.h"
+#include "mechanism/loop_plane.h"
 
 namespace codesign {
 
@@ -25,6 +26,14 @@ Status check_design(const CompiledSystem& system, const Equations<double>& equat
   if (std::string fault = find_impossible(system.robot(), system.topology(), equations.constants());
       !fault.empty())
     return {StatusCode::kInvalidDesign, 0.0, fault};
+  for (const Pair& pair : system.topology().pairs) {
+    if (pair.around.empty()) continue;
+    if (const PlaneFault fault =
+            find_plane_fault(system.robot(), system.topology(), pair, equations.parameters());
+        !fault.message.empty())
+      return {StatusCode::kInvalidDesign, 0.0,
+              "loop '" + pair.name + "' is not planar: " + fault.message + ", " + fault.value};
+  }
   const std::vector<ControllerDescription>& controllers = system.study().controllers;
   for (std::size_t c = 0; c < controllers.size(); ++c)
     if (std::string fault =

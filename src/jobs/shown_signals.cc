@@ -30,6 +30,7 @@ const char* fixed_unit(const std::string& quantity) {
   if (quantity == "reaction_torque") return "N m";
   if (quantity == "angular_velocity" || quantity == "motor_speed") return "rad/s";
   if (quantity == "motor_torque") return "N m";
+  if (quantity == "motor_position") return "rad";
   if (quantity == "force") return "N";
   if (quantity == "length") return "m";
   if (quantity == "speed") return "m/s";
@@ -39,7 +40,7 @@ const char* fixed_unit(const std::string& quantity) {
 std::string joint_unit(const std::string& quantity, const JointDescription& joint) {
   const bool turns = is_turn(joint.type) || joint.type == JointType::kSpherical ||
                      joint.type == JointType::kUniversal;
-  if (quantity == "position") return turns ? "rad" : "m";
+  if (quantity == "position" || quantity == "gear_deflection") return turns ? "rad" : "m";
   if (quantity == "velocity" || quantity == "sliding_velocity") return turns ? "rad/s" : "m/s";
   if (quantity == "acceleration") return turns ? "rad/s²" : "m/s²";
   if (ends_with(quantity, "_rate")) return turns ? "N m/s" : "N/s";

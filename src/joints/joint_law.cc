@@ -57,6 +57,25 @@ void distance_rows(const PairConstants<T>& c, PairRows<T>* rows) {
   rows->add(rows->displacement(), rows->displacement(), c.distance * c.distance, 0.5);
 }
 
+// In the plane of motion, theory (23c): what revolute_rows() and prismatic_rows() hold in it.
+template <class T>
+void revolute_rows_in_plane(const PairConstants<T>&, PairRows<T>* rows) {
+  rows->keep_in_plane(0);
+  rows->keep_in_plane(1);
+}
+
+template <class T>
+void prismatic_rows_in_plane(const PairConstants<T>&, PairRows<T>* rows) {
+  rows->keep_in_plane(0);
+  rows->add(rows->axis(Side::kI, 0), rows->axis(Side::kJ, 2));
+}
+
+template <class T>
+void fixed_rows_in_plane(const PairConstants<T>& c, PairRows<T>* rows) {
+  revolute_rows_in_plane(c, rows);
+  rows->keep_from_turning();
+}
+
 using J = JointType;
 using F = ForceRows;
 constexpr Law<PairRowsFunction> kNoRows{}, kTurnless{fixed_rows, fixed_rows},
@@ -68,11 +87,24 @@ constexpr BearingLaw kPlane{{planar_normal_force, planar_normal_force}},
     kBall{{ball_normal_force, ball_normal_force}, false, false, true};
 
 // of_joints, of_loops, type, rows, force, torque_rows, in_forest, add_rows, bearing,
-// slip_coordinates, slips_of_the_point
+// slip_coordinates, slips_of_the_point, in_plane
+constexpr JointLaw kFixedInPlane{
+    nullptr,    nullptr, J::kFixed, 3,
+    F::kAcross, false,   false,     {fixed_rows_in_plane, fixed_rows_in_plane}},
+    kRevoluteInPlane{
+        nullptr,      nullptr, J::kRevolute, 2,
+        F::kAcross,   false,   false,        {revolute_rows_in_plane, revolute_rows_in_plane},
+        kPinHeldAlong},
+    kPrismaticInPlane{
+        nullptr,    nullptr, J::kPrismatic, 2,
+        F::kAlongX, true,    false,         {prismatic_rows_in_plane, prismatic_rows_in_plane},
+        kRail};
 constexpr JointLaw kJointTable[] = {
-    {"fixed", "fixed", J::kFixed, 6, F::kAll, true, false, kTurnless},
-    {"revolute", "revolute", J::kRevolute, 5, F::kAll, true, true, kHinge, kPinHeldAlong},
-    {"continuous", "continuous", J::kContinuous, 5, F::kAll, true, true, kHinge, kPinHeldAlong},
+    {"fixed", "fixed", J::kFixed, 6, F::kAll, true, false, kTurnless, {}, 0, 0, &kFixedInPlane},
+    {"revolute", "revolute", J::kRevolute, 5, F::kAll, true, true, kHinge, kPinHeldAlong, 0, 0,
+     &kRevoluteInPlane},
+    {"continuous", "continuous", J::kContinuous, 5, F::kAll, true, true, kHinge, kPinHeldAlong, 0,
+     0, &kRevoluteInPlane},
     {"prismatic",
      "prismatic",
      J::kPrismatic,
@@ -81,7 +113,10 @@ constexpr JointLaw kJointTable[] = {
      true,
      true,
      {prismatic_rows, prismatic_rows},
-     kRail},
+     kRail,
+     0,
+     0,
+     &kPrismaticInPlane},
     {"planar",
      "planar",
      J::kPlanar,

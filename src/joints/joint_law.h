@@ -57,6 +57,7 @@ enum class ForceRows {
   kNone,    ///< no row is a component of F''
   kAll,     ///< three rows of coincident points, in ground axes
   kAcross,  ///< two, along x'' and y''
+  kAlongX,  ///< one, along x''
   kAlong    ///< one, along z''
 };
 
@@ -87,12 +88,16 @@ struct JointLaw {
                              ///< coordinate has its own friction, (13)
   int slips_of_the_point =
       0;  ///< how many of them, from the first on, make up the reported speed and friction
+  const JointLaw* in_plane =
+      nullptr;  ///< the row of a loop of this type that is held in the plane of its motion only,
+                ///< theory (23c); null: there is none. It has y'' normal to the plane if the loop
+                ///< slides along z'', else z''
 
   /// How many of the first rows are components of F''.
   constexpr int force_rows() const {
     return force == ForceRows::kAll      ? 3
            : force == ForceRows::kAcross ? 2
-                                         : force == ForceRows::kAlong;
+                                         : force != ForceRows::kNone;
   }
   /// Whether friction acts in a plane, whose normal force only the first row enters.
   constexpr bool is_plane() const { return slips_of_the_point == 2; }

@@ -51,8 +51,9 @@ struct JointDynamicsConstants {
       effort{0.0};  ///< valid only if LimitDescription::bounds_position() or bounds_effort()
   T gear_ratio{1.0}, rotor_inertia{0.0};  ///< n and J_r of an actuator
   Vector3<T> rotor_axis =
-      Vector3<T>::Zero();  ///< unit vector in the axes of the body that carries the rotor
-  GearConstants<T> gear;   ///< valid if the actuator has ActuatorDescription::gear
+      Vector3<T>::Zero();           ///< unit vector in the axes of the body that carries the rotor
+  GearConstants<T> gear;            ///< valid if the actuator has ActuatorDescription::gear
+  ElasticGearConstants<T> elastic;  ///< likewise, ActuatorDescription::elastic
 };
 
 /// One coordinate of a pair as a turn about, or a slide along, an axis; the coordinates of a pair

@@ -135,6 +135,12 @@ bool is_possible(const GearConstants<double>& gear) {
          gear.viscous >= 0.0 && std::isfinite(sum);
 }
 
+bool is_possible(const ElasticGearConstants<double>& elastic) {
+  return elastic.stiffness > 0.0 && elastic.damping >= 0.0 &&
+         (elastic.backlash > 0.0 || !elastic.plays) &&
+         std::isfinite(elastic.stiffness + elastic.damping + elastic.backlash);
+}
+
 std::string joint_fault(const RobotDescription& robot, const Pair& pair,
                         const PairConstants<double>& constants) {
   for (std::size_t e = 0; e < pair.chain.size(); ++e) {
@@ -152,6 +158,10 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair,
       return "the gear of joint '" + joint.name +
              "' is out of range (allowed: efficiency > 0 and at most 1, backdrive_efficiency at "
              "most 1, coulomb and viscous >= 0, all others > 0)";
+    if (joint.has_elastic_gear() && !(is_possible(d.elastic) && d.rotor_inertia > 0.0))
+      return "the elastic gear of joint '" + joint.name +
+             "' is out of range (allowed: stiffness > 0, damping >= 0, backlash > 0, rotor_inertia "
+             "> 0)";
   }
   return "";
 }

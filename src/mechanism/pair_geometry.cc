@@ -5,6 +5,7 @@
 
 #include "codegen/number_types.h"
 #include "math/arrays.h"
+#include "mechanism/loop_plane.h"
 #include "mechanism/pose.h"
 
 namespace codesign {
@@ -16,6 +17,7 @@ class PairBuilder {
   PairBuilder(const RobotDescription& robot, const Topology& topology, const Pair& pair,
               const std::vector<T>& parameters, PairConstants<T>* result)
       : robot_(robot),
+        topology_(topology),
         pair_(pair),
         parameters_(parameters),
         geometry_(chain_geometry(robot, topology, pair.chain, parameters)),
@@ -82,9 +84,27 @@ class PairBuilder {
     return sqrt(dot(x, x));
   }
 
+  static Matrix3<T> axes_from(const Vector3<T>& x, const Vector3<T>& z) {
+    Matrix3<T> C;
+    C.col(0) = x;
+    C.col(1) = cross(z, x);
+    C.col(2) = z;
+    return C;
+  }
+
+  // The axes of a loop that is held in the plane of its motion, theory (23c): z'' is the normal,
+  // but along a slide, which has the normal as y''.
+  Matrix3<T> axes_in_plane() const {
+    const Vector3<T> normal = plane_normal(robot_, topology_, pair_, parameters_);
+    if (slides_.empty()) return axes_from(transverse_axis<T>(normal, std::nullopt), normal);
+    const Vector3<T> x = cross(normal, axis(0));
+    return axes_from(x / norm(x), axis(0));
+  }
+
   // x'' is given in the joint frame of the element with the friction, else in the joint frame of
   // the only turning element (else of the first element).
   Matrix3<T> joint_axes() const {
+    if (is_in_plane(robot_, pair_)) return axes_in_plane();
     std::size_t frame = turns_.size() == 1 ? turns_[0] : 0;
     std::optional<std::array<double, 3>> preferred;
     for (std::size_t k = 0; k < pair_.chain.size(); ++k) {
@@ -94,12 +114,7 @@ class PairBuilder {
     }
     const Vector3<T> z = z_axis();
     const Matrix3<T>& R = geometry_.frames[frame].R;
-    const Vector3<T> x = R * transverse_axis<T>(R.transpose() * z, preferred);
-    Matrix3<T> C;
-    C.col(0) = x;
-    C.col(1) = cross(z, x);
-    C.col(2) = z;
-    return C;
+    return axes_from(Vector3<T>(R * transverse_axis<T>(R.transpose() * z, preferred)), z);
   }
 
   // z of each side is its own axis. x is the other side's axis projected normal to z, so that both
@@ -283,6 +298,11 @@ class PairBuilder {
     d.rotor_inertia = actuator.rotor_inertia.at(parameters_);
     d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
     if (actuator.gear) d.gear = gear(*actuator.gear, d.gear_ratio);
+    if (!actuator.elastic) return;
+    d.elastic.stiffness = actuator.elastic->stiffness.at(parameters_);
+    d.elastic.damping = actuator.elastic->damping.at(parameters_);
+    d.elastic.plays = actuator.elastic->backlash.has_value();
+    if (d.elastic.plays) d.elastic.backlash = actuator.elastic->backlash->at(parameters_);
   }
 
   // The same loss in both directions of power makes eta_b = 2 - 1/eta.
@@ -317,6 +337,7 @@ class PairBuilder {
   }
 
   const RobotDescription& robot_;
+  const Topology& topology_;
   const Pair& pair_;
   const std::vector<T>& parameters_;
   ChainGeometry<T> geometry_;
@@ -360,7 +381,7 @@ void check_friction_geometry(const FrictionDescription& friction, PairKind kind,
          "exponent",
          "", "viscous_exponent on revolute, continuous, prismatic and cylindrical joints"});
   if (friction.is_direct) {
-    if (kind == PairKind::kRevolute || kind == PairKind::kPrismatic) return;
+    if (has_one_coordinate(kind->type)) return;
     throw InputError({friction.where, element,
                       "friction in N m or N needs a joint with one coordinate", "",
                       "revolute, continuous and prismatic joints; coefficients on others"});

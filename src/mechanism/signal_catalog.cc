@@ -62,8 +62,9 @@ void add_joint(const JointDescription& joint, Offer* offer) {
     offer->scalars = {"position",    "velocity",       "acceleration",  "effort",
                       "effort_rate", "actuator_power", "damping_power", "load_power"};
   if (joint.actuator)
-    for (const char* quantity : {"motor_torque", "motor_speed"})
+    for (const char* quantity : {"motor_torque", "motor_speed", "motor_position"})
       offer->scalars.emplace_back(quantity);
+  if (joint.has_elastic_gear()) offer->scalars.emplace_back("gear_deflection");
   if (has_friction(joint)) {
     offer->scalars.emplace_back("friction");
     if (has_normal_force(joint)) offer->scalars.emplace_back("normal_force");
@@ -71,7 +72,7 @@ void add_joint(const JointDescription& joint, Offer* offer) {
       offer->scalars.emplace_back(quantity);
   }
   if (has_gear(joint)) offer->scalars.emplace_back("gear_loss");
-  if (joint.has_lossy_gear()) offer->scalars.emplace_back("gear_torque");
+  if (joint.has_gear_torque()) offer->scalars.emplace_back("gear_torque");
   offer->welded = joint.type == JointType::kFixed && !joint.is_loop;
   if (!offer->welded) offer->vectors = reactions();
 }
@@ -218,7 +219,7 @@ std::vector<std::string> default_signals(const RobotDescription& robot,
     signals.push_back(joint.name + "/sliding_velocity");
     if (!has_gear(joint)) continue;
     signals.push_back(joint.name + "/gear_loss");
-    if (joint.has_lossy_gear()) signals.push_back(joint.name + "/gear_torque");
+    if (joint.has_gear_torque()) signals.push_back(joint.name + "/gear_torque");
   }
   for (const ControllerDescription& controller : controllers)
     signals.push_back(controller.name + "/output");

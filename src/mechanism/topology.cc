@@ -6,6 +6,7 @@
 
 #include "math/arrays.h"
 #include "mechanism/fold_chain.h"
+#include "mechanism/loop_plane.h"
 #include "mechanism/pair_geometry.h"
 #include "mechanism/rigid_groups.h"
 
@@ -36,6 +37,7 @@ class TopologyBuilder {
     unfold_chains();
     number_bodies();
     make_pairs();
+    find_planes();
     return std::move(topology_);
   }
 
@@ -221,6 +223,24 @@ class TopologyBuilder {
     }
   }
 
+  // The joints around the loops that are held in the plane of their motion, which must be planar.
+  void find_planes() {
+    for (Pair& pair : topology_.pairs) {
+      for (const ChainElement& element : pair.chain)
+        if (const JointDescription& loop = robot_.joints[index(element.joint)];
+            loop.in_plane && pair.chain.size() > 1)
+          throw InputError({loop.where, loop.element(),
+                            "a loop that is folded with joints across links without <inertial> "
+                            "cannot be held in a plane only",
+                            pair.name,
+                            "give the links an <inertial>, or leave out "
+                            "codesign:out_of_plane"});
+      if (!is_in_plane(robot_, pair)) continue;
+      pair.around = joints_around(robot_, topology_.link_parent_joint, pair.chain[0].joint);
+      require_planar(robot_, topology_, pair);
+    }
+  }
+
   void take_friction(int joint, Pair* pair) const {
     const JointDescription& description = robot_.joints[index(joint)];
     if (!description.friction) return;
@@ -253,8 +273,6 @@ Topology derive_topology(const RobotDescription& robot) {
   topology.couplings = derive_couplings(robot, topology);
   return topology;
 }
-
-namespace {}  // namespace
 
 std::vector<int> links_above(const RobotDescription& robot,
                              const std::vector<int>& link_parent_joint, int link) {

@@ -33,6 +33,9 @@ struct Pair {
   int friction_joint = -1;          ///< the joint of the chain with a `<codesign:friction>`, or -1
   bool friction_is_direct = false;  ///< that friction is in N m or N; theory (10a)
   bool is_loop = false;             ///< the chain contains a loop
+  /// Of a loop that is held in the plane of its motion only, theory (23c): the joints around it,
+  /// from body i through the tree and the loop back to body i; else empty.
+  std::vector<ChainElement> around;
 };
 
 /// The bodies, pairs and couplings of a mechanism, derived from its description. It does not depend
@@ -54,7 +57,8 @@ struct Topology {
 
 /// Merges links joined by fixed joints into bodies and folds chains of massless links into pairs.
 /// @throws InputError for a chain that cannot be folded, for two friction annotations on one pair,
-/// for a loop within one body, and for couplings as derive_couplings() says.
+/// for a loop within one body, for a loop held in a plane that is not planar at the default
+/// parameters, and for couplings as derive_couplings() says.
 Topology derive_topology(const RobotDescription& robot);
 
 /// The links from `link`, included, up to the root.

@@ -13,7 +13,8 @@ namespace codesign {
 struct Energy {
   double kinetic = 0.0;    ///< of bodies and rotors
   double potential = 0.0;  ///< gravity (zero at the root's origin), torsion springs,
-                           ///< spring-dampers, stops; without bristles of friction laws
+                           ///< spring-dampers, stops, elastic gears; without bristles of friction
+                           ///< laws
 
   double total() const { return kinetic + potential; }
 };

@@ -28,7 +28,7 @@ Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescrip
 void Observer::name_joints() {
   const RobotDescription& robot = system_.robot();
   for (std::size_t k = 0; k < robot.joints.size(); ++k) {
-    if (!has_one_coordinate(robot.joints[k].type)) continue;
+    if (!has_one_coordinate(robot.joints[k].type) || robot.joints[k].is_motor) continue;
     JointSource source;
     source.joint = static_cast<int>(k);
     source.pair = system_.topology().joint_pair[k];
@@ -75,6 +75,8 @@ void Observer::name_frictions() {
 void Observer::name_links() {
   const RobotDescription& robot = system_.robot();
   for (const LinkDescription& link : robot.links) names_.links.push_back(link.name);
+  // Motors behind elastic gears turn links of their own, the last ones, which no file holds.
+  names_.links.resize(names_.links.size() - system_.elastic_gears().size());
   for (const JointDescription& joint : robot.joints)
     if (!joint.is_loop && (joint.type == JointType::kPlanar || joint.type == JointType::kFloating))
       names_.free_links.emplace_back(to_index(joint.child), to_index(joint.parent));
@@ -233,6 +235,7 @@ void Observer::observe_links(const VectorX<double>& theta, Equations<double>* eq
     frame->links[child] = {base.position + base.orientation * X.t,
                            (base.orientation * Eigen::Quaterniond(X.R)).normalized()};
   }
+  frame->links.resize(names_.links.size());
 }
 
 void Observer::observe_loops(const State<double>& state, Equations<double>* equations,

@@ -24,7 +24,8 @@ struct LoadedFile {
   SourceText source;
 };
 
-/// The members of a Problem. Its model and study are in `system`.
+/// The members of a Problem. Its model and study are in `system`, the model without the joints of
+/// with_motor_sides() in `as_described` if there are any.
 struct Problem::Contents {
   SourceText urdf;
   std::vector<SourceText> overlays;
@@ -36,6 +37,7 @@ struct Problem::Contents {
   Warnings warnings;
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
   std::vector<LoadedFile> files;               ///< likewise
+  std::shared_ptr<const RobotDescription> as_described{};
 };
 
 /// The design of a saved result, which may be of another study.

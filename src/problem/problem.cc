@@ -8,6 +8,7 @@
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/cpu_timer.h"
+#include "mechanism/motor_sides.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "problem/problem_warnings.h"
@@ -138,6 +139,9 @@ Problem compile(const RobotDescription& robot, Study study, const SavedDesign& d
       run.study = std::move(changed);
     }
   contents.system = make_system(robot, study, &contents.warnings);
+  if (contents.system->robot().joints.size() > 0 && contents.system->robot().joints.back().is_motor)
+    contents.as_described =
+        std::make_shared<const RobotDescription>(without_motor_sides(contents.system->robot()));
   contents.variants = make_variants(robot, study, contents.system, &contents.warnings);
   contents.setup_seconds += timer.seconds();
   return Problem(std::make_shared<const Problem::Contents>(std::move(contents)));
@@ -164,7 +168,9 @@ std::vector<double> Problem::parameters(const ParameterSettings& settings) const
 std::vector<std::string> Problem::tuned_names() const { return codesign::tuned_names(study()); }
 Eigen::VectorXd Problem::start() const { return start_of(study()); }
 const OptimizerOptions& Problem::optimizer_options() const { return study().optimizer; }
-const RobotDescription& Problem::robot() const { return contents_->system->robot(); }
+const RobotDescription& Problem::robot() const {
+  return contents_->as_described ? *contents_->as_described : contents_->system->robot();
+}
 const Study& Problem::study() const { return contents_->system->whole_study(); }
 const std::shared_ptr<const CompiledSystem>& Problem::system() const { return contents_->system; }
 

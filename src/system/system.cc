@@ -8,14 +8,19 @@
 #include "description/tuned_parameters.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
+#include "mechanism/motor_sides.h"
 #include "mechanism/signal_catalog.h"
 #include "system/tree_kinematics.h"
 
 namespace codesign {
 namespace {
 
-/// Whether a signal needs the wrenches that joints transmit.
-bool depends_on_reactions(const SignalTerm& term) {
+/// Whether a signal needs the wrenches that joints transmit. Where a spring gives the torque of a
+/// gear, this torque does not.
+bool depends_on_reactions(const SignalTerm& term, const RobotDescription& robot) {
+  const int joint = joint_named(robot, term.object);
+  if (term.quantity == "gear_torque" && joint >= 0 && robot.joints[to_index(joint)].motor >= 0)
+    return false;
   return is_reaction(term) || term.quantity == "normal_force" ||
          term.quantity.find("friction") != std::string::npos || term.quantity == "gear_torque" ||
          term.quantity == "gear_loss";
@@ -25,7 +30,7 @@ bool depends_on_reactions(const SignalTerm& term) {
 
 System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing,
                const std::vector<int>& drives)
-    : robot_(with_start_rotations(robot, study)),
+    : robot_(with_motor_sides(with_start_rotations(robot, study), study)),
       study_(std::make_shared<const Study>(study)),
       motion_(study_.get()),
       topology_(derive_topology(robot_)),
@@ -40,6 +45,7 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
   resolve_load_signals();
   resolve_controllers();
   check_signals();
+  collect_elastic_gears();
   collect_loads();
   collect_link_loads();
   collect_rotors();
@@ -103,7 +109,7 @@ std::vector<const SignalDescription*> System::controller_inputs() const {
 const SignalDescription* System::mechanism_friction() const {
   for (const SignalDescription* input : controller_inputs())
     for (const SignalTerm& term : input->terms)
-      if (depends_on_reactions(term) && joint_named(robot_, term.object) < 0) return input;
+      if (depends_on_reactions(term, robot_) && joint_named(robot_, term.object) < 0) return input;
   return nullptr;
 }
 
@@ -115,7 +121,7 @@ std::vector<bool> System::cut_pairs() const {
   for (int pair : sharing_.pairs) cut[to_index(pair)] = true;
   for (const SignalDescription* input : controller_inputs())
     for (const SignalTerm& term : input->terms)
-      if (depends_on_reactions(term))
+      if (depends_on_reactions(term, robot_))
         if (const int pair = topology_.joint_pair[to_index(joint_named(robot_, term.object))];
             pair >= 0)
           cut[to_index(pair)] = true;
@@ -151,7 +157,9 @@ void System::lay_out() {
   layout_.sharing = sharing_layout_.size();
   for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
     const int pair = topology_.joint_pair[j];
-    if (pair >= 0 && layout_.is_cut(pair) && robot_.joints[j].has_lossy_gear()) ++layout_.gears;
+    const bool of_spring = robot_.joints[j].motor >= 0 || robot_.joints[j].is_motor;
+    if (pair >= 0 && layout_.is_cut(pair) && robot_.joints[j].has_gear_torque() && !of_spring)
+      ++layout_.gears;
   }
   layout_.m += layout_.sharing + layout_.gears;
 }

@@ -40,6 +40,8 @@ struct JointLoad {
                                    ///< the wrench that the joint transmits
   bool passive = false;            ///< damping or a torsion spring
   bool spring = false;             ///< a torsion spring, which depends on the position
+  int elastic = -1;                ///< index in System::elastic_gears() of a gear that acts here
+  bool is_motor = false;           ///< the coordinate is that of its motor
   bool stop = false;               ///< `<limit lower upper>` as stops
   bool saturated = false;          ///< `<limit effort>` bounds the effort of the controllers
   std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
@@ -48,6 +50,20 @@ struct JointLoad {
   /// Whether the load depends on the position of the coordinate, not on its rate alone.
   bool needs_position() const { return spring || stop; }
   bool has_friction() const { return friction || constant_friction || gear; }
+};
+
+/// A coordinate: index in Topology::pairs and in the pair's chain.
+struct CoordinateIndex {
+  int pair = -1, element = -1;
+
+  bool operator==(const CoordinateIndex& other) const {
+    return pair == other.pair && element == other.element;
+  }
+};
+
+/// A gear whose motor moves by itself, theory (9c): the coordinates of its joint and of its motor.
+struct ElasticGear {
+  CoordinateIndex joint, motor;
 };
 
 /// The rotor of an actuator, theory (9a).
@@ -89,7 +105,8 @@ class System {
   /// chooses.
   CoordinatesKind best_coordinates() const;
 
-  /// The model, with the study's start rotations of floating joints.
+  /// The model, with the study's start rotations of floating joints and the joints of
+  /// with_motor_sides().
   const RobotDescription& robot() const { return robot_; }
   /// What the equations read of the study; and all of it.
   const MotionStudy& study() const { return *motion_; }
@@ -109,6 +126,10 @@ class System {
   /// Whether an expression of signals contains the time.
   bool reads_time() const { return reads_time_; }
   const std::vector<Rotor>& rotors() const { return rotors_; }
+  const std::vector<ElasticGear>& elastic_gears() const { return elastic_gears_; }
+  /// The coordinate of the motor that moves a joint's coordinate: behind an elastic gear that of
+  /// the motor, else the joint's own.
+  CoordinateIndex motor_of(int pair, int element) const;
   /// Indices of the pairs with isotropic friction, theory (13a).
   const std::vector<int>& contacts() const { return contacts_; }
   /// The coordinates and contacts whose friction law has states, theory (13e), (13f).
@@ -157,6 +178,8 @@ class System {
   void resolve_controllers();
   void check_signals() const;
   void check_effort_rate(const SignalReference& term, const SignalDescription& description) const;
+  void collect_elastic_gears();
+  void join_elastic_gear(JointLoad* load) const;
   void collect_loads();
   void collect_link_loads();
   void collect_rotors();
@@ -185,6 +208,7 @@ class System {
   std::vector<LoadSignals> load_signals_;
   bool reads_time_ = false;
   std::vector<Rotor> rotors_;
+  std::vector<ElasticGear> elastic_gears_;
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element

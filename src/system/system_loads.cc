@@ -32,6 +32,33 @@ void System::resolve_load_signals() {
   }
 }
 
+void System::collect_elastic_gears() {
+  for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+    const int motor = robot_.joints[j].motor;
+    if (motor < 0) continue;
+    const CouplingTerm of_joint = drive_of(robot_, topology_, static_cast<int>(j)).terms.front();
+    const CouplingTerm of_motor = drive_of(robot_, topology_, motor).terms.front();
+    elastic_gears_.push_back(
+        {{of_joint.pair, of_joint.element}, {of_motor.pair, of_motor.element}});
+  }
+}
+
+CoordinateIndex System::motor_of(int pair, int element) const {
+  const CoordinateIndex joint{pair, element};
+  for (const ElasticGear& gear : elastic_gears_)
+    if (gear.joint == joint) return gear.motor;
+  return joint;
+}
+
+void System::join_elastic_gear(JointLoad* load) const {
+  const CoordinateIndex at{load->pair, load->element};
+  for (std::size_t k = 0; k < elastic_gears_.size(); ++k) {
+    load->is_motor = load->is_motor || elastic_gears_[k].motor == at;
+    if (load->is_motor || elastic_gears_[k].joint == at) load->elastic = static_cast<int>(k);
+    if (load->elastic >= 0) return;
+  }
+}
+
 void System::collect_loads() {
   int unknowns = 0;
   for (std::size_t p = 0; p < topology_.pairs.size(); ++p) {
@@ -52,14 +79,17 @@ void System::collect_loads() {
       if (e < pair.chain.size()) {
         const JointDescription& joint = robot_.joints[to_index(pair.chain[e].joint)];
         load.constant_friction = !joint.dry_friction.is_zero();
-        load.gear = joint.actuator && joint.actuator->gear;
-        load.gear_transmits = joint.has_lossy_gear();
+        // Behind an elastic gear the losses are the motor's, and the spring gives the torque.
+        const bool is_apart = joint.motor >= 0;
+        load.gear = joint.actuator && joint.actuator->gear && !is_apart;
+        load.gear_transmits = joint.has_gear_torque() && !is_apart;
         if (load.gear_transmits && contact)
           throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
                             "the joint is folded into one that slips in several directions with "
                             "friction, which the efficiency of a gear does not know",
                             pair.name, "no efficiency, or no <codesign:friction>"});
-        if (load.gear_transmits && layout_.is_cut(load.pair)) load.gear_unknown = unknowns++;
+        if (load.gear_transmits && layout_.is_cut(load.pair) && !joint.is_motor)
+          load.gear_unknown = unknowns++;
         load.spring = joint.spring.has_value();
         load.passive = !joint.damping.is_zero() || load.spring;
         load.stop = study().limits.position && has_stops(joint);
@@ -67,11 +97,15 @@ void System::collect_loads() {
         for (std::size_t k = 0; k < study().loads.size(); ++k)
           if (study().loads[k].joint == joint.name) load.given.push_back(static_cast<int>(k));
       }
+      join_elastic_gear(&load);
+      const CoordinateIndex at{load.pair, load.element};
       for (std::size_t c = 0; c < controllers_.size(); ++c)
-        if (controllers_[c].pair == load.pair && controllers_[c].element == load.element)
+        if (motor_of(controllers_[c].pair, controllers_[c].element) == at)
           load.controllers.push_back(static_cast<int>(c));
       const bool driven = !load.controllers.empty() || !load.given.empty();
-      if (!load.has_friction() && !load.passive && !load.stop && !driven) continue;
+      if (!load.has_friction() && !load.gear_transmits && !load.passive && load.elastic < 0 &&
+          !load.stop && !driven)
+        continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
       loads_.push_back(load);
     }
@@ -108,7 +142,7 @@ void System::collect_link_loads() {
 void System::collect_rotors() {
   for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
     const JointDescription& joint = robot_.joints[j];
-    if (!joint.actuator) continue;
+    if (!joint.actuator || joint.motor >= 0) continue;
     const bool turns = !joint.actuator->rotor_inertia.is_zero();
     if (!turns && !joint.actuator->gear) continue;
     const auto refuse = [&joint](const std::string& fault, const std::string& value) {

@@ -83,6 +83,9 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
     offset[to_index(k)] = size;
     size += coordinates_of(robot.joints[to_index(k)].type);
   }
+  for (std::size_t k = 0; k < robot.joints.size(); ++k)
+    if (robot.joints[k].motor >= 0)
+      motors.emplace_back(offset[to_index(robot.joints[k].motor)], offset[k]);
 }
 
 template <class T>

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "description/motion_study.h"
@@ -21,6 +22,8 @@ struct TreeLayout {
   std::vector<int>
       offset;    ///< per joint of the description: its first coordinate; meaningless for loops
   int size = 0;  ///< number of coordinates
+  std::vector<std::pair<int, int>> motors;  ///< per JointDescription::motor: its coordinate, and
+                                            ///< that of the joint
 
   explicit TreeLayout(const RobotDescription& robot);
 };

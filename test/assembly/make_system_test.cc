@@ -4,6 +4,7 @@
 #include "assembly/count_equations.h"
 #include "assembly/make_system.h"
 #include "equations/compiled.h"
+#include "integration/planar_linkages.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -84,6 +85,11 @@ TEST(MakeSystem, TheAdviceOfUndeterminedFrictionDeterminesIt) {
   for (const char* part : {"'left_hinge', 'left_pin', 'right_pin' depends", "least norm",
                            "'right_pin' as codesign:spherical and '", "' as codesign:cylindrical"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
+  const std::string held = "by codesign:out_of_plane=\"zero\" on 'right_pin'";
+  EXPECT_NE(message.find(held), std::string::npos) << message;
+  EXPECT_TRUE(warnings_of(held_in_plane(rubbing_four_bar("0.2")),
+                          let_go("{left_hinge: {position: 0.6}}", "left_hinge/velocity"))
+                  .empty());
   // One joint is not enough, two are.
   EXPECT_NE(only_friction_warning(rubbing_four_bar("0.2", "codesign:spherical")), "");
   EXPECT_TRUE(warnings_of(rubbing_four_bar("0.2", "codesign:spherical", true),

@@ -8,6 +8,7 @@
 #include "equations/arm.h"
 #include "equations/joint_cases.h"
 #include "equations/loaded_arm.h"
+#include "integration/planar_linkages.h"
 
 namespace codesign {
 
@@ -83,6 +84,33 @@ inline std::vector<CoordinatesCase> rings() {
           {"ring_with_friction",
            carried_ring(annotation("brown_mcphee", "joint_length='0.1' pin_radius='0.03'")), start,
            true, 1e-7, 1e-8}};
+}
+
+/// A carried ring, and a block that a ring pushes along its carrier, whose loops are held in their
+/// plane only: nothing is redundant, though the carrier moves in space.
+inline std::vector<CoordinatesCase> planes() {
+  const std::string pin = annotation("brown_mcphee", "joint_length='0.1' pin_radius='0.03'"),
+                    slide = annotation("brown_mcphee", "joint_length='0.1' joint_width='0.06'");
+  const auto hinge = [](const std::string& name, const std::string& parent,
+                        const std::string& child, const std::string& at) {
+    return joint_cases::tree(name, "continuous", parent, child, "0 1 0",
+                             "<origin xyz='" + at + "'/>");
+  };
+  const std::string block = held_in_plane(on_hinge(
+      joint_cases::tree("joint", "revolute", "base", "tip", "1 0 0.5", joint_cases::kOrigin) +
+      joint_cases::body("crank") + joint_cases::body("rod") + joint_cases::body("block") +
+      hinge("crank_joint", "tip", "crank", "0 0 0") +
+      hinge("rod_joint", "crank", "rod", "0 0.1 -0.2") + hinge("pin", "rod", "block", "0 0 -0.5") +
+      "<loop name='close' type='prismatic'><predecessor link='tip'><origin xyz='0 0.1 -0.6' "
+      "rpy='0 1.2 0'/></predecessor><successor link='block'><origin rpy='0 0.3 0'/></successor>"
+      "<axis xyz='1 0 0'/>" +
+      slide + "</loop>"));
+  const std::string start =
+      "initial_state: {root: {velocity: 1.0}, crank_joint: {position: 0.6, velocity: 1.0}, "
+      "rod_joint: {guess: -0.8}}\n";
+  return {{"ring_in_plane", held_in_plane(carried_ring(pin)),
+           "initial_state: {root: {velocity: 1.0}, left_hinge: {position: 0.4, velocity: 1.0}}\n"},
+          {"slide_in_plane", block, start}};
 }
 
 /// All joints with friction under each law; in a chain the first joint has the annotation.

@@ -181,6 +181,8 @@ INSTANTIATE_TEST_SUITE_P(Types, JointCoordinates, ::testing::ValuesIn(joint_coor
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Rings, JointCoordinates, ::testing::ValuesIn(joint_coordinates::rings()),
                          name_of);
+INSTANTIATE_TEST_SUITE_P(Planes, JointCoordinates, ::testing::ValuesIn(joint_coordinates::planes()),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Frictions, JointCoordinates,
                          ::testing::ValuesIn(joint_coordinates::frictions()), name_of);
 INSTANTIATE_TEST_SUITE_P(Gears, JointCoordinates, ::testing::ValuesIn(joint_coordinates::gears()),

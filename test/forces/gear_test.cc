@@ -77,5 +77,49 @@ TEST(GearLoss, IsAnalytic) {
   }
 }
 
+template <class T>
+ElasticGearConstants<T> elastic(double backlash) {
+  ElasticGearConstants<T> c;
+  c.stiffness = T(200.0);
+  c.damping = T(3.0);
+  c.backlash = T(backlash);
+  c.plays = backlash > 0.0;
+  return c;
+}
+
+TEST(ElasticGear, IsASpringWithADamper) {
+  EXPECT_NEAR(elastic_gear_torque(-0.02, 0.5, elastic<double>(0.0)), -4.0 + 1.5, 1e-14);
+  EXPECT_NEAR(elastic_gear_energy(-0.02, elastic<double>(0.0)), 0.04, 1e-15);
+}
+
+// b = 0.1, w = 0.01: free up to 0.045, in full contact from 0.055 on.
+TEST(ElasticGear, HasADeadZoneByHand) {
+  const ElasticGearConstants<double> c = elastic<double>(0.1);
+  for (double sign : {1.0, -1.0}) {
+    EXPECT_EQ(elastic_gear_torque(sign * 0.0449, 2.0, c), 0.0) << "neither spring nor damper";
+    EXPECT_EQ(elastic_gear_energy(sign * 0.0449, c), 0.0);
+    EXPECT_NEAR(elastic_gear_torque(sign * 0.08, 2.0, c), sign * 200.0 * 0.03 + 6.0, 1e-12);
+    // Half way s = 1/2: w s^4 (5/2 - 3 s + s^2) = 0.01 * 1.25/16, slope s^3 (10 - 15 s + 6 s^2) =
+    // 1/2.
+    EXPECT_NEAR(elastic_gear_torque(sign * 0.05, 2.0, c), sign * 200.0 * 0.01 * 1.25 / 16.0 + 3.0,
+                1e-12);
+    // The energy of 200 (x - 0.05) from there on, and k w^2/7 - k w^2/8 of the rounded corner.
+    EXPECT_NEAR(elastic_gear_energy(sign * 0.08, c),
+                100.0 * 0.03 * 0.03 + 200.0 * 1e-4 * (1.0 / 7.0 - 1.0 / 8.0), 1e-12);
+  }
+}
+
+TEST(ElasticGear, TorqueIsTheSlopeOfItsEnergyAndItsDamperThatOfTheContact) {
+  const ElasticGearConstants<std::complex<double>> c = elastic<std::complex<double>>(0.1);
+  constexpr double kStep = 1e-30;
+  for (double x = -0.07; x < 0.07; x += 0.0013) {
+    const std::complex<double> at(x, kStep);
+    EXPECT_NEAR(elastic_gear_energy(at, c).imag() / kStep,
+                elastic_gear_torque(at, std::complex<double>(0.0), c).real(), 1e-12)
+        << x;
+    EXPECT_NEAR(flank_contact(at, c).imag() / kStep, flank_contact_slope(at, c).real(), 1e-12) << x;
+  }
+}
+
 }  // namespace
 }  // namespace codesign

@@ -18,6 +18,24 @@ TEST(JointLaw, CountsTheRowsThatPairsHave) {
   }
 }
 
+TEST(JointLaw, InTheirPlaneLoopsHaveAsManyRowsAsTheyHaveFreedomsLess) {
+  int found = 0;
+  for (const RowReference<JointLaw>& joint : joint_laws()) {
+    if (!joint->in_plane) continue;
+    ++found;
+    const PairKind kind(*joint->in_plane);
+    const PairRows<double> rows = pair_rows(kind, PairConstants<double>());
+    EXPECT_FALSE(rows.coincident);
+    EXPECT_EQ(rows.size(), kind->rows);
+    EXPECT_EQ(kind->rows, joint->rows - 3) << "three rows are out of the plane";
+    EXPECT_LE(kind->force_rows(), kind->rows);
+    EXPECT_EQ(has_one_coordinate(kind->type), has_one_coordinate(joint->type));
+    EXPECT_EQ(static_cast<bool>(kind->bearing.normal_force),
+              static_cast<bool>(joint->bearing.normal_force));
+  }
+  EXPECT_EQ(found, 4);
+}
+
 TEST(JointLaw, AContinuousJointMakesARevolutePair) {
   for (const RowReference<JointLaw>& joint : joint_laws())
     EXPECT_EQ(pair_of(*joint),

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <string>
@@ -33,7 +34,8 @@ struct PageRow {
   }
 };
 
-/// The rows of the tables of a page that begin with a key and have this many cells beside it.
+/// The rows of the tables of a page of doc/ that begin with a key and have this many cells beside
+/// it.
 inline std::vector<PageRow> page_rows(const std::string& page, std::size_t cells) {
   std::vector<PageRow> rows;
   std::ifstream file(source_dir() + "/doc/" + page);
@@ -47,6 +49,15 @@ inline std::vector<PageRow> page_rows(const std::string& page, std::size_t cells
                              : key);
     if (!row.keys.empty()) rows.push_back(row);
   }
+  return rows;
+}
+
+/// The rows of the tables of keys of the study: key, value and default.
+inline std::vector<PageRow> study_rows() {
+  std::vector<PageRow> rows;
+  for (const auto& page : std::filesystem::directory_iterator(source_dir() + "/doc/study"))
+    for (PageRow& row : page_rows("study/" + page.path().filename().string(), 2))
+      rows.push_back(std::move(row));
   return rows;
 }
 

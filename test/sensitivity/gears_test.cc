@@ -35,7 +35,7 @@ std::string tuned(const std::string& prefix, const Numbers& numbers) {
 /// A double pendulum with a gear at the shoulder and friction in N m at the elbow.
 struct Geared {
   Numbers gear, friction;
-  std::string model;
+  std::string model, start = "1.0";
 
   std::string urdf() const {
     return robot(declared("g_", gear) + declared("f_", friction) + bar("upper") + bar("lower") +
@@ -45,7 +45,8 @@ struct Geared {
                        "<codesign:friction" + twins("f_", friction) + model + "/>"));
   }
   std::string study(const std::string& solver) const {
-    return "duration: 0.3\ninitial_state: {shoulder: {position: 1.0}, elbow: {velocity: 1.0}}\n"
+    return "duration: 0.3\ninitial_state: {shoulder: {position: " + start +
+           "}, elbow: {velocity: 1.0}}\n"
            "controllers: {motor: {type: state_feedback, output: shoulder, feedforward: {type: "
            "sine, "
            "amplitude: 15.0, frequency: 2.0}}}\nparameters: {" +
@@ -93,8 +94,18 @@ Geared with_bristles() {
           " model='lugre'"};
 }
 
+/// The motor starts where the joint does, so that its start depends on the stiffness, too. It goes
+/// through the play and back.
+Geared elastic() {
+  Geared geared = smooth();
+  geared.start = "\"${0.9 + g_stiffness/4000}\"";
+  for (const auto& number : Numbers{{"stiffness", "400"}, {"damping", "1"}, {"backlash", "0.02"}})
+    geared.gear.push_back(number);
+  return geared;
+}
+
 TEST(GearGradients, AreThoseOfTheStepsTaken) {
-  for (const Geared& geared : {smooth(), with_bristles()})
+  for (const Geared& geared : {smooth(), with_bristles(), elastic()})
     for (const char* solver : {"coordinates: joint", "coordinates: absolute, gradient: adjoint"}) {
       const GradientCheck exact = geared.check(solver, CheckMethod::kComplexStep);
       ASSERT_TRUE(exact.status.ok()) << solver << exact.status.cause;

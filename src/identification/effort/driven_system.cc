@@ -54,6 +54,7 @@ Study without_control(Study study) {
   study.solver.method = RosenbrockMethod::kAuto;
   study.controllers.clear();
   study.motion.clear();
+  study.rigid_gears = true;
   study.integral.clear();
   study.terminal.clear();
   study.watched.clear();

@@ -147,6 +147,17 @@ void refuse_sampled(const Study& study) {
                         "no sample_time, or residuals in effort"});
 }
 
+/// Where the motor behind an elastic gear is at the begin of a segment is not recorded.
+void refuse_elastic(const RobotDescription& robot) {
+  for (const JointDescription& joint : robot.joints)
+    if (joint.motor >= 0)
+      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
+                        "residuals in motion are simulated with rigid gears only, since recordings "
+                        "do not hold the deflection at the begin of a segment",
+                        "stiffness",
+                        "no stiffness, or residuals in effort, which take gears as rigid"});
+}
+
 }  // namespace
 
 std::vector<double> SegmentSystem::parameters(const FitVariables& variables,
@@ -184,6 +195,7 @@ SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& 
                                   const JointRecording& recording) {
   refuse_idas(of.whole_study());
   refuse_sampled(of.whole_study());
+  refuse_elastic(of.robot());
   SegmentSystem result;
   result.outputs = outputs;
   // Controllers may read functions of time, which use the clock of the recording. Without

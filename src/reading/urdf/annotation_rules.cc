@@ -34,8 +34,9 @@ Names friction_attributes() {
 }
 
 Names actuator_attributes() {
-  Names names{"gear_ratio",           "rotor_inertia", "efficiency",
-              "backdrive_efficiency", "coulomb",       "viscous"};
+  Names names{"gear_ratio", "rotor_inertia", "efficiency", "backdrive_efficiency",
+              "coulomb",    "viscous",       "stiffness",  "damping",
+              "backlash"};
   visit_friction_numbers([&names](const FrictionNumberRule& rule) {
     if (rule.of_gears) names.emplace_back(rule.attribute);
   });
@@ -112,7 +113,7 @@ std::vector<ElementRule> make_rules() {
        true,
        {"name", "type"},
        {},
-       {},
+       {"out_of_plane"},
        {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length",
         "codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
   add_ends("robot/loop", &rules);

@@ -185,6 +185,26 @@ std::optional<GearDescription> read_gear(const XmlElement& element, const ReadCo
   return gear;
 }
 
+/// The compliance of the gear; none if no attribute gives it.
+std::optional<ElasticGearDescription> read_elastic_gear(const XmlElement& element,
+                                                        const ReadContext& context) {
+  if (!element.has("stiffness")) {
+    for (const char* attribute : {"damping", "backlash"})
+      if (element.has(attribute))
+        element.fail_at(attribute,
+                        std::string(attribute) +
+                            " has no effect in a rigid gear: motor and joint move together",
+                        "beside stiffness");
+    return std::nullopt;
+  }
+  ElasticGearDescription elastic;
+  elastic.stiffness = read_quantity(element, "stiffness", Range::kPositive, context.table);
+  elastic.damping = read_quantity_or(0.0, element, "damping", Range::kNonNegative, context.table);
+  if (element.has("backlash"))
+    elastic.backlash = read_quantity(element, "backlash", Range::kPositive, context.table);
+  return elastic;
+}
+
 /// Whether no torque of the joint turns the motor, theory (9b).
 bool locks_itself(const GearDescription& gear) {
   if (!gear.efficiency) return false;
@@ -207,6 +227,11 @@ ActuatorDescription read_actuator(const XmlElement& element, JointType type,
   actuator.rotor_inertia =
       read_quantity(element, "rotor_inertia", Range::kNonNegative, context.table);
   actuator.gear = read_gear(element, context);
+  actuator.elastic = read_elastic_gear(element, context);
+  if (actuator.elastic && actuator.rotor_inertia.is_zero())
+    element.fail_at("rotor_inertia",
+                    "behind an elastic gear the motor moves by itself, which needs an inertia",
+                    "> 0, or no stiffness");
   if (actuator.rotor_inertia.is_zero() && actuator.gear && locks_itself(*actuator.gear))
     element.fail_at("rotor_inertia",
                     "a self-locking gear needs the inertia of its motor: without it the joint's "

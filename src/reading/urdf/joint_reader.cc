@@ -187,6 +187,10 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context,
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, context);
   if (actuator) joint->actuator = read_actuator(*actuator, joint->type, context);
+  if (joint->is_loop && joint->has_elastic_gear())
+    actuator->fail_at("stiffness",
+                      "an elastic gear needs a joint of the tree, which gives its motor a start",
+                      "no stiffness; or a tree with this joint, and a <loop> elsewhere");
   if (!spring) return;
   if (!has_one_coordinate(joint->type))
     spring->fail("a joint of this type has no single coordinate for a spring", "",
@@ -211,6 +215,24 @@ void read_type_specific(const XmlElement& element, const ReadContext& context,
   if (loop->type == JointType::kDistance)
     loop->distance =
         read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);
+}
+
+/// Whether a loop says `codesign:out_of_plane="zero"`.
+bool read_out_of_plane(const XmlElement& element, const ReadContext& context,
+                       const JointDescription& loop) {
+  const char* const attribute = "codesign:out_of_plane";
+  const std::string given = element.find(attribute).value_or("shared");
+  if (given != "zero" && given != "shared")
+    element.fail_at(attribute, "unknown statement about what acts out of the plane",
+                    "zero or shared");
+  if (given == "shared" || kind_of(loop)->in_plane) return given == "zero";
+  std::string types;
+  for (const RowReference<JointLaw>& law : context.laws->joints)
+    if (law->of_loops && law->in_plane)
+      types += (types.empty() ? "" : ", ") + std::string(law->of_loops);
+  element.fail_at(attribute,
+                  "a loop of type " + element.text("type") + " cannot be held in a plane only",
+                  "loops of type " + types);
 }
 
 }  // namespace
@@ -244,6 +266,7 @@ JointDescription read_loop(const XmlElement& element, const ReadContext& context
   loop.child_origin = read_origin(element.only("successor"), context.table);
   read_joint_parts(element, context, &loop);
   read_type_specific(element, context, &loop);
+  loop.in_plane = read_out_of_plane(element, context, loop);
   suit_transitions(element, &loop);
   return loop;
 }

@@ -13,7 +13,7 @@
 namespace codesign {
 namespace {
 
-/// What doc/study.md says of a key.
+/// What doc/study/ says of a key.
 struct PageOption {
   std::string sentence, standard;
 };
@@ -26,7 +26,7 @@ struct PageCheck {
   PageOption claim(const std::string& key) const {
     const auto row = left.find(block + "." + key);
     if (row == left.end()) {
-      ADD_FAILURE() << "doc/study.md has no row for " << block << "." << key;
+      ADD_FAILURE() << "doc/study/ has no row for " << block << "." << key;
       return {};
     }
     PageOption found = row->second;
@@ -77,7 +77,7 @@ template <class Options>
 void expect_on_page(const std::string& block, const std::vector<std::string>& others = {}) {
   const std::string prefix = block + ".";
   std::map<std::string, PageOption> left;
-  for (const PageRow& row : page_rows("study.md", 2))
+  for (const PageRow& row : study_rows())
     for (std::size_t k = 0; k < row.keys.size(); ++k)
       if (row.keys[k].rfind(prefix, 0) == 0)
         left.emplace(row.keys[k], PageOption{row.cells[0], row.part(1, k)});
@@ -85,7 +85,7 @@ void expect_on_page(const std::string& block, const std::vector<std::string>& ot
   visit_options(PageCheck{block, left}, &defaults);
   for (const std::string& other : others) left.erase(std::string(prefix).append(other));
   for (const auto& [key, row] : left)
-    ADD_FAILURE() << "no option of the code is " << key << " of doc/study.md";
+    ADD_FAILURE() << "no option of the code is " << key << " of doc/study/";
 }
 
 TEST(OptionTables, AreThoseOfThePage) {

@@ -19,7 +19,7 @@ std::string realization_text(const std::string& keys,
 
 TEST(StudyRealization, HasTheKeysOfThePage) {
   std::set<std::string> page;
-  for (const PageRow& row : page_rows("study.md", 2)) page.insert(row.keys.begin(), row.keys.end());
+  for (const PageRow& row : study_rows()) page.insert(row.keys.begin(), row.keys.end());
   for (const ControllerKind& kind : standard_laws().controllers)
     for (const std::string& key : with_realization_keys(kind, {}))
       EXPECT_EQ(page.count(key), 1U) << key;

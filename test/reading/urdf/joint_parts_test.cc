@@ -271,6 +271,48 @@ TEST(GearReader, Faults) {
                {"a self-locking gear needs the inertia of its motor"});
 }
 
+TEST(ElasticGearReader, StiffnessDampingAndBacklash) {
+  const auto actuator = [](const std::string& attributes) {
+    return *read_urdf(pendulum("<codesign:actuator rotor_inertia='1e-5' " + attributes + "/>"))
+                .joints[0]
+                .actuator;
+  };
+  EXPECT_FALSE(actuator("").elastic);
+  const ElasticGearDescription plain = *actuator("stiffness='300'").elastic;
+  EXPECT_EQ(plain.stiffness.nominal(), 300.0);
+  EXPECT_TRUE(plain.damping.is_zero());
+  EXPECT_FALSE(plain.backlash);
+  const ElasticGearDescription all =
+      *actuator(
+           "stiffness='300' codesign:stiffness='${1500*length}' damping='2' backlash='0.01' "
+           "codesign:backlash='${length/20}'")
+           .elastic;
+  EXPECT_DOUBLE_EQ(all.stiffness.at(std::vector<double>{0.4}), 600.0);
+  EXPECT_EQ(all.damping.nominal(), 2.0);
+  EXPECT_DOUBLE_EQ(all.backlash->at(std::vector<double>{0.4}), 0.02);
+}
+
+TEST(ElasticGearReader, Faults) {
+  const auto faulty = [](const std::string& attributes, const std::string& message) {
+    expect_error(pendulum("\n<codesign:actuator " + attributes + "/>"),
+                 {"test.urdf:3: <joint name=\"hinge\"> <codesign:actuator>: " + message});
+  };
+  faulty("rotor_inertia='1' stiffness='-3'", "stiffness is not positive (value: -3, allowed: > 0)");
+  faulty("rotor_inertia='1' stiffness='0'", "stiffness is not positive (value: 0, allowed: > 0)");
+  faulty("rotor_inertia='1' stiffness='3' damping='-1'",
+         "damping is negative (value: -1, allowed: >= 0)");
+  faulty("rotor_inertia='1' stiffness='3' backlash='0'",
+         "backlash is not positive (value: 0, allowed: > 0)");
+  faulty("rotor_inertia='1' damping='2'",
+         "damping has no effect in a rigid gear: motor and joint move together (value: 2, allowed: "
+         "beside stiffness)");
+  faulty("rotor_inertia='1' backlash='0.01'", "backlash has no effect in a rigid gear");
+  faulty("rotor_inertia='0' stiffness='3'",
+         "behind an elastic gear the motor moves by itself, which needs an inertia (value: 0, "
+         "allowed: > 0, or no stiffness)");
+  expect_error(pendulum("<codesign:actuator stiffness='3'/>"), {"rotor_inertia"});
+}
+
 RobotDescription read_geared(
     const std::string& transmissions,
     const std::string& actuator = "<codesign:actuator rotor_inertia=\"1e-5\"/>") {

@@ -252,6 +252,37 @@ TEST(LoopReader, ReadsAllTypes) {
   expect_error(loop_text("floating"), {"unknown loop type"});
 }
 
+TEST(LoopReader, SaysWhatActsOutOfThePlane) {
+  const auto text = [](const std::string& type, const std::string& value) {
+    SourceText loop = loop_text(type, "");
+    loop.text.replace(loop.text.find("<loop "), 6,
+                      "<loop codesign:out_of_plane=\"" + value + "\" ");
+    return loop;
+  };
+  EXPECT_FALSE(loop("revolute").in_plane);
+  EXPECT_FALSE(read_urdf(text("codesign:spherical", "shared")).joints.at(1).in_plane);
+  for (const char* type : {"revolute", "continuous", "prismatic", "fixed"}) {
+    EXPECT_FALSE(read_urdf(text(type, "shared")).joints.at(1).in_plane);
+    const JointDescription held = read_urdf(text(type, "zero")).joints.at(1);
+    EXPECT_TRUE(held.in_plane);
+    EXPECT_LT(kind_of(held)->rows, 4);
+  }
+  expect_error(text("revolute", "none"),
+               {"test.urdf:3: <loop name=\"l\">", "out of the plane", "none", "zero or shared"});
+  expect_error(text("codesign:universal", "zero"),
+               {"a loop of type codesign:universal cannot be held in a plane only",
+                "fixed, revolute, continuous, prismatic"});
+  expect_error(pendulum("", "<joint name=\"a\" codesign:out_of_plane=\"zero\"/>"),
+               {"codesign:out_of_plane"});
+}
+
+TEST(LoopReader, OverlaysSayWhatActsOutOfThePlane) {
+  const SourceText model = loop_text("revolute", "");
+  EXPECT_TRUE(read_urdf(model, {overlay_text("<loop name=\"l\" codesign:out_of_plane=\"zero\"/>")})
+                  .joints.at(1)
+                  .in_plane);
+}
+
 TEST(LoopReader, UniversalHasASecondAxis) {
   const JointDescription l =
       loop("codesign:universal", "<axis xyz=\"0 0 1\"/><codesign:second_axis xyz=\"1 0 0\"/>");

@@ -1,0 +1,61 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mechanism/motor_sides.h"
+
+#include <algorithm>
+
+namespace codesign {
+namespace {
+
+bool moves_apart(const JointDescription& joint, const MotionStudy& study) {
+  if (!joint.has_elastic_gear() || study.rigid_gears || study.postures > 0) return false;
+  return std::none_of(study.motion.begin(), study.motion.end(),
+                      [&joint](const GivenMotion& motion) { return motion.joint == joint.name; });
+}
+
+JointDescription motor_side(const JointDescription& joint, int link) {
+  JointDescription motor;
+  motor.name = joint.name + "/motor";
+  motor.type = is_turn(joint.type) ? JointType::kContinuous : JointType::kPrismatic;
+  motor.parent = joint.parent;
+  motor.child = link;
+  motor.origin = joint.origin;
+  motor.axis = joint.axis;
+  motor.actuator = joint.actuator;
+  motor.actuator->elastic.reset();
+  if (joint.limit) {
+    motor.limit.emplace();
+    motor.limit->effort = joint.limit->effort;
+  }
+  motor.is_motor = true;
+  motor.where = joint.actuator->where;
+  return motor;
+}
+
+}  // namespace
+
+RobotDescription without_motor_sides(RobotDescription robot) {
+  while (!robot.joints.empty() && robot.joints.back().is_motor) {
+    robot.joints.pop_back();
+    robot.links.pop_back();
+  }
+  for (JointDescription& joint : robot.joints) joint.motor = -1;
+  return robot;
+}
+
+RobotDescription with_motor_sides(RobotDescription robot, const MotionStudy& study) {
+  robot = without_motor_sides(std::move(robot));
+  const std::size_t joints = robot.joints.size();
+  for (std::size_t k = 0; k < joints; ++k) {
+    if (!moves_apart(robot.joints[k], study)) continue;
+    JointDescription motor = motor_side(robot.joints[k], static_cast<int>(robot.links.size()));
+    LinkDescription link;
+    link.name = motor.name;
+    link.where = motor.where;
+    robot.joints[k].motor = static_cast<int>(robot.joints.size());
+    robot.joints.push_back(std::move(motor));
+    robot.links.push_back(std::move(link));
+  }
+  return robot;
+}
+
+}  // namespace codesign
