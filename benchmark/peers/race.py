@@ -150,7 +150,7 @@ def sweep(program, task, method, settings, reference, limit):
         except Failed as failure:
             points.append(table.Point(setting, float("inf"), 0.0, float("inf")))
             reason = str(failure)
-            if "no the program" in reason or reason.startswith("no answer") or len(points) - good > 8:
+            if reason == "the program ended" or reason.startswith("no answer") or len(points) - good > 8:
                 break
             continue
         good = good + 1 if points[-1].error <= min(task.errors) else 0
