@@ -100,8 +100,8 @@ def compile_pinocchio(python, folder):
     program, source = folder / "pinocchio_run", HERE / "pinocchio_run.cc"
     if program.exists() and program.stat().st_mtime > source.stat().st_mtime:
         return program
-    # The alignment is that of the package, which is built for any x86-64.
-    command = ["g++", "-std=c++17", "-O3", "-march=native", "-DEIGEN_MAX_ALIGN_BYTES=16", "-DNDEBUG", f"-I{ROOT}", "-isystem", f"{prefix}/include",
+    # Options that change how Eigen lays out its matrices, such as -march=native, do not go with the package, which is built for any x86-64.
+    command = ["g++", "-std=c++17", "-O2", "-DNDEBUG", "-DPINOCCHIO_ENABLE_TEMPLATE_INSTANTIATION", f"-I{ROOT}", "-isystem", f"{prefix}/include",
                "-isystem", "/usr/include/eigen3", "-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30",
                "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", "-DBOOST_FUSION_INVOKE_MAX_ARITY=12", "-o", str(program), str(source), f"-L{prefix}/lib",
                f"-Wl,-rpath,{prefix}/lib", "-lpinocchio_parsers", "-lpinocchio_default", "-lsundials_cvode", "-lsundials_nvecserial",
