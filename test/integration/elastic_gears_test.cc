@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-const char* const kBoth[] = {"joint", "absolute"};
+const char* const kEither[] = {"joint", "absolute"};
 constexpr const char* kExact =
     "method: rodas5p, relative_tolerance: 1e-11, absolute_tolerance: 1e-13, coordinates: ";
 
@@ -33,7 +33,7 @@ std::vector<double> at(double time, const std::string& urdf, const std::string& 
 }
 
 // A load of 0.5 behind a motor of 20^2 * 5e-4 = 0.2, both at the joint: kg m^2, or kg on a slide.
-constexpr double kLoad = 0.5, kMotor = 0.2, kStiffness = 300.0;
+constexpr double kLoadMass = 0.5, kRotorMass = 0.2, kStiffness = 300.0;
 
 std::string drive(const std::string& type, const std::string& gear) {
   return robot(
@@ -54,11 +54,12 @@ std::string drive_study(const std::string& more, const std::string& coordinates)
 // The load pushed from rest: x'' = -w^2 x - F/J_l with w^2 = k (1/J_m + 1/J_l), and the centre of
 // both inertias moves as under the force alone.
 TEST(ElasticGear, ResonatesWithBothInertias) {
-  const double push = 4.0, t = 0.37, w = std::sqrt(kStiffness * (1.0 / kMotor + 1.0 / kLoad)),
-               x = -push / (kLoad * w * w) * (1.0 - std::cos(w * t)),
-               position = (0.5 * push * t * t - kMotor * x) / (kLoad + kMotor);
+  const double push = 4.0, t = 0.37,
+               w = std::sqrt(kStiffness * (1.0 / kRotorMass + 1.0 / kLoadMass)),
+               x = -push / (kLoadMass * w * w) * (1.0 - std::cos(w * t)),
+               position = (0.5 * push * t * t - kRotorMass * x) / (kLoadMass + kRotorMass);
   for (const char* type : {"revolute", "continuous", "prismatic"})
-    for (const char* coordinates : kBoth) {
+    for (const char* coordinates : kEither) {
       const std::vector<double> y =
           at(t, drive(type, ""), drive_study("loads: [{joint: axis, effort: 4.0}]", coordinates),
              {"axis/position", "axis/gear_deflection", "axis/gear_torque", "axis/motor_position",
@@ -67,20 +68,20 @@ TEST(ElasticGear, ResonatesWithBothInertias) {
       EXPECT_NEAR(y[1], x, 1e-9);
       EXPECT_NEAR(y[2], kStiffness * x, 1e-6);
       EXPECT_NEAR(y[3], -20.0 * (position + x), 1e-8) << "at the motor's shaft";
-      const double x_rate = -push / (kLoad * w) * std::sin(w * t);
-      EXPECT_NEAR(y[4], -20.0 * (push * t + kLoad * x_rate) / (kLoad + kMotor), 1e-7);
-      EXPECT_NEAR(y[5], (push * t - kMotor * x_rate) / (kLoad + kMotor), 1e-8);
+      const double x_rate = -push / (kLoadMass * w) * std::sin(w * t);
+      EXPECT_NEAR(y[4], -20.0 * (push * t + kLoadMass * x_rate) / (kLoadMass + kRotorMass), 1e-7);
+      EXPECT_NEAR(y[5], (push * t - kRotorMass * x_rate) / (kLoadMass + kRotorMass), 1e-8);
     }
 }
 
 // A motor that shakes at sqrt(k/J_l), where its own answer to the shaking vanishes: theta = U w_a/
 // (J_m w^2) (t - sin(w t)/w) has no part of that frequency.
 TEST(ElasticGear, HasItsAntiresonanceAtTheLoadsFrequency) {
-  const double torque = 2.0, t = 0.61, w_a = std::sqrt(kStiffness / kLoad),
-               w = std::sqrt(kStiffness * (1.0 / kMotor + 1.0 / kLoad)),
-               motor = torque * w_a / (kMotor * w * w) * (t - std::sin(w * t) / w),
+  const double torque = 2.0, t = 0.61, w_a = std::sqrt(kStiffness / kLoadMass),
+               w = std::sqrt(kStiffness * (1.0 / kRotorMass + 1.0 / kLoadMass)),
+               motor = torque * w_a / (kRotorMass * w * w) * (t - std::sin(w * t) / w),
                both = torque / (w_a * w_a) * (w_a * t - std::sin(w_a * t));
-  for (const char* coordinates : kBoth) {
+  for (const char* coordinates : kEither) {
     const std::vector<double> y =
         at(t, drive("continuous", ""),
            drive_study("controllers: {motor: {type: state_feedback, output: axis, feedforward: "
@@ -89,7 +90,7 @@ TEST(ElasticGear, HasItsAntiresonanceAtTheLoadsFrequency) {
                        coordinates),
            {"axis/motor_position", "axis/position", "axis/effort", "axis/motor_torque"});
     EXPECT_NEAR(y[0], -20.0 * motor, 1e-7) << coordinates;
-    EXPECT_NEAR(y[1], (both - kMotor * motor) / kLoad, 1e-8);
+    EXPECT_NEAR(y[1], (both - kRotorMass * motor) / kLoadMass, 1e-8);
     EXPECT_NEAR(y[2], torque * std::sin(w_a * t), 1e-6) << "the controller acts on the motor";
     EXPECT_NEAR(y[3], -torque * std::sin(w_a * t) / 20.0, 1e-7);
   }
@@ -126,7 +127,7 @@ TEST(ElasticGear, TransmitsNothingInTheGap) {
          drive_study("initial_state: {axis: {velocity: 0.0}}\nloads: [{joint: axis, effort: 1.0}]",
                      "absolute"),
          {"axis/position", "axis/gear_torque", "axis/motor_speed"});
-  EXPECT_NEAR(y[0], 0.5 * 1.0 / kLoad * 0.02 * 0.02, 1e-12);
+  EXPECT_NEAR(y[0], 0.5 * 1.0 / kLoadMass * 0.02 * 0.02, 1e-12);
   EXPECT_EQ(y[1], 0.0);
   EXPECT_NEAR(y[2], 0.0, 1e-14);
 }
@@ -166,7 +167,7 @@ TEST(ElasticGear, IsAMotorOfItsOwnWithASpringBehindIt) {
            ", feedforward: {type: sine, amplitude: 3.0, frequency: 2.0}}}\nsolver: {" + kExact +
            kind + "}\n";
   };
-  for (const char* kind : kBoth) {
+  for (const char* kind : kEither) {
     const std::vector<double> expected =
         at(0.7, links, study("theta: {position: 0.4, velocity: 1.0}", "theta", kind),
            {"base/position", "theta/position", "x/position", "theta/velocity",
@@ -211,7 +212,7 @@ TEST(ElasticGear, KeepsTheBalanceOfEnergy) {
   const std::string gear =
       "<codesign:actuator gear_ratio='15' rotor_inertia='2e-3' efficiency='0.8' coulomb='0.02' "
       "viscous='1e-3' transition_velocity='0.2' stiffness='400' damping='2' backlash='0.05'/>";
-  for (const char* coordinates : kBoth) {
+  for (const char* coordinates : kEither) {
     const std::string study =
         "duration: 0.4\ninitial_state: {shoulder: {position: 1.0}, elbow: {velocity: "
         "2.0}}\nlimits: "
@@ -234,7 +235,7 @@ TEST(ElasticGear, DrivesALoop) {
   const std::string loop = four_bar(
       "<codesign:actuator gear_ratio='10' rotor_inertia='1e-3' stiffness='500' damping='1'/>");
   std::vector<double> first;
-  for (const char* coordinates : kBoth) {
+  for (const char* coordinates : kEither) {
     const std::string study =
         "duration: 0.6\ninitial_state: {left_hinge: {position: 0.3}}\ncontrollers: {motor: {type: "
         "state_feedback, output: left_hinge, feedforward: 8.0}}\nsolver: {" +
@@ -258,7 +259,7 @@ TEST(ElasticGear, IsRigidWhereTheMotionIsGiven) {
                                     "axis/gear_torque", "axis/position", "axis/acceleration"});
   EXPECT_EQ(y[0], 0.0);
   EXPECT_NEAR(y[1], -20.0 * y[3], 1e-12);
-  EXPECT_NEAR(y[2], kLoad * y[4], 1e-9);
+  EXPECT_NEAR(y[2], kLoadMass * y[4], 1e-9);
   EXPECT_NEAR(y[4], -0.5 * 4.0 * M_PI * M_PI * std::sin(0.4 * M_PI), 1e-6);
 }
 

@@ -17,12 +17,15 @@ std::string changed(std::string urdf, const std::string& from, const std::string
   return urdf.replace(at, from.size(), to);
 }
 
-Topology topology(const std::string& urdf) { return derive_topology(read_urdf({"t.urdf", urdf})); }
+Topology loop_topology(const std::string& urdf) {
+  return derive_topology(read_urdf({"t.urdf", urdf}));
+}
 
 /// What is wrong with a linkage that says that it is planar.
-void expect_refused(const std::string& urdf, const std::string& message, const std::string& value) {
+void expect_out_of_plane(const std::string& urdf, const std::string& message,
+                         const std::string& value) {
   try {
-    topology(held_in_plane(urdf));
+    loop_topology(held_in_plane(urdf));
     ADD_FAILURE() << "taken: " << message;
   } catch (const InputError& error) {
     const std::string text = error.what();
@@ -43,13 +46,13 @@ TEST(LoopPlane, TheJointsAroundALoopLeadBackToItsPredecessor) {
 }
 
 TEST(LoopPlane, LoopsAreCutToTheirPlane) {
-  const Topology ring = topology(held_in_plane(four_bar())),
-                 slide = topology(held_in_plane(block_on_a_loop())),
-                 weld = topology(held_in_plane(welded_four_bar()));
+  const Topology ring = loop_topology(held_in_plane(four_bar())),
+                 slide = loop_topology(held_in_plane(block_on_a_loop())),
+                 weld = loop_topology(held_in_plane(welded_four_bar()));
   EXPECT_EQ(ring.pairs.back().kind->rows, 2);
   EXPECT_EQ(slide.pairs.back().kind->rows, 2);
   EXPECT_EQ(weld.pairs.back().kind->rows, 3);
-  for (const Pair& pair : topology(four_bar()).pairs) {
+  for (const Pair& pair : loop_topology(four_bar()).pairs) {
     EXPECT_EQ(pair.kind, PairKind::kRevolute);
     EXPECT_TRUE(pair.around.empty());
   }
@@ -67,30 +70,31 @@ TEST(LoopPlane, ASlideHasTheNormalAsItsSecondAxis) {
 }
 
 TEST(LoopPlane, RefusesWhatMovesOutOfThePlane) {
-  expect_refused(changed(four_bar(), "<axis xyz='0 1 0'/>", "<axis xyz='0.1 1 0'/>"),
-                 "joint 'left_hinge' turns about an axis that is not normal to the plane",
-                 "0.09966865");
+  expect_out_of_plane(changed(four_bar(), "<axis xyz='0 1 0'/>", "<axis xyz='0.1 1 0'/>"),
+                      "joint 'left_hinge' turns about an axis that is not normal to the plane",
+                      "0.09966865");
   const std::string slides =
       changed(four_bar(), "'left_pin' type='continuous'", "'left_pin' type='prismatic'");
-  expect_refused(changed(slides, "rpy='0 -1.5707963267948966 0'/><axis xyz='0 1 0'/>",
-                         "/><axis xyz='1 0.2 0'/><limit effort='1' velocity='1'/>"),
-                 "joint 'left_pin' slides along an axis that is not in the plane", "0.1973955");
-  expect_refused(
+  expect_out_of_plane(changed(slides, "rpy='0 -1.5707963267948966 0'/><axis xyz='0 1 0'/>",
+                              "/><axis xyz='1 0.2 0'/><limit effort='1' velocity='1'/>"),
+                      "joint 'left_pin' slides along an axis that is not in the plane",
+                      "0.1973955");
+  expect_out_of_plane(
       changed(four_bar(), "'right_hinge' type='continuous'", "'right_hinge' type='floating'"),
       "joint 'right_hinge' is of a type that moves out of the plane", "");
-  expect_refused(changed(block_on_a_loop(), "<axis xyz='1 0 0'/>", "<axis xyz='1 0.01 0'/>"),
-                 "the loop slides along an axis that is not in the plane", "0.0099996");
+  expect_out_of_plane(changed(block_on_a_loop(), "<axis xyz='1 0 0'/>", "<axis xyz='1 0.01 0'/>"),
+                      "the loop slides along an axis that is not in the plane", "0.0099996");
 }
 
 TEST(LoopPlane, RefusesLoopsThatMissThemselvesAcrossThePlane) {
-  expect_refused(changed(four_bar(), "xyz='1.2 0 0'", "xyz='1.2 0.005 0'"),
-                 "predecessor and successor are apart along the normal of the plane", "5 mm");
-  expect_refused(changed(four_bar(), "<origin xyz='0 0 -1.2'/>",
-                         "<origin xyz='0 0 -1.2' rpy='3.141592653589793 0 0'/>"),
-                 "the normals of the plane at predecessor and successor differ", "3.141592");
+  expect_out_of_plane(changed(four_bar(), "xyz='1.2 0 0'", "xyz='1.2 0.005 0'"),
+                      "predecessor and successor are apart along the normal of the plane", "5 mm");
+  expect_out_of_plane(changed(four_bar(), "<origin xyz='0 0 -1.2'/>",
+                              "<origin xyz='0 0 -1.2' rpy='3.141592653589793 0 0'/>"),
+                      "the normals of the plane at predecessor and successor differ", "3.141592");
   // Angles written with five digits are taken.
-  topology(held_in_plane(changed(four_bar(), "<origin xyz='0 0 -1.2'/>",
-                                 "<origin xyz='0 0 -1.2' rpy='0.00001 0 0'/>")));
+  loop_topology(held_in_plane(changed(four_bar(), "<origin xyz='0 0 -1.2'/>",
+                                      "<origin xyz='0 0 -1.2' rpy='0.00001 0 0'/>")));
 }
 
 TEST(LoopPlane, RefusesLoopsWithoutATurn) {
@@ -98,10 +102,11 @@ TEST(LoopPlane, RefusesLoopsWithoutATurn) {
       "<joint name='x' type='prismatic'><parent link='ground'/><child link='a'/><axis xyz='1 0 "
       "0'/><limit effort='1' velocity='1'/></joint><joint name='z' type='prismatic'><parent "
       "link='a'/><child link='b'/><axis xyz='0 0 1'/><limit effort='1' velocity='1'/></joint>";
-  expect_refused(robot(bar("a") + bar("b") + slide +
-                       "<loop name='close' type='prismatic'><predecessor link='ground'/><successor "
-                       "link='b'/><axis xyz='1 0 1'/></loop>"),
-                 "no joint around it turns", "");
+  expect_out_of_plane(
+      robot(bar("a") + bar("b") + slide +
+            "<loop name='close' type='prismatic'><predecessor link='ground'/><successor "
+            "link='b'/><axis xyz='1 0 1'/></loop>"),
+      "no joint around it turns", "");
 }
 
 TEST(LoopPlane, RefusesATransverseAxisBetweenPlaneAndNormal) {
@@ -111,18 +116,19 @@ TEST(LoopPlane, RefusesATransverseAxisBetweenPlaneAndNormal) {
         "joint_width='0.06' transverse_axis='" +
         axis + "'/>");
   };
-  expect_refused(with("0 1 0.5"), "transverse_axis of its friction", "0.4636476");
-  for (const char* axis : {"0 1 0", "0 0 1", "1 0 1"}) topology(held_in_plane(with(axis)));
+  expect_out_of_plane(with("0 1 0.5"), "transverse_axis of its friction", "0.4636476");
+  for (const char* axis : {"0 1 0", "0 0 1", "1 0 1"}) loop_topology(held_in_plane(with(axis)));
 }
 
 TEST(LoopPlane, RefusesFoldedLoops) {
   const std::string stage =
       "<link name='stage'/><joint name='slide_x' type='prismatic'><parent link='ground'/><child "
       "link='stage'/><axis xyz='1 0 0'/><limit effort='1' velocity='1'/></joint>";
-  expect_refused(robot(bar("a") + hinge("pin", "ground", "a", "0 0 0") + stage +
-                       "<loop name='close' type='prismatic'><predecessor link='stage'/><successor "
-                       "link='a'/><axis xyz='0 0 1'/></loop>"),
-                 "folded with joints across links without <inertial>", "slide_x+close");
+  expect_out_of_plane(
+      robot(bar("a") + hinge("pin", "ground", "a", "0 0 0") + stage +
+            "<loop name='close' type='prismatic'><predecessor link='stage'/><successor "
+            "link='a'/><axis xyz='0 0 1'/></loop>"),
+      "folded with joints across links without <inertial>", "slide_x+close");
 }
 
 }  // namespace
