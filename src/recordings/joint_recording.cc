@@ -40,10 +40,11 @@ JointRecording read(const RecordingDescription& description, const Context& cont
          "that make those of the shipped cases by simulation, beside a copy of the study"});
   if (!description.is_bag) return read_table_recording(description, path, context.joints);
   if (!context.reader)
-    throw InputError(
-        {description.where, element, "this program is installed without ROS, which reads bags", path,
-         "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is there; or the "
-         "Debian package ros-mechanism-codesign"});
+    throw InputError({description.where, element,
+                      "this program is installed without ROS, which reads bags", path,
+                      "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is "
+                      "there; or the "
+                      "Debian package ros-mechanism-codesign"});
   return context.reader(description, path, context.joints, context.warnings);
 }
 

@@ -22,6 +22,7 @@ std::vector<double> at(double time, const std::string& urdf, const std::string& 
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   const auto system = make_system(robot, read_study({"t.yaml", study}, robot));
   std::vector<SignalDescription> read;
+  read.reserve(signals.size());
   for (const std::string& text : signals) read.push_back(parse_signal(text, {}, "test"));
   Simulation simulation(system, system->parameters(), read);
   Status status = simulation.start();

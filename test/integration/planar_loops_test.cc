@@ -18,6 +18,7 @@ constexpr char kAccurate[] =
 
 std::vector<SignalDescription> parsed(const std::vector<std::string>& texts) {
   std::vector<SignalDescription> result;
+  result.reserve(texts.size());
   for (const std::string& text : texts) result.push_back(parse_signal(text, {"test", 0}, "signal"));
   return result;
 }

@@ -138,7 +138,7 @@ namespace {
 
 Quantity read_at_most_one(const XmlElement& element, const char* attribute, Range range,
                           const ReadContext& context) {
-  const Quantity number = read_quantity(element, attribute, range, context.table);
+  Quantity number = read_quantity(element, attribute, range, context.table);
   if (number.nominal() > 1.0)
     element.fail_at(attribute, std::string(attribute) + " is above 1: the gear would give power",
                     range == Range::kPositive ? "> 0 and at most 1" : "at most 1");
