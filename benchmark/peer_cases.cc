@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark/peer_cases.h"
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -91,15 +92,17 @@ std::vector<std::vector<double>> peer_recording(const PeerCase& of) {
   const Problem problem = load_problem(files.urdf, {}, files.study);
   Simulation simulation(problem, problem.parameters());
   std::vector<std::vector<double>> rows;
-  const Status status =
-      simulate(&simulation, of.robot.duration,
-               static_cast<int>(of.robot.duration * kPeerRate + 0.5) + 1, [&](const Frame& frame) {
-                 std::vector<double> row;
-                 for (const JointSample& joint : frame.joints) row.push_back(joint.position);
-                 for (const JointSample& joint : frame.joints) row.push_back(joint.velocity);
-                 rows.push_back(row);
-                 return true;
-               });
+  const Status status = simulate(&simulation, of.robot.duration,
+                                 static_cast<int>(std::lround(of.robot.duration * kPeerRate)) + 1,
+                                 [&](const Frame& frame) {
+                                   std::vector<double> row;
+                                   for (const JointSample& joint : frame.joints)
+                                     row.push_back(joint.position);
+                                   for (const JointSample& joint : frame.joints)
+                                     row.push_back(joint.velocity);
+                                   rows.push_back(row);
+                                   return true;
+                                 });
   if (!status.ok()) throw std::runtime_error(status.cause);
   return rows;
 }

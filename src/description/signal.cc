@@ -30,7 +30,8 @@ bool is_quantity(const std::string& word) {
       "output",         "angular_velocity", "orientation",    "reaction_force", "reaction_torque",
       "friction_power", "damping_power",    "actuator_power", "load_power",     "effort_rate",
       "kinetic_energy", "potential_energy", "total_energy",   "force",          "length",
-      "speed",          "motor_torque",     "motor_speed",    "gear_torque",    "gear_loss"};
+      "speed",          "motor_torque",     "motor_speed",    "gear_torque",    "gear_loss",
+      "motor_position", "gear_deflection"};
   return kQuantities.count(word) != 0;
 }
 

@@ -2,6 +2,7 @@
 #include "forces/control_law.h"
 
 #include <iterator>
+#include <string_view>
 
 #include "codegen/traced.h"
 
@@ -47,6 +48,9 @@ constexpr ControlLaw kControlTable[] = {
 
 }  // namespace
 
+static_assert(std::string_view(kControlTable[0].name) == "basis" &&
+                  std::string_view(kControlTable[4].name) == "state_feedback",
+              "the constants below count rows: append new ones");
 const ControllerKind ControllerKind::kBasis{kControlTable[0]},
     ControllerKind::kComputedTorque{kControlTable[1]}, ControllerKind::kPdGravity{kControlTable[2]},
     ControllerKind::kPid{kControlTable[3]}, ControllerKind::kStateFeedback{kControlTable[4]};

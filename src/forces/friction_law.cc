@@ -2,6 +2,7 @@
 #include "forces/friction_law.h"
 
 #include <iterator>
+#include <string_view>
 
 #include "codegen/traced.h"
 #include "forces/bristles.h"
@@ -35,6 +36,9 @@ constexpr FrictionLaw kFrictionTable[] = {
 
 }  // namespace
 
+static_assert(std::string_view(kFrictionTable[0].name) == "brown_mcphee" &&
+                  std::string_view(kFrictionTable[3].name) == "stribeck",
+              "the constants below count rows: append new ones");
 const FrictionModel FrictionModel::kBrownMcPhee{kFrictionTable[0]},
     FrictionModel::kGonthier{kFrictionTable[1]}, FrictionModel::kLuGre{kFrictionTable[2]},
     FrictionModel::kStribeck{kFrictionTable[3]};

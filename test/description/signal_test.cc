@@ -117,6 +117,7 @@ TEST(Signal, AnExpressionReadsTheLossesOfGears) {
   expect_term(signal.terms[0], 1.0, "pend", "gear_loss", "");
   expect_term(signal.terms[2], 1.0, "pend", "gear_torque", "");
   EXPECT_EQ(parse("left/elbow/gear_loss + left/elbow/gear_torque").terms.size(), 2U);
+  EXPECT_EQ(parse("left/elbow/motor_position - left/elbow/gear_deflection").terms.size(), 2U);
 }
 
 TEST(Signal, AnExpressionThatIsNoneIsRefused) {
