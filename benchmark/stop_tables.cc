@@ -87,13 +87,13 @@ bool is_feasible(const Run& run) {
 /// 1e-06; or how far above it the search ended.
 std::string cell(const std::optional<Run>& run, double known, double size) {
   if (!run) return "";
-  const std::string evaluations = std::to_string(run->result.evaluations);
+  const std::string evaluations = std::to_string(run->result.cost.evaluations);
   if (!is_feasible(*run)) return "failed, " + evaluations;
   const std::optional<std::size_t> near = run->first_near(known, size);
   const std::string where =
       near ? std::to_string(*near) + " of " + evaluations
-           : "+" + one_digit((run->result.objective - known) / size) + " after " + evaluations;
-  return where + ", " + one_digit(run->result.stationarity) +
+           : "+" + one_digit((run->result.best.objective - known) / size) + " after " + evaluations;
+  return where + ", " + one_digit(run->result.optimality.stationarity) +
          (run->result.termination == "stopped_early" ? " early" : "");
 }
 
@@ -112,8 +112,8 @@ void measure_stops(Report* report) {
     double known = std::numeric_limits<double>::infinity(), start = 0.0;
     for (const std::optional<Run>& one : runs) {
       if (!one || !is_feasible(*one)) continue;
-      known = std::min(known, one->result.objective);
-      start = one->result.initial_objective;
+      known = std::min(known, one->result.best.objective);
+      start = one->result.initial.objective;
     }
     // What is a millionth of the objective at the start counts as zero.
     const double size = std::max(std::abs(known), 1e-6 * std::abs(start));
