@@ -125,9 +125,8 @@ std::string plane_advice(const CompiledSystem& system, const ReactionSharing& sh
     if (!could_be_in_plane(system.robot(), system.topology(), pair, system.parameters())) return "";
     loops.push_back(pair.chain[0].joint);
   }
-  return "; or, as the motion is planar, leave what acts out of the plane to the joints of the "
-         "tree "
-         "by codesign:out_of_plane=\"zero\" on " +
+  return "; or, as the motion is planar, leave what acts out of the plane to the joints of "
+         "the tree by codesign:out_of_plane=\"zero\" on " +
          name_list(system.robot(), loops);
 }
 

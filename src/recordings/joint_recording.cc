@@ -43,8 +43,7 @@ JointRecording read(const RecordingDescription& description, const Context& cont
     throw InputError({description.where, element,
                       "this program is installed without ROS, which reads bags", path,
                       "csv: FILE; `rostopic echo -b BAG -p TOPIC` writes such a table where ROS is "
-                      "there; or the "
-                      "Debian package ros-mechanism-codesign"});
+                      "there; or the Debian package ros-mechanism-codesign"});
   return context.reader(description, path, context.joints, context.warnings);
 }
 

@@ -11,15 +11,20 @@
 
 namespace codesign {
 
+inline std::vector<SignalDescription> parsed_signals(const std::vector<std::string>& texts) {
+  std::vector<SignalDescription> signals;
+  signals.reserve(texts.size());
+  for (const std::string& text : texts) signals.push_back(parse_signal(text, {}, "signal"));
+  return signals;
+}
+
 /// The signals of a run at a time.
 inline std::vector<double> end_of(const std::string& urdf, const std::string& study, double time,
                                   const std::vector<std::string>& texts) {
   const std::shared_ptr<const CompiledSystem> system = compile(urdf, study);
-  std::vector<SignalDescription> signals;
-  for (const std::string& text : texts) signals.push_back(parse_signal(text, {}, "signal"));
-  Simulation run(system, system->parameters(), signals);
+  Simulation run(system, system->parameters(), parsed_signals(texts));
   EXPECT_TRUE(run.start().ok());
-  const Status status = run.advance_to(time);
+  const Status status = time > 0.0 ? run.advance_to(time) : Status();
   EXPECT_TRUE(status.ok()) << status.cause;
   Frame frame;
   run.sample(time, &frame);

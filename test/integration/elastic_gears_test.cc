@@ -6,6 +6,7 @@
 
 #include "assembly/make_system.h"
 #include "equations/compiled.h"
+#include "integration/driven_slides.h"
 #include "integration/energy_balance.h"
 #include "mechanism_codesign/simulation.h"
 
@@ -15,23 +16,6 @@ namespace {
 const char* const kEither[] = {"joint", "absolute"};
 constexpr const char* kExact =
     "method: rodas5p, relative_tolerance: 1e-11, absolute_tolerance: 1e-13, coordinates: ";
-
-/// Values of signals of a study at a time.
-std::vector<double> at(double time, const std::string& urdf, const std::string& study,
-                       const std::vector<std::string>& signals) {
-  const RobotDescription robot = read_urdf({"test.urdf", urdf});
-  const auto system = make_system(robot, read_study({"t.yaml", study}, robot));
-  std::vector<SignalDescription> read;
-  read.reserve(signals.size());
-  for (const std::string& text : signals) read.push_back(parse_signal(text, {}, "test"));
-  Simulation simulation(system, system->parameters(), read);
-  Status status = simulation.start();
-  if (status.ok() && time > 0.0) status = simulation.advance_to(time);
-  EXPECT_TRUE(status.ok()) << status.cause;
-  Frame frame;
-  simulation.sample(time, &frame);
-  return frame.signals;
-}
 
 // A load of 0.5 behind a motor of 20^2 * 5e-4 = 0.2, both at the joint: kg m^2, or kg on a slide.
 constexpr double kLoadMass = 0.5, kRotorMass = 0.2, kStiffness = 300.0;
@@ -61,10 +45,10 @@ TEST(ElasticGear, ResonatesWithBothInertias) {
                position = (0.5 * push * t * t - kRotorMass * x) / (kLoadMass + kRotorMass);
   for (const char* type : {"revolute", "continuous", "prismatic"})
     for (const char* coordinates : kEither) {
-      const std::vector<double> y =
-          at(t, drive(type, ""), drive_study("loads: [{joint: axis, effort: 4.0}]", coordinates),
-             {"axis/position", "axis/gear_deflection", "axis/gear_torque", "axis/motor_position",
-              "axis/motor_speed", "axis/velocity"});
+      const std::vector<double> y = end_of(
+          drive(type, ""), drive_study("loads: [{joint: axis, effort: 4.0}]", coordinates), t,
+          {"axis/position", "axis/gear_deflection", "axis/gear_torque", "axis/motor_position",
+           "axis/motor_speed", "axis/velocity"});
       EXPECT_NEAR(y[0], position, 1e-9) << type << coordinates;
       EXPECT_NEAR(y[1], x, 1e-9);
       EXPECT_NEAR(y[2], kStiffness * x, 1e-6);
@@ -84,12 +68,12 @@ TEST(ElasticGear, HasItsAntiresonanceAtTheLoadsFrequency) {
                both = torque / (w_a * w_a) * (w_a * t - std::sin(w_a * t));
   for (const char* coordinates : kEither) {
     const std::vector<double> y =
-        at(t, drive("continuous", ""),
-           drive_study("controllers: {motor: {type: state_feedback, output: axis, feedforward: "
-                       "{type: sine, amplitude: 2.0, frequency: " +
-                           std::to_string(w_a / (2.0 * M_PI) * 1e9) + "e-9}}}",
-                       coordinates),
-           {"axis/motor_position", "axis/position", "axis/effort", "axis/motor_torque"});
+        end_of(drive("continuous", ""),
+               drive_study("controllers: {motor: {type: state_feedback, output: axis, feedforward: "
+                           "{type: sine, amplitude: 2.0, frequency: " +
+                               std::to_string(w_a / (2.0 * M_PI) * 1e9) + "e-9}}}",
+                           coordinates),
+               t, {"axis/motor_position", "axis/position", "axis/effort", "axis/motor_torque"});
     EXPECT_NEAR(y[0], -20.0 * motor, 1e-7) << coordinates;
     EXPECT_NEAR(y[1], (both - kRotorMass * motor) / kLoadMass, 1e-8);
     EXPECT_NEAR(y[2], torque * std::sin(w_a * t), 1e-6) << "the controller acts on the motor";
@@ -105,14 +89,14 @@ TEST(ElasticGear, YieldsAtRestByTorqueOverStiffnessAndHalfThePlay) {
       const std::string gear =
           "damping='6' viscous='0.01'" +
           (backlash > 0.0 ? " backlash='" + std::to_string(backlash) + "'" : std::string());
-      const std::vector<double> y = at(
-          20.0, drive("continuous", gear),
+      const std::vector<double> y = end_of(
+          drive("continuous", gear),
           drive_study(
               "loads: [{joint: axis, effort: " + std::to_string(push) +
                   "}]\ncontrollers: {hold: {type: pid, input: axis/position + "
                   "axis/gear_deflection, setpoint: 0.0, output: axis, gains: {p: 150.0, d: 20.0}}}",
               "joint"),
-          {"axis/position", "axis/motor_position", "axis/gear_torque", "axis/effort"});
+          20.0, {"axis/position", "axis/motor_position", "axis/gear_torque", "axis/effort"});
       const double further = push / kStiffness + std::copysign(0.5 * backlash, push);
       EXPECT_NEAR(y[0], push / 150.0 + further, 1e-8) << backlash << " " << push;
       EXPECT_NEAR(y[1], -20.0 * push / 150.0, 1e-7);
@@ -123,11 +107,11 @@ TEST(ElasticGear, YieldsAtRestByTorqueOverStiffnessAndHalfThePlay) {
 
 // Within its play a joint flies freely, from flank to flank at the same speed.
 TEST(ElasticGear, TransmitsNothingInTheGap) {
-  const std::vector<double> y =
-      at(0.02, drive("prismatic", "damping='50' backlash='0.1'"),
-         drive_study("initial_state: {axis: {velocity: 0.0}}\nloads: [{joint: axis, effort: 1.0}]",
-                     "absolute"),
-         {"axis/position", "axis/gear_torque", "axis/motor_speed"});
+  const std::vector<double> y = end_of(
+      drive("prismatic", "damping='50' backlash='0.1'"),
+      drive_study("initial_state: {axis: {velocity: 0.0}}\nloads: [{joint: axis, effort: 1.0}]",
+                  "absolute"),
+      0.02, {"axis/position", "axis/gear_torque", "axis/motor_speed"});
   EXPECT_NEAR(y[0], 0.5 * 1.0 / kLoadMass * 0.02 * 0.02, 1e-12);
   EXPECT_EQ(y[1], 0.0);
   EXPECT_NEAR(y[2], 0.0, 1e-14);
@@ -170,15 +154,15 @@ TEST(ElasticGear, IsAMotorOfItsOwnWithASpringBehindIt) {
   };
   for (const char* kind : kEither) {
     const std::vector<double> expected =
-        at(0.7, links, study("theta: {position: 0.4, velocity: 1.0}", "theta", kind),
-           {"base/position", "theta/position", "x/position", "theta/velocity",
-            "mechanism/total_energy", "mechanism/damping_power", "x/reaction_torque/x",
-            "forearm/position/z"});
+        end_of(links, study("theta: {position: 0.4, velocity: 1.0}", "theta", kind), 0.7,
+               {"base/position", "theta/position", "x/position", "theta/velocity",
+                "mechanism/total_energy", "mechanism/damping_power", "x/reaction_torque/x",
+                "forearm/position/z"});
     const std::vector<double> y =
-        at(0.7, gear, study("elbow: {position: 0.4, velocity: 1.0}", "elbow", kind),
-           {"base/position", "elbow/motor_position", "elbow/gear_deflection", "elbow/motor_speed",
-            "mechanism/total_energy", "elbow/damping_power", "elbow/reaction_torque/x",
-            "forearm/position/z"});
+        end_of(gear, study("elbow: {position: 0.4, velocity: 1.0}", "elbow", kind), 0.7,
+               {"base/position", "elbow/motor_position", "elbow/gear_deflection",
+                "elbow/motor_speed", "mechanism/total_energy", "elbow/damping_power",
+                "elbow/reaction_torque/x", "forearm/position/z"});
     for (std::size_t k = 0; k < y.size(); ++k)
       EXPECT_NEAR(y[k], k == 2 ? -expected[k] : expected[k], 1e-8) << k << kind;
   }
@@ -194,13 +178,13 @@ TEST(ElasticGear, IsTheRigidOneInTheLimit) {
   const std::string study =
       "duration: 1.0\ninitial_state: {hinge: {position: 0.5}}\ncontrollers: {motor: {type: "
       "state_feedback, output: hinge, feedforward: {type: sine, amplitude: 6.0, frequency: 1.0}}}\n"
-      "solver: {relative_tolerance: 1e-9, absolute_tolerance: 1e-11}\n";
+      "solver: {coordinates: joint, relative_tolerance: 1e-9, absolute_tolerance: 1e-11}\n";
   const std::vector<std::string> signals{"hinge/position", "hinge/gear_torque", "hinge/gear_loss",
                                          "hinge/motor_speed"};
-  const std::vector<double> rigid = at(0.8, arm_with(""), study, signals);
+  const std::vector<double> rigid = end_of(arm_with(""), study, 0.8, signals);
   double last = 1.0;
   for (const char* stiffness : {"stiffness='1e5' damping='30'", "stiffness='1e7' damping='300'"}) {
-    const std::vector<double> y = at(0.8, arm_with(stiffness), study, signals);
+    const std::vector<double> y = end_of(arm_with(stiffness), study, 0.8, signals);
     double away = 0.0;
     for (std::size_t k = 0; k < y.size(); ++k) away = std::max(away, std::abs(y[k] - rigid[k]));
     EXPECT_LT(away, 0.1 * last) << "the difference falls with the stiffness";
@@ -242,8 +226,8 @@ TEST(ElasticGear, DrivesALoop) {
         "state_feedback, output: left_hinge, feedforward: 8.0}}\nsolver: {" +
         std::string(kExact) + coordinates + "}\n";
     const std::vector<double> y =
-        at(0.6, loop, study,
-           {"left_hinge/position", "left_hinge/gear_deflection", "right_hinge/position"});
+        end_of(loop, study, 0.6,
+               {"left_hinge/position", "left_hinge/gear_deflection", "right_hinge/position"});
     EXPECT_GT(std::abs(y[1]), 1e-4);
     if (first.empty()) first = y;
     for (std::size_t k = 0; k < y.size(); ++k) EXPECT_NEAR(y[k], first[k], 1e-7);
@@ -255,9 +239,9 @@ TEST(ElasticGear, IsRigidWhereTheMotionIsGiven) {
   const std::string study =
       "duration: 1.0\ngravity: [0, 0, 0]\nmotion: {axis: {position: {type: sine, amplitude: 0.5, "
       "frequency: 1.0}}}\n";
-  const std::vector<double> y = at(0.2, drive("continuous", "efficiency='0.8'"), study,
-                                   {"axis/gear_deflection", "axis/motor_position",
-                                    "axis/gear_torque", "axis/position", "axis/acceleration"});
+  const std::vector<double> y = end_of(drive("continuous", "efficiency='0.8'"), study, 0.2,
+                                       {"axis/gear_deflection", "axis/motor_position",
+                                        "axis/gear_torque", "axis/position", "axis/acceleration"});
   EXPECT_EQ(y[0], 0.0);
   EXPECT_NEAR(y[1], -20.0 * y[3], 1e-12);
   EXPECT_NEAR(y[2], kLoadMass * y[4], 1e-9);

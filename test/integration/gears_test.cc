@@ -6,6 +6,7 @@
 
 #include "assembly/make_system.h"
 #include "equations/compiled.h"
+#include "integration/driven_slides.h"
 #include "integration/energy_balance.h"
 #include "mechanism_codesign/simulation.h"
 
@@ -96,10 +97,9 @@ std::vector<double> left_alone(const std::string& urdf, const char* coordinates)
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   const auto system =
       make_system(robot, read_study({"t.yaml", study(0.0, 0.0, coordinates)}, robot));
-  std::vector<SignalDescription> signals;
-  for (const char* text : {"lift/velocity", "lift/position", "lift/gear_torque", "lift/gear_loss"})
-    signals.push_back(parse_signal(text, {}, "test"));
-  Simulation simulation(system, system->parameters(), signals);
+  Simulation simulation(
+      system, system->parameters(),
+      parsed_signals({"lift/velocity", "lift/position", "lift/gear_torque", "lift/gear_loss"}));
   EXPECT_TRUE(simulation.start().ok());
   const Status status = simulation.advance_to(1.0);
   EXPECT_TRUE(status.ok()) << status.cause;
@@ -159,11 +159,9 @@ Ratios ratios(double efficiency, double backdrive, const char* coordinates) {
            coordinates + "}\n"},
       robot);
   const auto system = make_system(robot, study);
-  std::vector<SignalDescription> signals;
-  for (const char* text : {"hinge/velocity", "hinge/acceleration", "hinge/effort",
-                           "hinge/gear_torque", "hinge/friction_power"})
-    signals.push_back(parse_signal(text, {}, "test"));
-  Simulation simulation(system, system->parameters(), signals);
+  Simulation simulation(system, system->parameters(),
+                        parsed_signals({"hinge/velocity", "hinge/acceleration", "hinge/effort",
+                                        "hinge/gear_torque", "hinge/friction_power"}));
   Ratios result;
   const Status status = simulate(&simulation, 3.0, 301, [&](const Frame& frame) {
     const std::vector<double>& s = frame.signals;

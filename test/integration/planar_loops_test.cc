@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/count_equations.h"
+#include "integration/driven_slides.h"
 #include "integration/planar_linkages.h"
 #include "integration/servo.h"
 #include "mechanism_codesign/gradient.h"
@@ -15,13 +16,6 @@ namespace {
 
 constexpr char kAccurate[] =
     "{method: rodas5p, relative_tolerance: 1.0e-11, absolute_tolerance: 1.0e-11}";
-
-std::vector<SignalDescription> parsed(const std::vector<std::string>& texts) {
-  std::vector<SignalDescription> result;
-  result.reserve(texts.size());
-  for (const std::string& text : texts) result.push_back(parse_signal(text, {"test", 0}, "signal"));
-  return result;
-}
 
 std::shared_ptr<const CompiledSystem> made(const std::string& urdf, const std::string& study,
                                            Warnings* warnings = nullptr) {
@@ -34,7 +28,7 @@ std::vector<std::vector<double>> run(const std::string& urdf, const std::string&
                                      const std::vector<std::string>& signals) {
   std::vector<std::vector<double>> all;
   const auto system = made(urdf, study);
-  Simulation simulation(system, system->parameters(), parsed(signals));
+  Simulation simulation(system, system->parameters(), parsed_signals(signals));
   const Status status = simulate(&simulation, system->study().duration, 6, [&](const Frame& frame) {
     all.push_back(frame.signals);
     return true;

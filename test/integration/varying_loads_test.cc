@@ -150,6 +150,14 @@ TEST(LoadSignals, OfWhatDependsOnLoadsAreRefused) {
   }
 }
 
+TEST(LoadSignals, AJointMayHaveTheNameOfTheTime) {
+  EXPECT_NEAR(end_of(robot(mass("piston", 2.0) + lift("t", "piston", 0.0)),
+                     "duration: 1.0\ngravity: [0, 0, 0]\nloads: [{joint: t, effort: "
+                     "\"${t/2}\"}]\nsolver: {relative_tolerance: 1e-9}\n",
+                     1.0, {"t/velocity"})[0],
+              0.125, 1e-7);
+}
+
 TEST(LoadSignals, AMisspeltQuantityIsNamedAsOne) {
   try {
     compile(robot(mass("piston", 2.0) + lift("slide", "piston", 0.0)),

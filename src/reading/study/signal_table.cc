@@ -63,7 +63,7 @@ std::string weighted_sum(const Eigen::RowVectorXd& weights, const std::vector<st
 }
 
 std::string without_braces(const std::string& text) {
-  return "(" + (is_expression(text) ? text.substr(2, text.size() - 3) : text) + ")";
+  return "(" + (is_expression(text) ? expression_in(text) : text) + ")";
 }
 
 Eigen::VectorXd read_knots(const YamlValue& at) {

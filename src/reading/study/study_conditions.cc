@@ -2,10 +2,10 @@
 #include "reading/study/study_blocks.h"
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <utility>
 
+#include "description/expression_syntax.h"
 #include "math/scalar.h"
 #include "mechanism/signal_catalog.h"
 #include "reading/study/signal_table.h"
@@ -149,8 +149,7 @@ struct LoadReader {
     else if (!value.is_map() && is_expression(value.text()))
       signal = parse_signal(value.text(), value.where(), value.path());
     if (signal.terms.empty()) {
-      if (!value.is_map()) refuse_unknown_quantity(value);
-      function.of_time = read_reference(value, table, loader);
+      function.of_time = read_of_time(value);
       return function;
     }
     check_signal(signal, robot, study.controllers, value.path());
@@ -159,24 +158,31 @@ struct LoadReader {
     return function;
   }
 
-  /// In `${2*elbow/positon}` the word after the joint is no quantity, so that there is no signal:
-  /// the error shall tell that, not that `elbow` is no parameter.
+  /// A function of time. In `${2*elbow/positon}` the word after the joint is no quantity, so that
+  /// there is no signal: the error shall tell that, not that `elbow` is no parameter.
+  ReferenceDescription read_of_time(const YamlValue& value) const {
+    try {
+      return read_reference(value, table, loader);
+    } catch (const InputError&) {
+      if (!value.is_map() && is_expression(value.text())) refuse_unknown_quantity(value);
+      throw;
+    }
+  }
+
+  /// Refuses the first word that follows the name of a joint, link or controller and a slash.
   void refuse_unknown_quantity(const YamlValue& value) const {
     const std::string text = value.text();
-    const auto is_letter = [](char c) {
-      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-    };
     const auto check = [&](const std::string& name) {
       const std::size_t at = text.find(name + "/"), word = at + name.size() + 1;
-      if (at == std::string::npos || table.index.count(name) > 0 || is_letter(text[at - 1])) return;
+      if (at == std::string::npos || table.index.count(name) > 0) return;
+      if (continues_identifier(text[at - 1])) return;
       std::size_t end = word;
-      while (end < text.size() && is_letter(text[end])) ++end;
+      while (end < text.size() && continues_identifier(text[end])) ++end;
+      if (end == word) return;
       const std::string quantity = text.substr(word, end - word);
-      if (quantity.empty() || table.index.count(quantity) > 0) return;
       check_signal({name + "/" + quantity, {{1.0, name, quantity, ""}}, value.where(), nullptr},
                    robot, study.controllers, value.path());
     };
-    if (!is_expression(text)) return;
     for (const JointDescription& joint : robot.joints) check(joint.name);
     for (const LinkDescription& link : robot.links) check(link.name);
     for (const ControllerDescription& controller : study.controllers) check(controller.name);

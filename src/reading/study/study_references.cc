@@ -129,7 +129,7 @@ std::optional<ReferenceDescription> read_expression(const YamlValue& value,
   TimeExpression& expression = reference.expression;
   expression.time = table.time_index();
   try {
-    expression.formula = table.parse_with_time(text.substr(2, text.size() - 3));
+    expression.formula = table.parse_with_time(expression_in(text));
   } catch (const std::invalid_argument& error) {
     value.fail(error.what(), kAllowed);
   }

@@ -56,6 +56,8 @@ bool is_expression(const std::string& text) {
   return text.size() >= 4 && text.compare(0, 2, "${") == 0 && text.back() == '}';
 }
 
+std::string expression_in(const std::string& text) { return text.substr(2, text.size() - 3); }
+
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   constexpr const char* kAllowed = "a finite number or \"${expression}\" of the parameters";
   const std::string text = value.text();
@@ -66,7 +68,7 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table) {
   if (!is_expression(text)) value.fail("not a number", kAllowed);
   std::shared_ptr<const Expression> expression;
   try {
-    expression = table.parse(text.substr(2, text.size() - 3));
+    expression = table.parse(expression_in(text));
   } catch (const std::invalid_argument& error) {
     value.fail(error.what(), kAllowed);
   }

@@ -34,6 +34,9 @@ double read_above_zero(const YamlValue& value, const std::string& unit = "");
 /// Whether a text is `${...}`.
 bool is_expression(const std::string& text);
 
+/// What stands within the braces of a text that is_expression().
+std::string expression_in(const std::string& text);
+
 /// A number, or `${expression}` of all named parameters. @throws InputError if it is invalid or not
 /// finite at the parameters' start.
 Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
