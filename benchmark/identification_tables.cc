@@ -99,10 +99,10 @@ double add_fit(int fitted, const std::string& name, const JointRecording& record
       "identify:\n  data: [{csv: none.csv}]\n  residual: motion\n  segment: 0.25\n  filter: "
       "{cutoff: 20.0}\n";
   const Problem problem = load_problem(arm.urdf, {}, arm.study);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   Warnings warnings;
   const std::vector<JointRecording> recordings = {recording};
-  MotionResiduals residuals(*problem.system(), variables, *problem.study().identification,
+  MotionResiduals residuals(*system_of(problem), variables, *study_of(problem).identification,
                             require_same_joints(recordings), recordings, 1, &warnings);
   FitProblem fit;
   fit.start = 1.03 * variables.start();
@@ -166,7 +166,7 @@ void add_efforts(const std::string& coordinates, int fitted, Table* table) {
   std::vector<MeasuredJoint> joints;
   for (int k = 0; k < kArm; ++k) joints.push_back({hinge_name(k), true, 1.0, {}});
   const CpuTimer setup;
-  EffortModel model(*problem.system(), joints, sines(kMotion));
+  EffortModel model(*system_of(problem), joints, sines(kMotion));
   if (Status status = model.begin(problem.parameters()); !status.ok())
     throw std::runtime_error(status.cause);
   std::vector<std::string> row = {coordinates, std::to_string(fitted),

@@ -11,6 +11,7 @@
 #include "benchmark/robots.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -102,7 +103,7 @@ void measure_kernel_programs(Report* report) {
                "us: by hand, compiled", "by hand, recorded", "derived", "derived / recorded"},
               {}};
   const auto add = [&table](const std::string& name, const Problem& problem) {
-    const CompiledSystem& system = *problem.system();
+    const CompiledSystem& system = *system_of(problem);
     const Constants<double> constants =
         evaluate_constants(system.robot(), system.topology(), system.parameters());
     const std::string size =

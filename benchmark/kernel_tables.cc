@@ -11,6 +11,7 @@
 #include "benchmark/report.h"
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -248,8 +249,8 @@ Job kernel_job(const std::string& name, KernelBench* bench, void (KernelBench::*
 
 void measure_kernels(Report* report) {
   const std::optional<Problem> problem = with_solver(load_slider_crank(), "rodas4", 1e-8);
-  StepProbe probe(problem->system(), 0.3, 1e-3);
-  KernelBench bench(*problem->system(), probe.state());
+  StepProbe probe(system_of(*problem), 0.3, 1e-3);
+  KernelBench bench(*system_of(*problem), probe.state());
   std::vector<Job> jobs;
   for (const Kernel& kernel : kKernels) {
     const std::string name = kernel.name;

@@ -13,6 +13,7 @@
 #include "jobs/job_files.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -53,7 +54,7 @@ std::size_t shared_steps(const std::vector<double>* first) {
 /// Least processor time of a few evaluations [s].
 double evaluation_seconds(const Scenario& scenario, const Eigen::VectorXd& rho,
                           Derivatives derivatives) {
-  Evaluator evaluator(scenario.system);
+  Evaluator evaluator = evaluator_of(scenario.system);
   double least = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 5; ++repetition) {
     const CpuTimer timer;

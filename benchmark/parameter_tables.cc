@@ -20,7 +20,7 @@ const std::vector<int> kCounts = {1, 2, 4, 8, 16, 32, 64};
 /// The chain with so many tuned parameters, ready to be evaluated by one kind of gradient.
 struct Case {
   Case(int count, const std::string& gradient)
-      : problem(load(count, gradient)), evaluator(problem.system()), rho(problem.start()) {}
+      : problem(load(count, gradient)), evaluator(problem), rho(problem.start()) {}
 
   static Problem load(int count, const std::string& gradient) {
     GeneratedCase chain = parametric_chain(kLinks, count);
@@ -68,7 +68,7 @@ void measure_parameters(Report* report) {
                "adjoint, ms", "in simulations", "auto"},
               {}};
   for (std::size_t k = 0; k < kCounts.size(); ++k) {
-    const bool backwards = prefers_adjoint(*Case::load(kCounts[k], "auto").system());
+    const bool backwards = prefers_adjoint(*system_of(Case::load(kCounts[k], "auto")));
     table.rows.push_back({std::to_string(kCounts[k]), three_digits(1e3 * seconds[1 + 2 * k]),
                           three_digits(direct_at(k)),
                           three_digits((direct_at(k) - 1.0) / kCounts[k]),

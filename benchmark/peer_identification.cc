@@ -38,9 +38,9 @@ struct Identification {
             peer_problem(of, solver,
                          "identify:\n  data: [{csv: none.csv}]\n  residual: motion\n  segment: " +
                              to_decimal(of.robot.duration) + "\n")),
-        variables(problem.study()),
+        variables(study_of(problem)),
         recordings{recording_of(of)},
-        residuals(*problem.system(), variables, *problem.study().identification,
+        residuals(*system_of(problem), variables, *study_of(problem).identification,
                   require_same_joints(recordings), recordings, 1, &warnings) {
     fit.start = kPeerStart * variables.start();
     fit.lower = variables.lower();

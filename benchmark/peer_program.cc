@@ -108,8 +108,8 @@ PeerRun slider_crank_run(const std::string& method, double tolerance, bool with_
   if (method == "SUNDIALS, KLU" || method == "SUNDIALS, dense") {
     const auto kind = method == "SUNDIALS, KLU" ? SundialsMatrix::kSparseExact
                                                 : SundialsMatrix::kDenseDifferences;
-    const auto peer =
-        std::make_shared<SundialsPeer>(with_solver(problem, "rodas5p", tolerance)->system(), kind);
+    const auto peer = std::make_shared<SundialsPeer>(
+        system_of(*with_solver(problem, "rodas5p", tolerance)), kind);
     return [peer, tolerance, with_gradient] {
       const SundialsResult result = peer->run(tolerance, with_gradient);
       if (!result.ok) throw std::runtime_error("SUNDIALS failed");

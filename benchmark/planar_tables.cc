@@ -22,11 +22,11 @@ class Run {
 
   void run() {
     Status status = simulation_->start();
-    if (status.ok()) status = simulation_->advance(problem_.study().duration);
+    if (status.ok()) status = simulation_->advance(study_of(problem_).duration);
     if (!status.ok()) throw std::runtime_error(status.cause);
   }
   std::string unknowns() const {
-    const Layout& layout = problem_.system()->layout();
+    const Layout& layout = system_of(problem_)->layout();
     return std::to_string(layout.n) + " + " + std::to_string(layout.m);
   }
   std::string steps() const { return std::to_string(simulation_->statistics().steps); }

@@ -15,6 +15,7 @@
 #include "mechanism_codesign/version.h"
 #include "mpi/mpi_transport.h"
 #include "mpi/run_on_ranks.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -74,7 +75,7 @@ class MessageBench {
  public:
   MessageBench(Dispatcher* dispatcher, const Problem& problem)
       : dispatcher_(*dispatcher),
-        task_{problem.system(), problem.parameters(), Derivatives::kGradient},
+        task_{system_of(problem), problem.parameters(), Derivatives::kGradient},
         problem_(dispatcher->add(make_portable(problem))) {}
 
   void run(std::size_t count) {

@@ -16,6 +16,7 @@
 #include "benchmark/slider_crank.h"
 #include "engine/messages.h"
 #include "jobs/journal.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -50,7 +51,7 @@ std::pair<double, double> measure_journal(const Problem& problem) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("journal_" + std::to_string(getpid()));
   const Evaluation evaluation = Evaluator(problem).evaluate(problem.start(), true);
-  const EvaluationTask task{problem.system(), problem.parameters(), Derivatives::kGradient};
+  const EvaluationTask task{system_of(problem), problem.parameters(), Derivatives::kGradient};
   double seconds = 0.0, bytes = 0.0;
   {
     Journal journal(path.string(), problem, problem.optimizer_options(), Journal::Mode::kNew);

@@ -25,7 +25,7 @@ class Stepper {
     restart();
   }
 
-  int bodies() const { return problem_.system()->layout().bodies; }
+  int bodies() const { return system_of(problem_)->layout().bodies; }
   void restart() {
     time_ = 0.0;
     require(simulation_->start());
@@ -42,7 +42,7 @@ class Stepper {
 
  private:
   static Problem in_equal_steps(const Problem& problem) {
-    Study study = problem.study();
+    Study study = study_of(problem);
     study.solver.initial_step = study.solver.maximum_step = kStep;
     study.solver.relative_tolerance = study.solver.absolute_tolerance = 0.1;
     return with_study(problem, std::move(study));

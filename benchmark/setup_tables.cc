@@ -5,6 +5,7 @@
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
 #include "equations/compiled_system.h"
+#include "integration/simulation_of.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
@@ -23,9 +24,9 @@ SetupTime measure_once(const GeneratedCase& generated) {
   const CpuTimer setup;
   const Problem problem = load_problem(generated.urdf, {}, generated.study);
   time.setup = setup.seconds();
-  time.bodies = problem.system()->layout().bodies;
+  time.bodies = system_of(problem)->layout().bodies;
   const CpuTimer step;
-  Simulation simulation(problem.system(), problem.parameters());
+  Simulation simulation = simulation_of(system_of(problem), problem.parameters());
   Status status = simulation.start();
   if (status.ok()) status = simulation.advance(1e-6);
   if (!status.ok()) throw std::runtime_error(status.cause);

@@ -7,6 +7,7 @@
 #include "benchmark/slider_crank.h"
 #include "benchmark/work_precision.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -50,7 +51,7 @@ Contestant simbody(const Eigen::VectorXd& rho, const ReferenceValues& reference)
 void measure_simbody(Report* report) {
   const Problem problem = with_dry_friction(load_slider_crank());
   const Problem tight = *with_solver(problem, "rodas5p", 1e-10);
-  const Evaluation evaluation = Evaluator(tight.system()).evaluate(tight.start(), true);
+  const Evaluation evaluation = Evaluator(tight).evaluate(tight.start(), true);
   if (!evaluation.status.ok()) throw std::runtime_error(evaluation.status.cause);
   const ReferenceValues reference{evaluation.objective, evaluation.gradient};
   const Eigen::VectorXd rho = problem.start();

@@ -6,6 +6,7 @@
 #include "description/solver_options.h"
 #include "description/study.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -45,7 +46,7 @@ Problem load_slider_crank() { return load_problem(read_source(kUrdf), {}, read_s
 
 std::optional<Problem> with_solver(const Problem& problem, const std::string& name,
                                    double relative_tolerance) {
-  Study changed = problem.study();
+  Study changed = study_of(problem);
   changed.solver.coordinates =
       CoordinatesKind::kAbsolute;  // the formulation of the paper and of the other codes
   changed.solver.integrator = name == "idas" ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
@@ -66,8 +67,8 @@ Problem with_tuned(const Problem& problem, int tuned) {
       replaced(read_source(kStudy).text, "  Kp: {", "}\n",
                "  crank_mass: {}\n  rod_mass: {}\n  slider_mass: {}\n  Kp: {initial: 1.0}\n")};
   const Problem more = load_problem(problem.urdf(), {{"masses", kMasses}}, study);
-  Study changed = more.study();
-  changed.solver = problem.study().solver;
+  Study changed = study_of(more);
+  changed.solver = study_of(problem).solver;
   changed.tuned.resize(static_cast<std::size_t>(tuned));
   return with_study(more, std::move(changed));
 }

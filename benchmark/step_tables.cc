@@ -6,6 +6,7 @@
 #include "benchmark/slider_crank.h"
 #include "benchmark/timing.h"
 #include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kInstant = 0.3, kStepSize = 1e-3, kTolerance = 1e-6;
 
 void add_pieces(const Problem& problem, Report* report) {
-  StepProbe probe(problem.system(), kInstant, kStepSize);
+  StepProbe probe(system_of(problem), kInstant, kStepSize);
   if (!probe.status().ok()) throw std::runtime_error(probe.status().cause);
   const auto rewind = [&probe] { probe.rewind(); };
   const std::vector<double> seconds =
@@ -51,7 +52,7 @@ void add_pieces(const Problem& problem, Report* report) {
 
 /// What the equations cost where there is no machine code.
 void add_interpreter(const Problem& problem, Report* report) {
-  StepProbe probe(problem.system(), kInstant, kStepSize);
+  StepProbe probe(system_of(problem), kInstant, kStepSize);
   if (!probe.status().ok()) throw std::runtime_error(probe.status().cause);
   const std::vector<double> seconds = median_cpu_seconds(
       {make_job("residual", [&probe] { probe.residual(); }),

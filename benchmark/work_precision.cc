@@ -67,7 +67,7 @@ Contestant own_solver(const Problem& problem, const std::string& name,
       name,
       [problem, name, reference](double tolerance, bool with_gradient) -> std::function<Outcome()> {
         const Problem changed = *with_solver(problem, name, tolerance);
-        const auto evaluator = std::make_shared<Evaluator>(changed.system());
+        const auto evaluator = std::make_shared<Evaluator>(changed);
         return [evaluator, reference, rho = changed.start(), with_gradient] {
           const Evaluation e = evaluator->evaluate(rho, with_gradient);
           return e.status.ok() ? outcome_of(reference, with_gradient, e.objective, e.gradient,

@@ -8,6 +8,7 @@
 #include "benchmark/slider_crank.h"
 #include "benchmark/sundials_peer.h"
 #include "benchmark/work_precision.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -30,7 +31,7 @@ Contestant sundials(const Problem& problem, const std::string& name, SundialsMat
   return {name,
           [problem, matrix, reference](double tolerance,
                                        bool with_gradient) -> std::function<Outcome()> {
-            const auto peer = std::make_shared<SundialsPeer>(problem.system(), matrix);
+            const auto peer = std::make_shared<SundialsPeer>(system_of(problem), matrix);
             return [peer, reference, tolerance, with_gradient] {
               const SundialsResult r = peer->run(tolerance, with_gradient);
               return r.ok ? outcome_of(reference, with_gradient, r.psi, r.gradient, r.steps)

@@ -50,7 +50,6 @@ struct Evaluation {
 class Evaluator {
  public:
   explicit Evaluator(const Problem& problem);
-  explicit Evaluator(std::shared_ptr<const CompiledSystem> system);
   ~Evaluator();
   Evaluator(Evaluator&&) noexcept;
   Evaluator& operator=(Evaluator&&) noexcept;
@@ -72,7 +71,10 @@ class Evaluator {
                              const std::atomic<bool>* cancel = nullptr);
 
  private:
+  friend struct EvaluatorMaker;
   class Implementation;
+  explicit Evaluator(std::unique_ptr<Implementation> implementation);
+
   std::unique_ptr<Implementation> implementation_;
 };
 
@@ -105,9 +107,6 @@ struct GradientCheck {
 /// kRidders, and its differences come from runs with `rosenbrock`, so that the two integrators
 /// check each other.
 GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
-                             const std::atomic<bool>* cancel = nullptr);
-GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system,
-                             const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace codesign

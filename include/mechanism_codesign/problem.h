@@ -14,24 +14,16 @@
 
 namespace codesign {
 
-// Types of the library's own code. A caller holds pointers or references to them but does not read
-// them.
-class CompiledSystem;
-struct RobotDescription;
-struct Study;
-
 /// Parameter values that replace the values in model and study, by name, such as ("crank_length",
 /// 0.07). If a name occurs twice, the last entry counts.
 using ParameterSettings = std::vector<std::pair<std::string, double>>;
+
+struct ProblemContents;
 
 /// A mechanism and a study, read and compiled: the input of simulations, gradients and
 /// optimizations. Immutable, thread-safe, and cheap to copy: copies share their contents.
 class Problem {
  public:
-  struct Contents;
-  /// For the library's own code; use load_problem().
-  explicit Problem(std::shared_ptr<const Contents> contents) : contents_(std::move(contents)) {}
-
   /// The model's URDF text, its overlays in the order of their application, and the study's text
   /// (empty without a study).
   const SourceText& urdf() const;
@@ -63,14 +55,12 @@ class Problem {
   /// The study's block `optimizer:`.
   const OptimizerOptions& optimizer_options() const;
 
-  /// For the library's own code.
-  const RobotDescription& robot() const;
-  const Study& study() const;
-  const std::shared_ptr<const CompiledSystem>& system() const;
-  const Contents& contents() const { return *contents_; }
-
  private:
-  std::shared_ptr<const Contents> contents_;
+  friend struct ProblemContents;
+  explicit Problem(std::shared_ptr<const ProblemContents> contents)
+      : contents_(std::move(contents)) {}
+
+  std::shared_ptr<const ProblemContents> contents_;
 };
 
 /// Reads model, overlays and study, replaces parameter values by `settings` and compiles the

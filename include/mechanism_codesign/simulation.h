@@ -15,8 +15,6 @@
 
 namespace codesign {
 
-struct SignalDescription;
-
 /// From when on a run's steps were taken by another method.
 struct MethodChange {
   double time = 0.0;        ///< [s]
@@ -34,10 +32,6 @@ class Simulation {
   /// @throws InputError for a signal that does not exist or cannot be read.
   Simulation(const Problem& problem, const std::vector<double>& parameters,
              const std::vector<std::string>& signals = {});
-  /// For the library's own code: with a compiled system and parsed signals.
-  Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters,
-             const std::vector<SignalDescription>& signals);
-  Simulation(std::shared_ptr<const CompiledSystem> system, const std::vector<double>& parameters);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -91,7 +85,10 @@ class Simulation {
   const Warnings& warnings() const;
 
  private:
+  friend struct SimulationMaker;
   class Implementation;
+  explicit Simulation(std::unique_ptr<Implementation> implementation);
+
   std::unique_ptr<Implementation> implementation_;
 };
 

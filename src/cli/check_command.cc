@@ -5,9 +5,11 @@
 #include "cli/inputs.h"
 #include "cli/recordings.h"
 #include "cli/report.h"
+#include "integration/simulation_of.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/table.h"
@@ -59,7 +61,7 @@ void print_table(const Counts& counts, std::ostream& out) {
 /// The limits that the start exceeds.
 std::vector<LimitCrossing> crossings_at_start(const Problem& problem,
                                               const std::vector<double>& parameters) {
-  Simulation simulation(problem.system(), parameters);
+  Simulation simulation = simulation_of(system_of(problem), parameters);
   LimitWatch watch(problem, parameters, simulation.names());
   Frame frame;
   if (!simulation.start().ok()) return {};
@@ -74,7 +76,7 @@ int check(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments, &console);
   const std::vector<double> parameters = problem.parameters();
   Status status;
-  const Counts counts = count_equations(*problem.system(), parameters, &status);
+  const Counts counts = count_equations(*system_of(problem), parameters, &status);
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
   Warnings of_recordings;
   const std::vector<RecordingSummary> recordings =
@@ -85,11 +87,11 @@ int check(const Arguments& arguments, const Console& console) {
     print_recordings(recordings, console.out);
   }
   Json object;
-  object["model"] = problem.robot().name;
+  object["model"] = robot_of(problem).name;
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = to_json(counts);
   object["limits_exceeded"] = to_json(crossings);
-  if (problem.study().identification) object["recordings"] = to_json(recordings);
+  if (study_of(problem).identification) object["recordings"] = to_json(recordings);
   add_warnings(arguments, problem, of_recordings, &object, console);
   return finish(arguments, status, std::move(object), console);
 }
@@ -97,11 +99,11 @@ int check(const Arguments& arguments, const Console& console) {
 int urdf(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments);
   std::string text = write_tuned_urdf(problem.urdf(), problem.overlays(), problem.parameters(),
-                                      std::nullopt, problem.robot().laws);
+                                      std::nullopt, robot_of(problem).laws);
   if (arguments.sticks) text = with_sticks(text);
   if (!arguments.json) console.out << text;
   Json object;
-  object["model"] = problem.robot().name;
+  object["model"] = robot_of(problem).name;
   object["parameters"] = parameters_json(problem, problem.parameters());
   object["urdf"] = text;
   add_warnings(arguments, problem, {}, &object, console);

@@ -8,6 +8,7 @@
 #include "cli/series.h"
 #include "jobs/effort_recorder.h"
 #include "mechanism/signal_catalog.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 #include "text/table.h"
 
@@ -48,9 +49,9 @@ void print_needs(const EffortSummary& summary, bool is_motion, std::ostream& out
 /// Along a motion default_signals() that are not among the columns; in postures nothing slides.
 std::vector<std::string> standard_signals(const Problem& problem) {
   std::vector<std::string> signals;
-  if (!problem.study().grid.empty()) return signals;
+  if (!study_of(problem).grid.empty()) return signals;
   const std::vector<std::string> columns = effort_columns(problem, {});
-  for (const std::string& signal : default_signals(problem.robot(), {}))
+  for (const std::string& signal : default_signals(robot_of(problem), {}))
     if (std::find(columns.begin(), columns.end(), signal) == columns.end())
       signals.push_back(signal);
   return signals;
@@ -68,7 +69,7 @@ int efforts(const Arguments& arguments, const Console& console) {
       problem, problem.parameters(), signals, arguments.samples,
       [&](const std::vector<double>& row) { output.add(row); }, &console.cancel);
   if (summary.status.ok())
-    print_needs(summary, problem.study().grid.empty(), progress_of(arguments, console));
+    print_needs(summary, study_of(problem).grid.empty(), progress_of(arguments, console));
   Json object;
   if (arguments.json) {
     object["parameters"] = parameters_json(problem, problem.parameters());
@@ -77,7 +78,7 @@ int efforts(const Arguments& arguments, const Console& console) {
     object["unreachable"] = summary.unreachable;
     object["series"] = output.json();
   }
-  add_warnings(arguments, problem, warn_of_open_reactions(*problem.system(), signals), &object,
+  add_warnings(arguments, problem, warn_of_open_reactions(*system_of(problem), signals), &object,
                console);
   return finish(arguments, summary.status, std::move(object), console);
 }

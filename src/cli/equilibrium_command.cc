@@ -8,6 +8,7 @@
 #include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/run_recorder.h"
+#include "problem/load_problem.h"
 #include "statics/equilibrium.h"
 #include "text/number_text.h"
 #include "text/table.h"
@@ -69,9 +70,9 @@ Json modes_json(const Equilibrium& found) {
 int equilibrium(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments, &console);
   const std::vector<SignalDescription> signals =
-      select_signals(arguments, problem, problem.study().controllers, {});
+      select_signals(arguments, problem, study_of(problem).controllers, {});
   const Equilibrium found =
-      find_equilibrium(*problem.system(), problem.parameters(), signals, &console.cancel);
+      find_equilibrium(*system_of(problem), problem.parameters(), signals, &console.cancel);
   LimitWatch limits(problem, problem.parameters(), found.names);
   if (found.status.ok()) limits.observe(found.frame);
   if (found.status.ok() && !arguments.json) {
@@ -89,7 +90,7 @@ int equilibrium(const Arguments& arguments, const Console& console) {
     object["limits_exceeded"] = to_json(limits.crossings());
     object["steps"] = found.steps;
   }
-  add_warnings(arguments, problem, warn_of_open_reactions(*problem.system(), signals), &object,
+  add_warnings(arguments, problem, warn_of_open_reactions(*system_of(problem), signals), &object,
                console);
   return finish(arguments, found.status, std::move(object), console);
 }

@@ -13,6 +13,7 @@
 #include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/recording_records.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 #include "text/table.h"
 
@@ -55,7 +56,7 @@ void print_limits(const ExcitationResult& result, std::ostream& out) {
 
 void print_excitation(const Problem& problem, const ExcitationResult& result, std::ostream& out) {
   for (const std::string& sentence : excitation_sentences(result)) out << sentence << '\n';
-  print_predictions(result, problem.study().identification->intervals.level, out);
+  print_predictions(result, study_of(problem).identification->intervals.level, out);
   print_limits(result, out);
   out << result.termination << " after " << result.starts.size() << " searches, "
       << result.evaluations << " evaluations, " << readable(result.cpu_seconds)
@@ -64,7 +65,7 @@ void print_excitation(const Problem& problem, const ExcitationResult& result, st
 
 Problem load_excitable(const Arguments& arguments, const Console& console) {
   Problem problem = load(arguments, &console);
-  if (!problem.study().excitation)
+  if (!study_of(problem).excitation)
     throw InputError(
         {{arguments.study, 1}, "excite", "the study has no joints to move", "", "a block excite"});
   return problem;

@@ -15,6 +15,7 @@
 #include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/trial_lines.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 #include "text/table.h"
 
@@ -50,7 +51,7 @@ void print_combinations(const IdentificationResult& result, double level, std::o
 
 void print_result(const Problem& problem, const IdentificationResult& result, std::ostream& out) {
   for (const std::string& sentence : identification_sentences(result)) out << sentence << '\n';
-  const double level = problem.study().identification->intervals.level;
+  const double level = study_of(problem).identification->intervals.level;
   print_numbers(result, level, out);
   print_combinations(result, level, out);
   out << result.termination << " after " << result.iterations << " iterations, "

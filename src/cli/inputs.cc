@@ -6,6 +6,7 @@
 #include "jobs/saved_result.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
@@ -40,14 +41,14 @@ Problem load(const Arguments& arguments, const Console* console) {
 Problem load_tunable(const Arguments& arguments, const Console* console) {
   Problem problem = load(arguments, console);
   require_objective(problem);
-  require_tuned(problem.study());
+  require_tuned(study_of(problem));
   return problem;
 }
 
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem) {
-  const std::vector<ControllerDescription>& controllers = problem.study().controllers;
+  const std::vector<ControllerDescription>& controllers = study_of(problem).controllers;
   return select_signals(arguments, problem, controllers,
-                        default_signals(problem.robot(), controllers));
+                        default_signals(robot_of(problem), controllers));
 }
 
 std::vector<SignalDescription> select_signals(const Arguments& arguments, const Problem& problem,
@@ -56,7 +57,7 @@ std::vector<SignalDescription> select_signals(const Arguments& arguments, const 
   std::vector<SignalDescription> signals;
   for (const std::string& text : arguments.signals.empty() ? standard : arguments.signals) {
     signals.push_back(parse_signal(text, {"command line", 0}, "--signals"));
-    check_signal(signals.back(), problem.robot(), controllers, "--signals");
+    check_signal(signals.back(), robot_of(problem), controllers, "--signals");
   }
   return signals;
 }

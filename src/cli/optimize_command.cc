@@ -14,6 +14,7 @@
 #include "math/arrays.h"
 #include "optimization/result_report.h"
 #include "optimization/search_hooks.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 namespace {
@@ -25,7 +26,7 @@ void print_lines(const std::vector<std::string>& sentences, const Console& conso
 
 /// A sentence if more processes were started than can have work.
 std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ranks) {
-  const EnsembleDescription& ensemble = problem.study().ensemble;
+  const EnsembleDescription& ensemble = study_of(problem).ensemble;
   if (ranks == nullptr || ranks->ranks() == 1 || ensemble.is_ensemble() ||
       ensemble.multistart.starts > 0)
     return {};
@@ -37,7 +38,7 @@ std::vector<std::string> idle_ranks(const Problem& problem, const Dispatcher* ra
 
 int optimize(const Arguments& arguments, const Console& console) {
   const Problem problem = load_tunable(arguments, &console);
-  require_engine(problem.study().ensemble.engine, console.ranks);
+  require_engine(study_of(problem).ensemble.engine, console.ranks);
   print_lines(idle_ranks(problem, console.ranks), console);
   std::optional<JobFolder> folder;
   if (!arguments.output.empty()) {
@@ -52,7 +53,7 @@ int optimize(const Arguments& arguments, const Console& console) {
     if (stages.admits_now()) shown << progress_line(so_far) << std::endl;
   };
   ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
-  TrialLines lines(problem.study());
+  TrialLines lines(study_of(problem));
   const auto observer = [&](const Trial& trial) {
     // Before the lock: the meter calls `progress`, which takes it.
     const Progress now = meter.now();

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "identification/effort/effort_doubts.h"
+#include "problem/load_problem.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 #include "text/table.h"
@@ -14,14 +15,14 @@ StudyRecordings read_recordings(const Problem& problem, const Console& console,
                                 Warnings* warnings) {
   const std::string folder =
       std::filesystem::absolute(problem.study_text().name).parent_path().string();
-  return load_recordings(*problem.study().identification, problem.robot(), folder, console.bags,
+  return load_recordings(*study_of(problem).identification, robot_of(problem), folder, console.bags,
                          warnings);
 }
 
 std::vector<RecordingSummary> check_recordings(const Problem& problem, const Console& console,
                                                Warnings* warnings) {
   std::vector<RecordingSummary> summaries;
-  const std::optional<IdentificationDescription>& identification = problem.study().identification;
+  const std::optional<IdentificationDescription>& identification = study_of(problem).identification;
   if (!identification) return summaries;
   const StudyRecordings recordings = read_recordings(problem, console, warnings);
   for (const std::vector<JointRecording>* list : {&recordings.data, &recordings.holdout})

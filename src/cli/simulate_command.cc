@@ -9,20 +9,21 @@
 #include "cli/series.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
 
 void summarize(const RunSummary& run, const Problem& problem, std::ostream& err) {
-  if (problem.study().postures > 0) {
-    err << "assembled " << problem.study().postures << " postures, "
+  if (study_of(problem).postures > 0) {
+    err << "assembled " << study_of(problem).postures << " postures, "
         << readable(run.statistics.cpu_seconds) << " s of processor time, set-up "
         << readable(problem.setup_seconds()) << " s" << std::endl;
     for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
     return;
   }
-  const double duration = problem.study().duration, setup_seconds = problem.setup_seconds();
+  const double duration = study_of(problem).duration, setup_seconds = problem.setup_seconds();
   err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps ("
       << run.statistics.rejected_steps << " rejected), " << readable(run.statistics.cpu_seconds)
       << " s of processor time, set-up " << readable(setup_seconds) << " s" << std::endl;
@@ -38,17 +39,17 @@ void summarize(const RunSummary& run, const Problem& problem, std::ostream& err)
 /// if sensitivities take part in the error test, a search has other steps.
 void add_objective(const Problem& problem, bool as_searched, const std::optional<double>& of_run,
                    const Console& console, Status* status, Json* object) {
-  if (!status->ok() || !has_objective(problem.study())) return;
-  const SolverOptions& solver = problem.study().solver;
+  if (!status->ok() || !has_objective(study_of(problem))) return;
+  const SolverOptions& solver = study_of(problem).solver;
   const bool has_other_steps =
       solver.integrator == IntegratorKind::kIdas || solver.sensitivity_tolerance > 0.0;
-  const bool with_gradient = as_searched && has_other_steps && !problem.study().tuned.empty();
+  const bool with_gradient = as_searched && has_other_steps && !study_of(problem).tuned.empty();
   if (of_run && std::isfinite(*of_run) && !with_gradient) {
     (*object)["objective"] = *of_run;
     return;
   }
   const Evaluation evaluation =
-      Evaluator(problem.system()).evaluate(problem.start(), with_gradient, &console.cancel);
+      Evaluator(problem).evaluate(problem.start(), with_gradient, &console.cancel);
   if (evaluation.status.ok())
     (*object)["objective"] = evaluation.objective;
   else
@@ -87,7 +88,7 @@ int simulate(const Arguments& arguments, const Console& console) {
     add_run(problem, run, counts, output.json(), &object);
   }
   Warnings warnings = run.warnings;
-  append(warn_of_open_reactions(*problem.system(), signals), &warnings);
+  append(warn_of_open_reactions(*system_of(problem), signals), &warnings);
   add_warnings(arguments, problem, warnings, &object, console);
   return finish(arguments, run.status, std::move(object), console);
 }

@@ -8,6 +8,7 @@
 #include "engine/mpi_engine.h"
 #include "engine/thread_engine.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -31,7 +32,7 @@ void require_engine(const EngineOptions& options, const Dispatcher* ranks) {
 
 std::unique_ptr<EvaluationEngine> make_engine(const Problem& problem, std::int64_t most_useful,
                                               Dispatcher* ranks) {
-  const EngineOptions& options = problem.study().ensemble.engine;
+  const EngineOptions& options = study_of(problem).ensemble.engine;
   require_engine(options, ranks);
   if (most_useful > 1 && ranks != nullptr && ranks->ranks() > 1)
     return std::make_unique<MpiEngine>(ranks, problem);

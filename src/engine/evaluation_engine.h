@@ -13,6 +13,8 @@
 
 namespace codesign {
 
+class CompiledSystem;
+
 /// One requested evaluation: a run of a compiled study at one design.
 struct EvaluationTask {
   std::shared_ptr<const CompiledSystem> system;

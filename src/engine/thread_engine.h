@@ -12,6 +12,7 @@
 
 #include "description/ensemble.h"
 #include "engine/evaluation_engine.h"
+#include "sensitivity/gradient_check.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -30,7 +31,9 @@ class EvaluationWorker {
   Evaluation compute(const std::shared_ptr<const CompiledSystem>& system,
                      const std::vector<double>& parameters, Derivatives derivatives,
                      const std::atomic<bool>* cancel) {
-    const auto [place, is_new] = evaluators_.try_emplace(system.get(), system);
+    auto place = evaluators_.find(system.get());
+    if (place == evaluators_.end())
+      place = evaluators_.emplace(system.get(), evaluator_of(system)).first;
     return place->second.evaluate_design(parameters, derivatives, cancel);
   }
 

@@ -8,6 +8,7 @@
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "math/dense.h"
+#include "problem/load_problem.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
 
@@ -58,7 +59,7 @@ Ensemble::Ensemble(std::vector<Scenario> scenarios, const RobustOptions& options
 }
 
 Ensemble::Ensemble(const Problem& problem, int designs, EngineRecords records)
-    : Ensemble(make_scenarios(problem), problem.study().ensemble.robust_options(), nullptr) {
+    : Ensemble(make_scenarios(problem), study_of(problem).ensemble.robust_options(), nullptr) {
   const auto most_useful = designs * static_cast<std::int64_t>(scenarios_.size());
   std::unique_ptr<EvaluationEngine> engine = make_engine(problem, most_useful, records.ranks);
   engine_ = with_records(std::move(engine), std::move(records));

@@ -6,6 +6,7 @@
 
 #include "engine/evaluation_engine.h"
 #include "ensemble/scenario.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 

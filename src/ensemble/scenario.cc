@@ -5,6 +5,7 @@
 
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "sampling/samples.h"
 
 namespace codesign {
@@ -38,7 +39,7 @@ void take_sample(const std::vector<UncertainQuantity>& uncertain, const std::vec
 
 std::vector<Scenario> combine(const Problem& problem,
                               const std::vector<std::vector<double>>& samples) {
-  const Study& study = problem.study();
+  const Study& study = study_of(problem);
   const std::vector<RunDescription> runs = runs_of(study);
   double sum = 0.0;
   for (const RunDescription& run : runs) sum += run.weight;
@@ -83,7 +84,7 @@ std::string scenario_name(const std::string& run, int sample) {
 }
 
 std::vector<Scenario> make_scenarios(const Problem& problem) {
-  const EnsembleDescription& ensemble = problem.study().ensemble;
+  const EnsembleDescription& ensemble = study_of(problem).ensemble;
   const RobustOptions options = ensemble.robust_options();
   // A single sample is the nominal one.
   if (ensemble.uncertain.empty() || options.samples == 1) return combine(problem, {});
@@ -91,7 +92,7 @@ std::vector<Scenario> make_scenarios(const Problem& problem) {
 }
 
 std::vector<Scenario> make_validation_scenarios(const Problem& problem, int count) {
-  const EnsembleDescription& ensemble = problem.study().ensemble;
+  const EnsembleDescription& ensemble = study_of(problem).ensemble;
   const RobustOptions options = ensemble.robust_options();
   if (ensemble.uncertain.empty()) return combine(problem, {});
   return combine(problem, draw(ensemble.uncertain, options.sampler, count, options.seed + kFresh));

@@ -29,17 +29,17 @@ constexpr double kInsideLimits = 0.99;  // a search begins within this share of 
 
 /// Positions of the excited joints at the study's start.
 Eigen::VectorXd start_positions(const Problem& problem, const std::vector<MeasuredJoint>& joints) {
-  StartWorkspace start(*problem.system(), problem.parameters());
+  StartWorkspace start(*system_of(problem), problem.parameters());
   if (Status status = start.solve_positions(); !status.ok())
-    throw InputError({{problem.study().file, 0},
+    throw InputError({{study_of(problem).file, 0},
                       "initial_state",
                       status.cause,
                       "",
                       "a start that can be assembled"});
   Eigen::VectorXd positions(to_signed(joints.size()));
   for (std::size_t k = 0; k < joints.size(); ++k)
-    for (std::size_t joint = 0; joint < problem.robot().joints.size(); ++joint)
-      if (problem.robot().joints[joint].name == joints[k].name)
+    for (std::size_t joint = 0; joint < robot_of(problem).joints.size(); ++joint)
+      if (robot_of(problem).joints[joint].name == joints[k].name)
         positions[to_signed(k)] = start.assembly.theta()[start.assembly.tree().offset[joint]];
   return positions;
 }
@@ -57,16 +57,16 @@ class Excitation {
   Excitation(const Problem& problem, const ExcitationObserver& observer,
              const std::atomic<bool>* cancel)
       : problem_(problem),
-        description_(*problem.study().excitation),
+        description_(*study_of(problem).excitation),
         observer_(observer),
         cancel_(cancel),
         limits_(motion_limits(problem)),
-        variables_(problem.study(), &problem.robot()),
+        variables_(study_of(problem), &robot_of(problem)),
         information_(variables_, names_of(limits_.joints), limits_.noise),
         start_(start_positions(problem, limits_.joints)),
         space_(description_, limits_, start_),
-        motion_(*problem.system(), limits_.joints, limits_.followers, problem.parameters(),
-                worker_threads(problem.study().ensemble.engine)),
+        motion_(*system_of(problem), limits_.joints, limits_.followers, problem.parameters(),
+                worker_threads(study_of(problem).ensemble.engine)),
         scan_(space_, limits_, &motion_),
         probe_(space_, limits_, information_, {}, &motion_) {}
 
@@ -212,7 +212,7 @@ void Excitation::predict_before() {
     number.is_determined = is_determined_[i];
     result_.numbers.push_back(std::move(number));
   }
-  const double level = problem_.study().identification->intervals.level;
+  const double level = study_of(problem_).identification->intervals.level;
   set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation_before,
               &PredictedNumber::half_before);
   result_.criterion_before = information_criterion(J, told_, nullptr);
@@ -273,7 +273,7 @@ void Excitation::conclude() {
   Eigen::MatrixXd J;
   result_.status = record(best_, &result_.points, &J);
   if (!result_.status.ok()) return;
-  const double level = problem_.study().identification->intervals.level;
+  const double level = study_of(problem_).identification->intervals.level;
   set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation,
               &PredictedNumber::half);
   result_.rest = space_.rest(best_);

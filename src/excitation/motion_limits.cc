@@ -9,6 +9,7 @@
 #include "description/study.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -71,7 +72,7 @@ void add_signals(const JointDescription& joint, const Ranges& ranges, bool is_fo
 }
 
 void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimits* limits) {
-  const RobotDescription& robot = problem.robot();
+  const RobotDescription& robot = robot_of(problem);
   const JointDescription& joint = robot.joints[to_index(joint_named(robot, excited.limits.joint))];
   const Ranges ranges = ranges_of(joint, problem.parameters(), &excited.limits);
   require_room(joint, ranges, excited.limits.where, excited.limits.element);
@@ -84,16 +85,16 @@ void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimi
 }
 
 void add_follower(const Problem& problem, std::size_t index, MotionLimits* limits) {
-  const JointDescription& joint = problem.robot().joints[index];
+  const JointDescription& joint = robot_of(problem).joints[index];
   if (joint.is_loop || !has_one_coordinate(joint.type)) return;
-  const std::vector<MotionLimitDescription>& described = problem.study().excitation->followers;
+  const std::vector<MotionLimitDescription>& described = study_of(problem).excitation->followers;
   const auto more =
       std::find_if(described.begin(), described.end(),
                    [&](const MotionLimitDescription& one) { return one.joint == joint.name; });
   const bool is_described = more != described.end();
   for (const MeasuredJoint& excited : limits->joints)
     if (excited.name == joint.name) return;
-  if (problem.system()->topology().joint_pair[index] < 0) {
+  if (system_of(problem)->topology().joint_pair[index] < 0) {
     if (is_described)
       throw InputError(
           {more->where, more->element, "the joint moves no mass", joint.name, "joints that do"});
@@ -117,13 +118,13 @@ const LimitedSignal* MotionLimits::find(Eigen::Index joint, LimitedSignal::Kind 
 
 MotionLimits motion_limits(const Problem& problem) {
   MotionLimits limits;
-  const std::vector<ExcitedJoint>& excited = problem.study().excitation->joints;
+  const std::vector<ExcitedJoint>& excited = study_of(problem).excitation->joints;
   limits.noise.resize(to_signed(excited.size()));
   for (std::size_t k = 0; k < excited.size(); ++k) {
     add_excited(problem, excited[k], &limits);
     limits.noise[to_signed(k)] = excited[k].noise;
   }
-  for (std::size_t index = 0; index < problem.robot().joints.size(); ++index)
+  for (std::size_t index = 0; index < robot_of(problem).joints.size(); ++index)
     add_follower(problem, index, &limits);
   return limits;
 }

@@ -23,10 +23,10 @@ std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
                                                     const std::vector<MeasuredJoint>& joints,
                                                     const std::vector<JointRecording>& recordings,
                                                     Warnings* warnings) {
-  const IdentificationDescription& options = *problem.study().identification;
-  const int threads = worker_threads(problem.study().ensemble.engine);
+  const IdentificationDescription& options = *study_of(problem).identification;
+  const int threads = worker_threads(study_of(problem).ensemble.engine);
   if (options.residual == ResidualKind::kMotion)
-    return std::make_unique<MotionResiduals>(*problem.system(), variables, options, joints,
+    return std::make_unique<MotionResiduals>(*system_of(problem), variables, options, joints,
                                              recordings, threads, warnings);
   require_efforts(joints, recordings);
   const FilterOptions& filter = options.filter;
@@ -34,8 +34,8 @@ std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
   motions.reserve(recordings.size());
   for (const JointRecording& recording : recordings)
     motions.push_back(measured_motion(recording, filter, warnings));
-  return std::make_unique<EffortResiduals>(*problem.system(), variables, joints, std::move(motions),
-                                           filter, threads);
+  return std::make_unique<EffortResiduals>(*system_of(problem), variables, joints,
+                                           std::move(motions), filter, threads);
 }
 
 /// Recordings with the same values of parameters have one model.
@@ -55,7 +55,7 @@ std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
       return !has_same_settings(other, *begin);
     });
     auto variables_of =
-        std::make_unique<FitVariables>(problem.study(), &problem.robot(), begin->settings);
+        std::make_unique<FitVariables>(study_of(problem), &robot_of(problem), begin->settings);
     auto residuals = residuals_alike(problem, *variables_of, joints, {begin, end}, warnings);
     parts.push_back({std::move(variables_of), std::move(residuals)});
     begin = end;
@@ -72,7 +72,7 @@ FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
     fit.prior = prior;
     fit.known = fit.start;
   }
-  fit.loss = problem.study().identification->loss;
+  fit.loss = study_of(problem).identification->loss;
   fit.max_evaluations = problem.optimizer_options().max_evaluations;
   fit.relative_tolerance = problem.optimizer_options().relative_tolerance;
   return fit;
@@ -114,7 +114,7 @@ Warnings warnings_of_unexplained(const Problem& problem,
                                  const std::vector<JointRecording>& recordings,
                                  const IdentificationResult& result,
                                  const std::atomic<bool>* cancel, Status* failure) {
-  const IdentificationDescription& options = *problem.study().identification;
+  const IdentificationDescription& options = *study_of(problem).identification;
   const bool is_doubtful =
       std::any_of(result.data.begin(), result.data.end(),
                   [](const OutputFit& fit) { return fit.explained < kExplainedHalf; });
@@ -145,8 +145,8 @@ void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
                 const std::atomic<bool>* cancel, IdentificationResult* result) {
   Status unexplained;
   Warnings found = warnings_of_unexplained(problem, data, *result, cancel, &unexplained);
-  append(warnings_of(*problem.study().identification, *result), &found);
-  append(unmet_constraints(problem.study(), result->parameters), &found);
+  append(warnings_of(*study_of(problem).identification, *result), &found);
+  append(unmet_constraints(study_of(problem), result->parameters), &found);
   append(result->warnings, &found);
   result->warnings = std::move(found);
   if (result->status.ok()) result->status = unexplained;
@@ -157,8 +157,8 @@ void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
 }  // namespace
 
 void require_identification(const Problem& problem) {
-  if (!problem.study().identification)
-    throw InputError({{problem.study().file, 1},
+  if (!study_of(problem).identification)
+    throw InputError({{study_of(problem).file, 1},
                       "identify",
                       "the study has no recordings to identify from",
                       "",
@@ -168,12 +168,12 @@ void require_identification(const Problem& problem) {
 IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings,
                               const FitObserver& observer, const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
-  const IdentificationDescription& options = *problem.study().identification;
+  const IdentificationDescription& options = *study_of(problem).identification;
   if (recordings.data.empty())
     throw InputError({options.where, "identify.data",
                       "the study has no recordings to identify from", "",
                       "at least one recording"});
-  const FitVariables variables(problem.study(), &problem.robot());
+  const FitVariables variables(study_of(problem), &robot_of(problem));
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
   all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
@@ -194,7 +194,7 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& rec
         result.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
     return result;
   }
-  const ResidualFit fit = fit_from_starts(limits, problem.study().ensemble.multistart, &residuals,
+  const ResidualFit fit = fit_from_starts(limits, study_of(problem).ensemble.multistart, &residuals,
                                           observer, &result.searches);
   result.status = fit.status;
   result.termination = fit.termination;

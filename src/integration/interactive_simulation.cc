@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/interactive_simulation.h"
+#include "integration/simulation_of.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,7 +16,7 @@ InteractiveSimulation::InteractiveSimulation(const CompiledSystem& of,
       signals_(signals),
       system_(std::make_shared<const CompiledSystem>(of.robot(), inputs_.study, of.sharing())),
       parameters_(of.parameters()),
-      simulation_(std::make_unique<Simulation>(system_, parameters_, signals_)),
+      simulation_(std::make_unique<Simulation>(simulation_of(system_, parameters_, signals_))),
       names_(simulation_->names()),
       courses_(inputs_.setpoints.size()) {
   names_.controllers.erase(names_.controllers.begin(),
@@ -30,7 +31,7 @@ Status InteractiveSimulation::start(const std::vector<double>& parameters) {
   now_ = 0.0;
   if (parameters != parameters_) {
     parameters_ = parameters;
-    simulation_ = std::make_unique<Simulation>(system_, parameters_, signals_);
+    simulation_ = std::make_unique<Simulation>(simulation_of(system_, parameters_, signals_));
     simulation_->obey(cancel_);
   }
   return simulation_->start();

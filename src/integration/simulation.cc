@@ -8,8 +8,10 @@
 #include "equations/compiled_system.h"
 #include "integration/integrator.h"
 #include "integration/run_ends.h"
+#include "integration/simulation_of.h"
 #include "math/cpu_timer.h"
 #include "observation/observer.h"
+#include "problem/load_problem.h"
 #include "text/cancel.h"
 
 namespace codesign {
@@ -120,16 +122,27 @@ class Simulation::Implementation {
   mutable Warnings warnings_;
 };
 
-Simulation::Simulation(std::shared_ptr<const CompiledSystem> system,
-                       const std::vector<double>& parameters,
-                       const std::vector<SignalDescription>& signals)
-    : implementation_(std::make_unique<Implementation>(std::move(system), parameters, signals)) {}
-Simulation::Simulation(std::shared_ptr<const CompiledSystem> system,
-                       const std::vector<double>& parameters)
-    : Simulation(std::move(system), parameters, std::vector<SignalDescription>()) {}
+struct SimulationMaker {
+  static Simulation make(std::shared_ptr<const CompiledSystem> system,
+                         const std::vector<double>& parameters,
+                         const std::vector<SignalDescription>& signals) {
+    return Simulation(
+        std::make_unique<Simulation::Implementation>(std::move(system), parameters, signals));
+  }
+};
+
+Simulation simulation_of(std::shared_ptr<const CompiledSystem> system,
+                         const std::vector<double>& parameters,
+                         const std::vector<SignalDescription>& signals) {
+  return SimulationMaker::make(std::move(system), parameters, signals);
+}
+
+Simulation::Simulation(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
 Simulation::Simulation(const Problem& problem, const std::vector<double>& parameters,
                        const std::vector<std::string>& signals)
-    : Simulation(problem.system(), parameters, parse_signals(signals)) {}
+    : Simulation(std::make_unique<Implementation>(system_of(problem), parameters,
+                                                  parse_signals(signals))) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -6,6 +6,7 @@
 
 #include "identification/effort/motion_projection.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "statics/posture_efforts.h"
 #include "statics/setpoint_motion.h"
 #include "text/cancel.h"
@@ -25,8 +26,8 @@ DrivenReplay replay_of(const Problem& problem, const SetpointMotion& motion,
                        const std::vector<double>& parameters,
                        const std::vector<SignalDescription>& signals) {
   try {
-    return DrivenReplay(*problem.system(), motion.joints(),
-                        motion.some_positions(problem.study().duration), parameters, signals);
+    return DrivenReplay(*system_of(problem), motion.joints(),
+                        motion.some_positions(study_of(problem).duration), parameters, signals);
   } catch (const InputError& error) {
     throw InputError(in_words_of_study(
         error.fault(), "controllers",
@@ -81,10 +82,10 @@ class MotionNeeds {
 EffortSummary record_motion(const Problem& problem, const std::vector<double>& parameters,
                             const std::vector<SignalDescription>& signals, int samples,
                             const RowSink& sink, const std::atomic<bool>* cancel) {
-  const double duration = problem.study().duration;
-  const SetpointMotion motion(problem.study(), parameters);
+  const double duration = study_of(problem).duration;
+  const SetpointMotion motion(study_of(problem), parameters);
   DrivenReplay replay = replay_of(problem, motion, parameters, signals);
-  LimitOptions enforced = problem.study().limits;
+  LimitOptions enforced = study_of(problem).limits;
   enforced.effort = false;  // no controller keeps it
   LimitWatch limits(problem, parameters, replay.names(), enforced);
   MotionNeeds needs(replay);
@@ -126,8 +127,8 @@ std::vector<DriveNeeds> posture_needs(const PostureGrid& grid) {
 EffortSummary record_postures(const Problem& problem, const std::vector<double>& parameters,
                               const std::vector<SignalDescription>& signals, const RowSink& sink,
                               const std::atomic<bool>* cancel) {
-  const PostureGrid& grid = problem.study().grid;
-  PostureStatics statics(*problem.system(), grid, parameters, signals);
+  const PostureGrid& grid = study_of(problem).grid;
+  PostureStatics statics(*system_of(problem), grid, parameters, signals);
   EffortSummary summary;
   summary.drives = posture_needs(grid);
   std::vector<PostureEffort> efforts;
@@ -173,13 +174,13 @@ std::vector<std::string> effort_columns(const Problem& problem,
   const auto add = [&](const std::string& joint, const std::vector<const char*>& quantities) {
     for (const char* quantity : quantities) columns.push_back(joint + "/" + quantity);
   };
-  const PostureGrid& grid = problem.study().grid;
+  const PostureGrid& grid = study_of(problem).grid;
   for (const GridJoint& joint : grid) add(joint.joint, {"position"});
   for (const GridJoint& joint : grid)
     add(joint.joint, {"effort", "breakaway_down", "breakaway_up", "holding"});
   if (grid.empty()) {
     columns.emplace_back("time");
-    const SetpointMotion motion(problem.study(), problem.parameters());
+    const SetpointMotion motion(study_of(problem), problem.parameters());
     for (const MeasuredJoint& joint : motion.joints())
       add(joint.name, {"position", "velocity", "acceleration", "effort"});
   }
@@ -190,7 +191,7 @@ std::vector<std::string> effort_columns(const Problem& problem,
 EffortSummary record_efforts(const Problem& problem, const std::vector<double>& parameters,
                              const std::vector<SignalDescription>& signals, int samples,
                              const RowSink& sink, const std::atomic<bool>* cancel) {
-  return problem.study().grid.empty()
+  return study_of(problem).grid.empty()
              ? record_motion(problem, parameters, signals, samples, sink, cancel)
              : record_postures(problem, parameters, signals, sink, cancel);
 }

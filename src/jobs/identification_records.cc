@@ -135,7 +135,7 @@ std::string residuals_text(const IdentificationResult& result) {
 
 std::string identified_urdf(const Problem& problem, const IdentificationResult& result) {
   return write_tuned_urdf(problem.urdf(), problem.overlays(), result.parameters, std::nullopt,
-                          problem.robot().laws);
+                          robot_of(problem).laws);
 }
 
 constexpr int kDigits = 6;
@@ -154,7 +154,7 @@ std::string interval_text(const IdentifiedNumber& number) {
 std::string heading(const Problem& problem) {
   return "Identified by codesign identify, version " + std::string(version()) + ", from " +
          problem.study_text().name + "; intervals of " +
-         readable(100.0 * problem.study().identification->intervals.level) +
+         readable(100.0 * study_of(problem).identification->intervals.level) +
          " %. Give this file after the other overlays of the model.";
 }
 
@@ -193,7 +193,7 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
     object["identified"][number.name] = number_json(number);
     names.push_back(number.name);
   }
-  const IntervalOptions& intervals = problem.study().identification->intervals;
+  const IntervalOptions& intervals = study_of(problem).identification->intervals;
   object["level"] = intervals.level;
   object["noise"] = kNoiseNames[to_index(intervals.noise)];
   object["lag"] = result.lag;
@@ -284,7 +284,7 @@ IdentificationShow identification_show(const Problem& problem, const Identificat
 std::string identified_overlay(const Problem& problem, const IdentificationResult& result) {
   std::map<std::string, const IdentifiedNumber*> numbers;
   for (const IdentifiedNumber& number : result.numbers) numbers[number.name] = &number;
-  const std::vector<Parameter>& declared = problem.robot().parameters;
+  const std::vector<Parameter>& declared = robot_of(problem).parameters;
   std::vector<SetValue> values;
   for (std::size_t k = 0; k < declared.size(); ++k) {
     const auto found = numbers.find(declared[k].name);
@@ -297,7 +297,7 @@ std::string identified_overlay(const Problem& problem, const IdentificationResul
     }
     values.push_back(set);
   }
-  return write_set_overlay(problem.robot().name, heading(problem), values,
+  return write_set_overlay(robot_of(problem).name, heading(problem), values,
                            of_the_study(result, numbers));
 }
 

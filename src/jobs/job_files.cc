@@ -12,6 +12,7 @@
 #include "jobs/files.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -113,11 +114,11 @@ Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
 std::vector<std::string> input_files(const Problem& problem) {
   std::vector<std::string> paths = {problem.urdf().name, problem.study_text().name};
   for (const SourceText& overlay : problem.overlays()) paths.push_back(overlay.name);
-  for (const LoadedFile& file : problem.contents().files) paths.push_back(file.source.name);
+  for (const LoadedFile& file : contents_of(problem).files) paths.push_back(file.source.name);
   const fs::path folder = fs::absolute(problem.study_text().name).parent_path();
-  for (const LoadedTrajectory& trajectory : problem.contents().trajectories)
+  for (const LoadedTrajectory& trajectory : contents_of(problem).trajectories)
     paths.push_back(folder / trajectory.bag);
-  if (const auto& identification = problem.study().identification)
+  if (const auto& identification = study_of(problem).identification)
     for (const auto* recordings : {&identification->data, &identification->holdout})
       for (const RecordingDescription& recording : *recordings)
         paths.push_back(folder / recording.file);

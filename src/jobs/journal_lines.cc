@@ -8,6 +8,7 @@
 #include "jobs/json_records.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/version.h"
+#include "problem/load_problem.h"
 #include "text/fingerprint.h"
 #include "text/number_text.h"
 
@@ -47,7 +48,7 @@ std::string overlay_texts(const Problem& problem) {
 
 std::string trajectory_numbers(const Problem& problem) {
   std::string text;
-  for (const LoadedTrajectory& loaded : problem.contents().trajectories) {
+  for (const LoadedTrajectory& loaded : contents_of(problem).trajectories) {
     const RecordedTrajectory& recorded = loaded.trajectory;
     for (const auto* column :
          {&recorded.times, &recorded.positions, &recorded.velocities, &recorded.accelerations})
@@ -58,7 +59,8 @@ std::string trajectory_numbers(const Problem& problem) {
 
 std::string file_texts(const Problem& problem) {
   std::string text;
-  for (const LoadedFile& loaded : problem.contents().files) text += fingerprint(loaded.source.text);
+  for (const LoadedFile& loaded : contents_of(problem).files)
+    text += fingerprint(loaded.source.text);
   return text;
 }
 

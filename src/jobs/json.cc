@@ -2,6 +2,7 @@
 #include "jobs/json.h"
 
 #include "mechanism_codesign/version.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -17,7 +18,7 @@ Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& value
 
 Json parameters_json(const Problem& problem, const std::vector<double>& values) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : problem.study().parameters) names.push_back(parameter.name);
+  for (const Parameter& parameter : study_of(problem).parameters) names.push_back(parameter.name);
   return by_name(names, values);
 }
 

@@ -9,6 +9,7 @@
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
 #include "optimization/result_report.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -40,7 +41,7 @@ const char* bound_of(const Parameter& parameter, double value) {
 /// long as twenty.
 double expected_seconds(const Problem& problem, const OptimizationResult& result) {
   const double evaluations = std::max(1, result.cost.evaluations);
-  const double runs = problem.study().solver.integrator == IntegratorKind::kIdas ? 20.0 : 40.0;
+  const double runs = study_of(problem).solver.integrator == IntegratorKind::kIdas ? 20.0 : 40.0;
   const auto directions =
       static_cast<double>(std::min<Eigen::Index>(result.best.rho.size(), kCheckedDirections));
   return (2.0 + runs * directions) * result.cost.statistics.cpu_seconds / evaluations;
@@ -122,12 +123,12 @@ void add_outcome(const Problem& problem, const Warnings& of_run, const Status& s
 
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object) {
   Status status;
-  const Counts counts = count_equations(*problem.system(), parameters, &status);
+  const Counts counts = count_equations(*system_of(problem), parameters, &status);
   if (status.ok()) (*object)["counts"] = to_json(counts);
 }
 
 Json parameter_table(const Problem& problem, const OptimizationResult& result) {
-  const Study& study = problem.study();
+  const Study& study = study_of(problem);
   const std::vector<double> initial = problem.parameters(result.initial.rho),
                             tuned = problem.parameters(result.best.rho);
   Json table = Json::array();
@@ -155,7 +156,7 @@ Json gradient_check_json(const Problem& problem, const OptimizationResult& resul
       seconds > std::max(kUnnoticed, kShare * result.cost.statistics.cpu_seconds))
     return skipped("it would take about " + readable(std::ceil(seconds)) +
                    " s, more than a tenth of the search; codesign gradient --verify does it");
-  const bool by_differences = problem.study().solver.integrator == IntegratorKind::kIdas;
+  const bool by_differences = study_of(problem).solver.integrator == IntegratorKind::kIdas;
   const CheckMethod method = by_differences ? CheckMethod::kRidders : CheckMethod::kComplexStep;
   GradientCheck check;
   try {

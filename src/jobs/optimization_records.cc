@@ -11,6 +11,7 @@
 #include "jobs/shown_signals.h"
 #include "math/arrays.h"
 #include "optimization/result_report.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -70,7 +71,7 @@ bool is_law_uncertain(const OptimizationResult& result) {
 /// The margins of the constraints, by the text of the constraint.
 Json margins_json(const Problem& problem, const OptimizationResult& result) {
   std::vector<std::string> constraints;
-  for (const ParameterConstraint& constraint : problem.study().constraints)
+  for (const ParameterConstraint& constraint : study_of(problem).constraints)
     constraints.push_back(constraint.text);
   return by_name(constraints, result.constraints.margins);
 }
@@ -78,7 +79,7 @@ Json margins_json(const Problem& problem, const OptimizationResult& result) {
 /// The constraints among parameters, one object each; empty without any.
 Json constraints_json(const Problem& problem, const OptimizationResult& result) {
   Json list = Json::array();
-  for (const ParameterConstraint& constraint : problem.study().constraints) {
+  for (const ParameterConstraint& constraint : study_of(problem).constraints) {
     const double margin = result.constraints.margins[to_signed(list.size())];
     list.push_back({{"element", constraint.element},
                     {"constraint", constraint.text},

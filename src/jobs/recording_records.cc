@@ -9,6 +9,7 @@
 #include "excitation/excitation_result.h"
 #include "jobs/json.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -98,14 +99,14 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
   object["parameters"] = parameters_json(problem, problem.parameters());
   for (const PredictedNumber& number : result.numbers)
     object["predicted"][number.name] = predicted_json(number);
-  object["level"] = problem.study().identification->intervals.level;
+  object["level"] = study_of(problem).identification->intervals.level;
   object["volume_factor"] = result.volume_factor();
   object["mean_factor"] = factor_of_one(result);
   object["undetermined"] = result.undetermined;
   if (result.points.joints.empty()) return object;
   for (const KeptLimit& limit : result.limits)
     object["limits"][limit.limits.name] = limit_json(limit);
-  object["trajectory"] = trajectory_json(*problem.study().excitation, result);
+  object["trajectory"] = trajectory_json(*study_of(problem).excitation, result);
   Json starts = Json::array();
   for (const ExcitationStart& start : result.starts)
     starts.push_back({{"initial_criterion", start.initial_criterion},

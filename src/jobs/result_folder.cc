@@ -12,6 +12,7 @@
 #include "jobs/optimization_records.h"
 #include "jobs/robot_gains.h"
 #include "jobs/run_recorder.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/number_text.h"
 
@@ -54,9 +55,10 @@ void BestRecord::note(const Trial& trial) {
   if (iteration_ < 0) first_ = trial;
   iteration_ = trial.iteration;
   try {
-    write_whole_file(prefix_ + "best.urdf", write_tuned_urdf(problem_.urdf(), problem_.overlays(),
-                                                             problem_.parameters(trial.rho),
-                                                             std::nullopt, problem_.robot().laws));
+    write_whole_file(
+        prefix_ + "best.urdf",
+        write_tuned_urdf(problem_.urdf(), problem_.overlays(), problem_.parameters(trial.rho),
+                         std::nullopt, robot_of(problem_).laws));
     write_whole_file(prefix_ + "best.json", json(trial));
     failure_.clear();
   } catch (const std::exception& error) {
@@ -66,7 +68,7 @@ void BestRecord::note(const Trial& trial) {
 
 std::string BestRecord::json(const Trial& trial) const {
   Json object;
-  object["model"] = problem_.robot().name;
+  object["model"] = robot_of(problem_).name;
   object["objective"] = trial.objective;
   object["initial_objective"] = first_.objective;
   object["parameters"] = parameters_json(problem_, problem_.parameters(trial.rho));
@@ -103,7 +105,7 @@ std::vector<Failure> ResultFolder::write_design(const std::string& json,
                             tuned = problem_.parameters(result.best.rho);
   const auto urdf_at = [this](const std::vector<double>& parameters) {
     return write_tuned_urdf(problem_.urdf(), problem_.overlays(), parameters, std::nullopt,
-                            problem_.robot().laws);
+                            robot_of(problem_).laws);
   };
   write("result.json", [&] { return json; });
   write("tuned.urdf", [&] { return urdf_at(tuned); });
@@ -112,14 +114,14 @@ std::vector<Failure> ResultFolder::write_design(const std::string& json,
     return to_text({{"parameters", parameters_json(problem_, initial)}});
   });
   write("job_study.yaml", [this] { return problem_.study_text().text; });
-  for (const LoadedFile& file : problem_.contents().files) {
+  for (const LoadedFile& file : contents_of(problem_).files) {
     try {
       write_named_file(file, path_);
     } catch (const std::exception& error) {
       failures.push_back({"output_failed", error.what()});
     }
   }
-  if (!problem_.study().hardware.empty())
+  if (!study_of(problem_).hardware.empty())
     write("gains.yaml", [&] { return gains_yaml(problem_, tuned); });
   if (!result.multistart.starts.empty())
     write("starts.csv", [&] {
@@ -136,13 +138,13 @@ std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result,
                                               const std::atomic<bool>* cancel) const {
   std::vector<Failure> failures;
   Json details;
-  details["model"] = problem_.robot().name;
+  details["model"] = robot_of(problem_).name;
   details["files"] = {{"model", problem_.urdf().name},
                       {"study", problem_.study_text().name},
                       {"overlays", Json::array()}};
   for (const SourceText& overlay : problem_.overlays())
     details["files"]["overlays"].push_back(overlay.name);
-  details["duration"] = problem_.study().duration;
+  details["duration"] = study_of(problem_).duration;
   details["parameters"] = parameter_table(problem_, result);
   const auto record = [&](const char* side, const Eigen::VectorXd& rho) {
     const std::string name = std::string(side) + ".csv";

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "jobs/json.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -66,7 +67,7 @@ void write_block(const Json& object, std::size_t depth, std::string* text) {
 }  // namespace
 
 std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters) {
-  const Study& study = problem.study();
+  const Study& study = study_of(problem);
   std::vector<RobotGains> all;
   for (const HardwareGains& gains : study.hardware) {
     const auto is_it = [&gains](const ControllerDescription& controller) {

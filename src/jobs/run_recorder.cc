@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "integration/simulation_of.h"
 #include "jobs/csv_writer.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
@@ -12,6 +13,7 @@
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -103,13 +105,13 @@ std::vector<SignalDescription> signals_in(const std::vector<ShownSignal>& shown)
 
 LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters,
                        const FrameNames& names)
-    : LimitWatch(problem, parameters, names, problem.study().limits) {}
+    : LimitWatch(problem, parameters, names, study_of(problem).limits) {}
 
 LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters,
                        const FrameNames& names, const LimitOptions& enforced)
-    : absolute_margin_(problem.study().solver.absolute_tolerance),
-      relative_margin_(problem.study().solver.relative_tolerance) {
-  for (const JointDescription& joint : problem.robot().joints) {
+    : absolute_margin_(study_of(problem).solver.absolute_tolerance),
+      relative_margin_(study_of(problem).solver.relative_tolerance) {
+  for (const JointDescription& joint : robot_of(problem).joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (!joint.limit || found == names.joints.end()) continue;
     const auto watch = [&](const char* limit, const Quantity& bound) {
@@ -163,7 +165,7 @@ std::string describe(const LimitCrossing& crossing) {
 
 TransitionWatch::TransitionWatch(const Problem& problem, const std::vector<double>& parameters,
                                  const FrameNames& names) {
-  for (const JointDescription& joint : problem.robot().joints) {
+  for (const JointDescription& joint : robot_of(problem).joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (found == names.joints.end()) continue;
     const auto watch = [&](const FrictionDescription& friction, const char* element) {
@@ -203,7 +205,7 @@ Warnings TransitionWatch::warnings() const {
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters,
                       const std::vector<SignalDescription>& signals, int samples,
                       const RowSink& sink, const std::atomic<bool>* cancel) {
-  Simulation simulation(problem.system(), parameters, signals);
+  Simulation simulation = simulation_of(system_of(problem), parameters, signals);
   LimitWatch watch(problem, parameters, simulation.names());
   TransitionWatch transitions(problem, parameters, simulation.names());
   std::vector<double> row;
@@ -216,14 +218,14 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
     return true;
   };
   RunSummary summary;
-  const int postures = problem.study().postures;
-  summary.status = codesign::simulate(&simulation, problem.study().duration,
+  const int postures = study_of(problem).postures;
+  summary.status = codesign::simulate(&simulation, study_of(problem).duration,
                                       postures > 0 ? postures : samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
   summary.warnings = simulation.warnings();
   if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
-  const Study& study = problem.study();
+  const Study& study = study_of(problem);
   const bool has_term = std::any_of(study.watched.begin(), study.watched.end(), is_term);
   if (summary.status.ok() && has_objective(study) && !has_term &&
       simulation.time() == study.duration)
@@ -240,13 +242,13 @@ std::vector<std::string> column_names(const std::vector<SignalDescription>& sign
 
 DesignRecord record_design(const Problem& problem, const std::vector<double>& parameters,
                            const std::atomic<bool>* cancel) {
-  const double duration = problem.study().duration;
+  const double duration = study_of(problem).duration;
   const std::vector<ShownSignal> shown = shown_signals(problem, parameters);
   const std::vector<SignalDescription> signals = signals_in(shown);
-  Simulation simulation(problem.system(), parameters, signals);
+  Simulation simulation = simulation_of(system_of(problem), parameters, signals);
   LimitWatch limits(problem, parameters, simulation.names());
   std::vector<Watched> watched(shown.size());
-  const int postures = problem.study().postures;
+  const int postures = study_of(problem).postures;
   PoseLog poses;
   std::ostringstream text;
   CsvWriter csv(text, column_names(signals));

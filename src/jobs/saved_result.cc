@@ -12,6 +12,7 @@
 #include "jobs/json.h"
 #include "jobs/robot_gains.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -126,7 +127,7 @@ class Examination {
   /// The values of the model's parameters, written into tuned.urdf.
   void check_model(const FinishedJob& job) const {
     const std::vector<Parameter>& all = job.problem.all_parameters();
-    for (const Parameter& in_model : job.problem.robot().parameters)
+    for (const Parameter& in_model : robot_of(job.problem).parameters)
       for (std::size_t k = 0; k < all.size(); ++k)
         if (all[k].name == in_model.name && job.parameters[k] != in_model.value)
           fail_changed(in_folder("result.json"), in_model.name, job.parameters[k],
@@ -187,7 +188,7 @@ class Examination {
   }
 
   void check_gains(const FinishedJob& job) const {
-    if (job.problem.study().hardware.empty()) return;
+    if (study_of(job.problem).hardware.empty()) return;
     const std::string expected = gains_yaml(job.problem, job.parameters),
                       found = read_source(in_folder("gains.yaml")).text;
     if (expected == found) return;
@@ -206,7 +207,7 @@ class Examination {
 
   void check_objective(const FinishedJob& job, const std::atomic<bool>* cancel) const {
     const Problem& problem = job.problem;
-    const bool with_gradient = !problem.study().tuned.empty();
+    const bool with_gradient = !study_of(problem).tuned.empty();
     const Evaluation again =
         Ensemble(problem, 1).evaluate(problem.start(), with_gradient, cancel).total;
     if (!again.status.ok())

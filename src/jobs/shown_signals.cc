@@ -7,6 +7,7 @@
 #include "jobs/json.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -129,8 +130,8 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
 
 std::vector<ShownSignal> shown_signals(const Problem& problem,
                                        const std::vector<double>& parameters) {
-  const RobotDescription& robot = problem.robot();
-  const std::vector<ControllerDescription>& controllers = problem.study().controllers;
+  const RobotDescription& robot = robot_of(problem);
+  const std::vector<ControllerDescription>& controllers = study_of(problem).controllers;
   std::vector<ShownSignal> shown;
   const auto add = [&](const SignalDescription& signal) {
     const auto is_same = [&signal](const ShownSignal& other) {
@@ -142,9 +143,9 @@ std::vector<ShownSignal> shown_signals(const Problem& problem,
     add_limits(robot, parameters, &shown.back());
   };
   std::vector<std::string> texts = default_signals(robot, controllers);
-  for (const std::string& text : further_signals(robot, problem.study())) texts.push_back(text);
+  for (const std::string& text : further_signals(robot, study_of(problem))) texts.push_back(text);
   for (const std::string& text : texts) add(parse_signal(text, {}, ""));
-  for (const SignalDescription& signal : signals_of(problem.study())) add(signal);
+  for (const SignalDescription& signal : signals_of(study_of(problem))) add(signal);
   return shown;
 }
 

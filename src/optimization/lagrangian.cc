@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "equations/compiled_system.h"
+#include "integration/simulation_of.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/simulation.h"
 #include "optimization/near_multipliers.h"
@@ -136,7 +137,7 @@ void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho,
     places.push_back(k);
   }
   if (places.empty()) return;
-  Simulation simulation(scenario.system, scenario.parameters(rho), signals);
+  Simulation simulation = simulation_of(scenario.system, scenario.parameters(rho), signals);
   // The status does not matter: a run that fails was long enough for what it has shown.
   const auto widen = [&](const Frame& frame) {
     for (std::size_t k = 0; k < places.size(); ++k) {

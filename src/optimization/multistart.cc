@@ -15,6 +15,7 @@
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
 #include "optimization/search_trials.h"
+#include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "sampling/sampler.h"
 #include "text/cancel.h"
@@ -39,7 +40,7 @@ class Multistart {
   Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
              const std::atomic<bool>* cancel)
       : problem_(problem),
-        study_(problem.study()),
+        study_(study_of(problem)),
         asked_(study_.ensemble.multistart),
         options_(options),
         cancel_(cancel),

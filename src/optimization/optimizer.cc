@@ -8,6 +8,7 @@
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
 #include "optimization/search_trials.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 
@@ -40,7 +41,7 @@ OptimizationResult search_once(const Problem& problem, const OptimizerOptions& o
   meter->begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
   const TrialObserver observer = counted_trials(hooks, meter);
   OptimizationResult result =
-      search_locally(problem.study(), options, problem.start(), ensemble, observer, cancel);
+      search_locally(study_of(problem), options, problem.start(), ensemble, observer, cancel);
   describe_scenarios(problem, ensemble, cancel, meter, &result);
   return result;
 }
@@ -49,8 +50,8 @@ OptimizationResult search_once(const Problem& problem, const OptimizerOptions& o
 
 OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options,
                               const SearchHooks& hooks, const std::atomic<bool>* cancel) {
-  require_tuned(problem.study());
-  OptimizationResult result = problem.study().ensemble.multistart.starts > 0
+  require_tuned(study_of(problem));
+  OptimizationResult result = study_of(problem).ensemble.multistart.starts > 0
                                   ? search_from_many_starts(problem, options, hooks, cancel)
                                   : search_once(problem, options, hooks, cancel);
   if (result.status.code != StatusCode::kCancelled || hooks.ranks == nullptr) return result;

@@ -8,6 +8,7 @@
 #include "ensemble/scenario.h"
 #include "math/arrays.h"
 #include "optimization/search_results.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 #include "text/table.h"
 
@@ -51,7 +52,7 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
   Table table;
   table.add({"parameter", "initial", "tuned", "lower", "upper", "gradient"});
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const Parameter& parameter = problem.study().parameters[to_index(problem.study().tuned[k])];
+    const Parameter& parameter = study_of(problem).parameters[to_index(study_of(problem).tuned[k])];
     const auto i = to_signed(k);
     table.add(
         {names[k], readable(result.initial.rho[i]), readable(result.best.rho[i]),
@@ -59,15 +60,15 @@ void print_design(const Problem& problem, const OptimizationResult& result, std:
          is_evaluated(problem, result) ? readable(result.best.gradient[i]) : "not evaluated"});
   }
   table.print(out);
-  for (std::size_t k = 0; k < problem.study().constraints.size(); ++k)
-    out << problem.study().constraints[k].text << ": margin "
+  for (std::size_t k = 0; k < study_of(problem).constraints.size(); ++k)
+    out << study_of(problem).constraints[k].text << ": margin "
         << readable(result.constraints.margins[to_signed(k)]) << '\n';
 }
 
 }  // namespace
 
 bool is_evaluated(const Problem& problem, const OptimizationResult& result) {
-  return result.best.gradient.size() == to_signed(problem.study().tuned.size());
+  return result.best.gradient.size() == to_signed(study_of(problem).tuned.size());
 }
 
 bool has_objective(const Problem& problem, const OptimizationResult& result) {
@@ -75,7 +76,7 @@ bool has_objective(const Problem& problem, const OptimizationResult& result) {
 }
 
 bool has_design(const Problem& problem, const OptimizationResult& result) {
-  const auto size = to_signed(problem.study().tuned.size());
+  const auto size = to_signed(study_of(problem).tuned.size());
   const bool is_complete = result.best.rho.size() == size && result.initial.rho.size() == size;
   return is_complete && (is_evaluated(problem, result) || result.status.is_interrupted());
 }
@@ -107,7 +108,7 @@ std::vector<std::string> watched_sentences(const OptimizationResult& result) {
 std::vector<std::string> ensemble_sentences(const Problem& problem,
                                             const OptimizationResult& result) {
   std::vector<std::string> lines;
-  const EnsembleDescription& asked = problem.study().ensemble;
+  const EnsembleDescription& asked = study_of(problem).ensemble;
   if (!result.ensemble.scenarios.empty()) {
     const RobustOptions options = asked.robust_options();
     lines.push_back(std::string("objective: ") + kRobustMeasureNames[to_index(options.measure)] +

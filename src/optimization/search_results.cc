@@ -11,6 +11,7 @@
 #include "optimization/algorithm.h"
 #include "optimization/local_search.h"
 #include "optimization/search_trials.h"
+#include "problem/load_problem.h"
 #include "sampling/measure.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
@@ -72,7 +73,7 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
   w /= w.sum();
   const Measured measured = measure(options, psi, w);
   if (!std::isfinite(measured.value)) {
-    *failure = {StatusCode::kNonFinite, problem.study().duration,
+    *failure = {StatusCode::kNonFinite, study_of(problem).duration,
                 "the measure over the fresh samples of robust.validate is not finite"};
     return std::nullopt;
   }
@@ -195,11 +196,11 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
   const std::vector<Scenario>& scenarios = ensemble.scenarios();
   const bool known = result->best.values.size() == to_signed(scenarios.size()) &&
                      result->initial.values.size() == result->best.values.size();
-  if (!problem.study().ensemble.is_ensemble() || !known) return;
+  if (!study_of(problem).ensemble.is_ensemble() || !known) return;
   for (std::size_t k = 0; k < scenarios.size(); ++k) {
     const auto i = to_signed(k);
-    result->ensemble.scenarios.push_back(
-        describe(problem.study(), scenarios[k], result->initial.values[i], result->best.values[i]));
+    result->ensemble.scenarios.push_back(describe(
+        study_of(problem), scenarios[k], result->initial.values[i], result->best.values[i]));
   }
   for (int k : result->initial.failed)
     result->ensemble.scenarios[to_index(k)].initial_failed = true;

@@ -1,7 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "description/named_file.h"
@@ -11,6 +13,8 @@
 #include "mechanism_codesign/problem.h"
 
 namespace codesign {
+
+class CompiledSystem;
 
 /// A trajectory that a study names, as its loader has read it.
 struct LoadedTrajectory {
@@ -26,7 +30,7 @@ struct LoadedFile {
 
 /// The members of a Problem. Its model and study are in `system`, the model without the joints of
 /// with_motor_sides() in `as_described` if there are any.
-struct Problem::Contents {
+struct ProblemContents {
   SourceText urdf;
   std::vector<SourceText> overlays;
   SourceText study_text;
@@ -38,7 +42,23 @@ struct Problem::Contents {
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them
   std::vector<LoadedFile> files;               ///< likewise
   std::shared_ptr<const RobotDescription> as_described{};
+
+  static Problem make(ProblemContents contents) {
+    return Problem(std::make_shared<const ProblemContents>(std::move(contents)));
+  }
+  static const ProblemContents& of(const Problem& problem) { return *problem.contents_; }
 };
+
+inline const ProblemContents& contents_of(const Problem& problem) {
+  return ProblemContents::of(problem);
+}
+/// The compiled equations of the study's own runs.
+inline const std::shared_ptr<const CompiledSystem>& system_of(const Problem& problem) {
+  return contents_of(problem).system;
+}
+/// The model as it is described, without the motors' sides of elastic gears.
+const RobotDescription& robot_of(const Problem& problem);
+const Study& study_of(const Problem& problem);
 
 /// The design of a saved result, which may be of another study.
 struct SavedDesign {

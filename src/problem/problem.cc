@@ -117,7 +117,7 @@ FileLoader keeping(const FileLoader& files, std::vector<LoadedFile>* loaded) {
 /// Compiles the equations of motion of a model and a study with design and settings applied, and
 /// completes `contents`: system, warnings, time.
 Problem compile(const RobotDescription& robot, Study study, const SavedDesign& design,
-                const ParameterSettings& settings, Problem::Contents contents) {
+                const ParameterSettings& settings, ProblemContents contents) {
   if (!design.file.empty()) apply_design(design, &study, &contents.warnings);
   apply_settings(settings, &study);
   const CpuTimer timer;
@@ -144,7 +144,7 @@ Problem compile(const RobotDescription& robot, Study study, const SavedDesign& d
         std::make_shared<const RobotDescription>(without_motor_sides(contents.system->robot()));
   contents.variants = make_variants(robot, study, contents.system, &contents.warnings);
   contents.setup_seconds += timer.seconds();
-  return Problem(std::make_shared<const Problem::Contents>(std::move(contents)));
+  return ProblemContents::make(std::move(contents));
 }
 
 }  // namespace
@@ -154,25 +154,28 @@ const std::vector<SourceText>& Problem::overlays() const { return contents_->ove
 const SourceText& Problem::study_text() const { return contents_->study_text; }
 const Warnings& Problem::warnings() const { return contents_->warnings; }
 double Problem::setup_seconds() const { return contents_->setup_seconds; }
-double Problem::duration() const { return study().duration; }
-const std::vector<Parameter>& Problem::all_parameters() const { return study().parameters; }
-std::vector<double> Problem::parameters() const { return start_parameters(study()); }
+double Problem::duration() const { return study_of(*this).duration; }
+const std::vector<Parameter>& Problem::all_parameters() const { return study_of(*this).parameters; }
+std::vector<double> Problem::parameters() const { return start_parameters(study_of(*this)); }
 std::vector<double> Problem::parameters(const Eigen::VectorXd& rho) const {
-  return parameters_at(study(), rho);
+  return parameters_at(study_of(*this), rho);
 }
 std::vector<double> Problem::parameters(const ParameterSettings& settings) const {
   std::vector<double> values = parameters();
-  for (const auto& [name, value] : settings) values[find_settable(study(), name, value)] = value;
+  for (const auto& [name, value] : settings)
+    values[find_settable(study_of(*this), name, value)] = value;
   return values;
 }
-std::vector<std::string> Problem::tuned_names() const { return codesign::tuned_names(study()); }
-Eigen::VectorXd Problem::start() const { return start_of(study()); }
-const OptimizerOptions& Problem::optimizer_options() const { return study().optimizer; }
-const RobotDescription& Problem::robot() const {
-  return contents_->as_described ? *contents_->as_described : contents_->system->robot();
+std::vector<std::string> Problem::tuned_names() const {
+  return codesign::tuned_names(study_of(*this));
 }
-const Study& Problem::study() const { return contents_->system->whole_study(); }
-const std::shared_ptr<const CompiledSystem>& Problem::system() const { return contents_->system; }
+Eigen::VectorXd Problem::start() const { return start_of(study_of(*this)); }
+const OptimizerOptions& Problem::optimizer_options() const { return study_of(*this).optimizer; }
+const RobotDescription& robot_of(const Problem& problem) {
+  const ProblemContents& contents = contents_of(problem);
+  return contents.as_described ? *contents.as_described : contents.system->robot();
+}
+const Study& study_of(const Problem& problem) { return system_of(problem)->whole_study(); }
 
 Problem load_problem(const SourceText& urdf, const std::vector<SourceText>& overlays,
                      const SourceText& study, const ParameterSettings& settings) {
@@ -227,11 +230,11 @@ Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf,
 }
 
 Problem with_settings(const Problem& problem, const ParameterSettings& settings) {
-  return with_study(problem, problem.study(), settings);
+  return with_study(problem, study_of(problem), settings);
 }
 
 Problem with_study(const Problem& problem, Study study, const ParameterSettings& settings) {
-  return compile(problem.robot(), std::move(study), {}, settings,
+  return compile(robot_of(problem), std::move(study), {}, settings,
                  {problem.urdf(),
                   problem.overlays(),
                   problem.study_text(),
@@ -239,12 +242,12 @@ Problem with_study(const Problem& problem, Study study, const ParameterSettings&
                   {},
                   problem.setup_seconds(),
                   problem.warnings(),
-                  problem.contents().trajectories,
-                  problem.contents().files});
+                  contents_of(problem).trajectories,
+                  contents_of(problem).files});
 }
 
 Problem run_of(const Problem& problem, const std::string& name) {
-  const Study& whole = problem.study();
+  const Study& whole = study_of(problem);
   std::vector<std::string> names;
   for (const RunDescription& run : whole.ensemble.runs) {
     names.push_back(run.name);
@@ -258,7 +261,7 @@ Problem run_of(const Problem& problem, const std::string& name) {
 }
 
 PortableProblem make_portable(const Problem& problem) {
-  const Problem::Contents& contents = problem.contents();
+  const ProblemContents& contents = contents_of(problem);
   return {contents.urdf,  contents.overlays,    contents.study_text,  contents.trajectories,
           contents.files, problem.parameters(), problem.tuned_names()};
 }
@@ -305,7 +308,7 @@ Problem load_portable(const PortableProblem& portable) {
 }
 
 void require_objective(const Problem& problem) {
-  const Study& study = problem.study();
+  const Study& study = study_of(problem);
   if (!has_objective(study))
     throw InputError(
         {{study.file, 1},

@@ -92,15 +92,15 @@ std::vector<std::shared_ptr<const CompiledSystem>> make_variants(
 }
 
 std::shared_ptr<const CompiledSystem> variant_of(const Problem& problem, int run, int law) {
-  const auto& variants = problem.contents().variants;
-  if (variants.empty()) return problem.system();
-  const auto laws = to_index(count_laws(problem.study()));
+  const auto& variants = contents_of(problem).variants;
+  if (variants.empty()) return system_of(problem);
+  const auto laws = to_index(count_laws(study_of(problem)));
   return variants[to_index(run) * (1 + laws) + to_index(1 + law)];
 }
 
 std::vector<std::shared_ptr<const CompiledSystem>> distinct_systems(const Problem& problem) {
-  std::vector<std::shared_ptr<const CompiledSystem>> systems{problem.system()};
-  for (const auto& system : problem.contents().variants)
+  std::vector<std::shared_ptr<const CompiledSystem>> systems{system_of(problem)};
+  for (const auto& system : contents_of(problem).variants)
     if (std::find(systems.begin(), systems.end(), system) == systems.end())
       systems.push_back(system);
   return systems;

@@ -19,6 +19,7 @@
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 #include "optimization/search_hooks.h"
+#include "problem/load_problem.h"
 
 namespace codesign::python {
 namespace {
@@ -69,11 +70,11 @@ void write_file(const std::string& folder, const std::string& name,
 /// The arrays as the one recording of a study.
 StudyRecordings recordings_of(const Problem& problem, const std::optional<RecordedArrays>& arrays,
                               Warnings* warnings) {
-  const IdentificationDescription& identification = *problem.study().identification;
+  const IdentificationDescription& identification = *study_of(problem).identification;
   if (!arrays) {
     const std::string folder =
         std::filesystem::absolute(problem.study_text().name).parent_path().string();
-    return load_recordings(identification, problem.robot(), folder, bag_files().read, warnings);
+    return load_recordings(identification, robot_of(problem), folder, bag_files().read, warnings);
   }
   IdentificationDescription given = identification;
   RecordingDescription description;
@@ -96,14 +97,14 @@ StudyRecordings recordings_of(const Problem& problem, const std::optional<Record
     recording.where = of.where;
     return recording;
   };
-  return load_recordings(given, problem.robot(), "/", reader, warnings);
+  return load_recordings(given, robot_of(problem), "/", reader, warnings);
 }
 
 /// A study without `identify:` has its defaults.
 Problem identifiable(const Problem& problem, bool has_arrays) {
-  if (problem.study().identification || !has_arrays) return problem;
-  require_tuned(problem.study());
-  Study study = problem.study();
+  if (study_of(problem).identification || !has_arrays) return problem;
+  require_tuned(study_of(problem));
+  Study study = study_of(problem);
   study.identification.emplace().where = {study.file, 1};
   return with_study(problem, std::move(study));
 }
@@ -112,14 +113,14 @@ Problem identifiable(const Problem& problem, bool has_arrays) {
 
 Optimized optimize(const Problem& problem, const Tell& tell, const std::atomic<bool>* cancel) {
   require_objective(problem);
-  require_tuned(problem.study());
-  require_engine(problem.study().ensemble.engine, nullptr);
+  require_tuned(study_of(problem));
+  require_engine(study_of(problem).ensemble.engine, nullptr);
   Optimized optimized{problem, {}, {}, {}};
   const auto progress = [&tell](const Progress& so_far) {
     if (tell) tell(progress_line(so_far), fields_of(so_far));
   };
   ProgressMeter meter(problem.optimizer_options().max_evaluations, progress);
-  TrialLines lines(problem.study());
+  TrialLines lines(study_of(problem));
   const auto observer = [&](const Trial& trial) {
     optimized.trials.push_back(trial);
     return !tell || tell(lines.line(trial, meter.now()), fields_of(problem, trial));

@@ -12,6 +12,7 @@
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/version.h"
 #include "optimization/result_report.h"
+#include "problem/load_problem.h"
 #include "python/callbacks.h"
 #include "python/conversions.h"
 #include "python/interruption.h"
@@ -42,7 +43,7 @@ std::unique_ptr<Session> open(const py::tuple& model, const py::object& study,
 py::list parameters(const Session& session) {
   const Problem& problem = session.problem();
   std::vector<bool> tuned(problem.all_parameters().size(), false);
-  for (const int index : problem.study().tuned) tuned[to_index(index)] = true;
+  for (const int index : study_of(problem).tuned) tuned[to_index(index)] = true;
   py::list list;
   for (std::size_t k = 0; k < tuned.size(); ++k) {
     const Parameter& parameter = problem.all_parameters()[k];
@@ -54,7 +55,7 @@ py::list parameters(const Session& session) {
 
 py::list joints(const Session& session) {
   std::vector<std::string> names;
-  for (const JointDescription& joint : session.problem().robot().joints)
+  for (const JointDescription& joint : robot_of(session.problem()).joints)
     if (has_one_coordinate(joint.type)) names.push_back(joint.name);
   return to_list(names);
 }
@@ -137,7 +138,7 @@ py::object details(const Session& session, const py::object& rho, const py::dict
 std::string urdf(const Session& session, const py::object& rho, const py::dict& settings) {
   const Problem& problem = session.problem();
   return write_tuned_urdf(problem.urdf(), problem.overlays(), design_of(session, rho, settings),
-                          std::nullopt, problem.robot().laws);
+                          std::nullopt, robot_of(problem).laws);
 }
 
 std::optional<RecordedArrays> arrays_of(const py::object& time, const py::list& joints) {
@@ -239,17 +240,17 @@ void add_session(py::module_* module) {
       .def(py::init(&open))
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("joints", &joints)
-      .def_property_readonly("name", [](const Session& of) { return of.problem().robot().name; })
+      .def_property_readonly("name", [](const Session& of) { return robot_of(of.problem()).name; })
       .def_property_readonly("duration", [](const Session& of) { return of.problem().duration(); })
       .def_property_readonly("start",
                              [](const Session& of) { return to_array(of.problem().start()); })
       .def_property_readonly(
           "warnings", [](const Session& of) { return to_python(to_json(of.problem().warnings())); })
-      .def_property_readonly(
-          "signals",
-          [](const Session& of) {
-            return to_list(default_signals(of.problem().robot(), of.problem().study().controllers));
-          })
+      .def_property_readonly("signals",
+                             [](const Session& of) {
+                               return to_list(default_signals(robot_of(of.problem()),
+                                                              study_of(of.problem()).controllers));
+                             })
       .def("evaluate", &evaluate)
       .def("simulate", &simulate)
       .def("details", &details)

@@ -11,6 +11,7 @@
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "optimization/algorithm.h"
+#include "problem/load_problem.h"
 #include "sensitivity/gradient_engine.h"
 #include "text/number_text.h"
 
@@ -52,7 +53,7 @@ Study with_adjoint(Study study) {
 void require_adjoint(const Problem& problem) {
   for (const auto& system : distinct_systems(problem))
     if (!prefers_adjoint(*system))
-      throw InputError({{problem.study().file, 1},
+      throw InputError({{study_of(problem).file, 1},
                         "adjoint",
                         "this study has no adjoint",
                         "",
@@ -67,13 +68,13 @@ Session::Session(Problem problem)
       start_(problem_.parameters()),
       scenarios_(make_scenarios(problem_)),
       default_signals_(
-          checked(codesign::default_signals(problem_.robot(), problem_.study().controllers))) {}
+          checked(codesign::default_signals(robot_of(problem_), study_of(problem_).controllers))) {}
 
 std::vector<SignalDescription> Session::checked(const std::vector<std::string>& signals) const {
   std::vector<SignalDescription> parsed;
   for (const std::string& text : signals) {
     parsed.push_back(parse_signal(text, {kCall, 0}, "signals"));
-    check_signal(parsed.back(), problem_.robot(), problem_.study().controllers, "signals");
+    check_signal(parsed.back(), robot_of(problem_), study_of(problem_).controllers, "signals");
   }
   return parsed;
 }
@@ -82,7 +83,7 @@ std::vector<double> Session::design(const std::optional<std::vector<double>>& rh
                                     const ParameterSettings& settings) const {
   std::vector<double> values = start_;
   if (rho) {
-    const std::vector<int>& tuned = problem_.study().tuned;
+    const std::vector<int>& tuned = study_of(problem_).tuned;
     if (rho->size() != tuned.size())
       throw InputError({{kCall, 0},
                         "rho",
@@ -110,7 +111,7 @@ std::vector<double> Session::design(const std::optional<std::vector<double>>& rh
 
 std::vector<Scenario> Session::scenarios_at(const std::vector<double>& parameters) const {
   std::vector<Scenario> scenarios = scenarios_;
-  const std::vector<int>& tuned = problem_.study().tuned;
+  const std::vector<int>& tuned = study_of(problem_).tuned;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const int index = static_cast<int>(k);
     if (parameters[k] == start_[k] || std::find(tuned.begin(), tuned.end(), index) != tuned.end())
@@ -139,7 +140,7 @@ void Session::give_back(const std::shared_ptr<EvaluationEngine>& engine) {
 
 Evaluation Session::evaluate(const std::vector<double>& parameters, Derivatives derivatives,
                              const std::atomic<bool>* cancel) {
-  const Study& study = problem_.study();
+  const Study& study = study_of(problem_);
   require_objective(problem_);
   if (derivatives != Derivatives::kNone) require_tuned(study);
   if (derivatives == Derivatives::kGaussNewton) require_squares(study);
@@ -156,7 +157,8 @@ Evaluation Session::evaluate(const std::vector<double>& parameters, Derivatives 
 Session& Session::adjoint() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!adjoint_) {
-    auto session = std::make_unique<Session>(with_study(problem_, with_adjoint(problem_.study())));
+    auto session =
+        std::make_unique<Session>(with_study(problem_, with_adjoint(study_of(problem_))));
     require_adjoint(session->problem());
     adjoint_ = std::move(session);
   }
@@ -176,7 +178,7 @@ RunTable Session::run(const std::vector<double>& parameters,
       signals.empty() ? default_signals_ : checked(signals);
   RunTable table;
   table.names = column_names(recorded);
-  const int postures = problem_.study().postures;
+  const int postures = study_of(problem_).postures;
   table.room = to_index(postures > 0 ? postures : samples);
   table.values.resize(table.names.size() * table.room);
   const auto sink = [&table](const std::vector<double>& row) {
@@ -186,9 +188,9 @@ RunTable Session::run(const std::vector<double>& parameters,
   table.summary = record_run(problem_, parameters, recorded, samples, sink, cancel);
   RunSummary& summary = table.summary;
   // Peaks and measures need a run of its own that follows them.
-  if (summary.status.ok() && has_objective(problem_.study()) && !summary.objective) {
+  if (summary.status.ok() && has_objective(study_of(problem_)) && !summary.objective) {
     const Evaluation evaluation =
-        Evaluator(problem_.system()).evaluate_design(parameters, Derivatives::kNone, cancel);
+        Evaluator(problem_).evaluate_design(parameters, Derivatives::kNone, cancel);
     summary.status = evaluation.status;
     if (evaluation.status.ok()) summary.objective = evaluation.objective;
   }

@@ -14,6 +14,7 @@
 #include "math/arrays.h"
 #include "math/differences.h"
 #include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 #include "sensitivity/rosenbrock_gradient.h"
 #include "sensitivity/signal_watch.h"
 #include "text/cancel.h"
@@ -214,8 +215,8 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
   study.solver.integrator = IntegratorKind::kRosenbrock;
   study.solver.method = RosenbrockMethod::kRodas5P;
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
-  Evaluator evaluator(
-      std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
+  Evaluator evaluator =
+      evaluator_of(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
   const Eigen::MatrixXd directions = directions_of(*check);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
     const auto objective = [&](double step) {
@@ -237,7 +238,7 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
 
 GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {
-  return check_gradient(problem.system(), rho, method, cancel);
+  return check_gradient(system_of(problem), rho, method, cancel);
 }
 
 GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system,
@@ -314,7 +315,7 @@ GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
   check.method = by_differences ? CheckMethod::kRidders : method;
   check.reference.setZero(count);
   check.reference_error.setZero(count);
-  check.evaluation = Evaluator(system).evaluate_design(parameters, true, cancel);
+  check.evaluation = evaluator_of(system).evaluate_design(parameters, true, cancel);
   check.status = check.evaluation.status;
   if (!check.status.ok()) return check;
   if (check.method == CheckMethod::kComplexStep) {

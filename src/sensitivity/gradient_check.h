@@ -1,9 +1,23 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <memory>
+#include <vector>
+
 #include "mechanism_codesign/gradient.h"
 
 namespace codesign {
+
+class CompiledSystem;
+
+/// Evaluates the study of a compiled system.
+Evaluator evaluator_of(std::shared_ptr<const CompiledSystem> system);
+
+/// check_gradient() of a compiled system.
+GradientCheck check_gradient(const std::shared_ptr<const CompiledSystem>& system,
+                             const Eigen::VectorXd& rho, CheckMethod method,
+                             const std::atomic<bool>* cancel = nullptr);
 
 /// check_gradient() at values of all named parameters, in the order of Study::parameters.
 /// @param directions becomes GradientCheck::directions; empty: the reference is the derivative by

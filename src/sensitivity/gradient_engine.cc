@@ -9,7 +9,9 @@
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
+#include "problem/load_problem.h"
 #include "sensitivity/adjoint_gradient.h"
+#include "sensitivity/gradient_check.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/posture_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
@@ -138,9 +140,20 @@ class Evaluator::Implementation {
   std::unique_ptr<GradientEngine> engine_, root_engine_;
 };
 
-Evaluator::Evaluator(std::shared_ptr<const CompiledSystem> system)
-    : implementation_(std::make_unique<Implementation>(std::move(system))) {}
-Evaluator::Evaluator(const Problem& problem) : Evaluator(problem.system()) {}
+struct EvaluatorMaker {
+  static Evaluator make(std::shared_ptr<const CompiledSystem> system) {
+    return Evaluator(std::make_unique<Evaluator::Implementation>(std::move(system)));
+  }
+};
+
+Evaluator evaluator_of(std::shared_ptr<const CompiledSystem> system) {
+  return EvaluatorMaker::make(std::move(system));
+}
+
+Evaluator::Evaluator(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+Evaluator::Evaluator(const Problem& problem)
+    : Evaluator(std::make_unique<Implementation>(system_of(problem))) {}
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
 Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;

@@ -5,6 +5,7 @@
 #include "engine/thread_engine.h"
 #include "integration/rounded_linkages.h"
 #include "sensitivity/gradient_cases.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -99,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, WarmWorker,
 // The public door, which takes the tuned parameters alone.
 TEST(WarmEvaluator, AsksForAGradientOnly) {
   const auto system = gradient_cases().front().compile("rodas4", "direct");
-  Evaluator evaluator(system);
+  Evaluator evaluator = evaluator_of(system);
   Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
   for (int k = 0; k < 3; ++k) {
     const std::vector<double> parameters = design(*system, k);

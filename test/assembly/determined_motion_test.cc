@@ -4,6 +4,7 @@
 
 #include "assembly/determined_motion.h"
 #include "equations/generic_state.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 
@@ -97,8 +98,8 @@ std::string fault_of(const std::string& content) {
 /// Acceleration of a joint at rest at the start.
 double acceleration(const std::string& content, const std::string& name) {
   const Problem problem = load(content);
-  Simulation simulation(problem.system(), problem.parameters(),
-                        {parse_signal(name + "/acceleration", {}, "")});
+  Simulation simulation = simulation_of(system_of(problem), problem.parameters(),
+                                        {parse_signal(name + "/acceleration", {}, "")});
   EXPECT_TRUE(simulation.start().ok());
   Frame frame;
   simulation.sample(0.0, &frame);

@@ -24,7 +24,7 @@ Comparison compare(const Robot& robot, const char* solver, double phase) {
   Eigen::VectorXd q(n), v(n), expected(n);
   std::string start;
   const GeneratedCase files = robot_case(robot, solver);
-  Study study = load_problem(files.urdf, {}, files.study).study();
+  Study study = study_of(load_problem(files.urdf, {}, files.study));
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto x = static_cast<double>(k);
     study.initial_state[static_cast<std::size_t>(k)].position = q[k] = std::sin(phase + 7.0 * x);

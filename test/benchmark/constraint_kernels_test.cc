@@ -20,9 +20,9 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
  protected:
   ConstraintKernelsTest()
       : problem_(load()),
-        constants_(evaluate_constants(problem_.robot(), problem_.system()->topology(),
+        constants_(evaluate_constants(robot_of(problem_), system_of(problem_)->topology(),
                                       problem_.parameters())),
-        kernels_(*problem_.system(), constants_),
+        kernels_(*system_of(problem_), constants_),
         n_(kernels_.columns()),
         m_(kernels_.rows()),
         q_(n_),
@@ -52,12 +52,12 @@ class ConstraintKernelsTest : public testing::TestWithParam<std::string> {
   /// Phi and Phi_q v by the equations of motion.
   template <class T>
   std::pair<VectorX<T>, VectorX<T>> errors(const VectorX<T>& q, const VectorX<T>& v) const {
-    Equations<T> equations(*problem_.system());
+    Equations<T> equations(*system_of(problem_));
     const std::vector<double> parameters = problem_.parameters();
     equations.set_design(std::vector<T>(parameters.begin(), parameters.end()));
     VectorX<T> Phi, rate;
     State<T> state;
-    state.resize(problem_.system()->layout());
+    state.resize(system_of(problem_)->layout());
     state.q = q;
     state.v = v;
     equations.constraint_errors(state, &Phi, &rate);
@@ -124,7 +124,7 @@ TEST_P(ConstraintKernelsTest, ProgramsRecordedAndDerived) {
   for (int k = 0; k < kKernelOperations; ++k)
     for (const auto make : {&KernelProgram::recorded, &KernelProgram::derived}) {
       Eigen::VectorXd results = Eigen::VectorXd::Zero(expected[static_cast<std::size_t>(k)].size());
-      make(static_cast<KernelOperation>(k), *problem_.system(), constants_)
+      make(static_cast<KernelOperation>(k), *system_of(problem_), constants_)
           .run(q_.data(), v_.data(), lambda_.data(), results.data());
       expect_near(results, expected[static_cast<std::size_t>(k)]);
     }

@@ -7,6 +7,7 @@
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -17,7 +18,7 @@ Problem load(const GeneratedCase& generated) {
 
 Counts counts_of(const Problem& problem) {
   Status status;
-  const Counts counts = count_equations(*problem.system(), problem.parameters(), &status);
+  const Counts counts = count_equations(*system_of(problem), problem.parameters(), &status);
   EXPECT_TRUE(status.ok()) << status.cause;
   return counts;
 }
@@ -65,7 +66,7 @@ TEST(Mechanisms, EveryParameterOfAChainMatters) {
             (std::vector<std::string>{"length_0", "mass_0", "radius_0", "friction_0", "length_1",
                                       "mass_1", "radius_1", "friction_1"}));
   const GradientCheck check =
-      check_gradient(problem.system(), problem.start(), CheckMethod::kComplexStep);
+      check_gradient(system_of(problem), problem.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-9);
   EXPECT_GT(check.evaluation.gradient.cwiseAbs().minCoeff(), 1e-6);
@@ -73,7 +74,7 @@ TEST(Mechanisms, EveryParameterOfAChainMatters) {
 
 TEST(Mechanisms, TheChainsAreTheSameAtTheStart) {
   const Problem plain = load(open_chain(3)), parametric = load(parametric_chain(3, 2));
-  EXPECT_EQ(parametric.study().tuned.size(), 2U);
+  EXPECT_EQ(study_of(parametric).tuned.size(), 2U);
   EXPECT_NEAR(Evaluator(plain).evaluate({}, false).objective,
               Evaluator(parametric).evaluate(parametric.start(), false).objective, 1e-9);
 }

@@ -2,6 +2,7 @@
 // The numbers of doc/actuators.md.
 #include <gtest/gtest.h>
 
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"
 #include "problem/load_problem.h"
@@ -18,7 +19,7 @@ TEST(ActuatorsPage, TheArmDoesWhatThePageSays) {
   const std::string page = read_source(source_dir() + "/doc/actuators.md").text;
   const Problem problem =
       load_problem({"arm.urdf", block(page, "xml")}, {}, {"arm.yaml", block(page, "yaml")});
-  Simulation simulation(problem.system(), problem.parameters());
+  Simulation simulation = simulation_of(system_of(problem), problem.parameters());
   Frame frame;
   ASSERT_TRUE(simulation.start().ok());
   simulation.sample(0.0, &frame);

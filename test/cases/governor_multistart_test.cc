@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -29,7 +30,7 @@ TEST(GovernorMultistart, TheBestDesignKeepsItsObjectiveAtTightTolerances) {
   Eigen::VectorXd rho(7);
   rho << 0.15, 0.06, 0.2913452155, 0.03, 0.02, 0.2021834058, 0.04;
   const Evaluation evaluation =
-      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, false);
+      evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(rho, false);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective, 0.58578, 1e-5);
 }

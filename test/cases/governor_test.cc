@@ -7,6 +7,7 @@
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -83,8 +84,8 @@ TEST(Governor, AnEvaluationDoesNotDependOnThoseBefore) {
   other << 0.15, 0.06, 0.2757, 0.0284, 0.0208, 0.2039, 0.04;
   for (const IntegratorKind integrator : {IntegratorKind::kRosenbrock, IntegratorKind::kIdas}) {
     shipped.study.solver.integrator = integrator;
-    Evaluator used(make_system(shipped.robot, shipped.study)),
-        fresh(make_system(shipped.robot, shipped.study));
+    Evaluator used = evaluator_of(make_system(shipped.robot, shipped.study)),
+              fresh = evaluator_of(make_system(shipped.robot, shipped.study));
     used.evaluate(other, true);
     const Evaluation again = used.evaluate(shipped.start(), true),
                      first = fresh.evaluate(shipped.start(), true);
@@ -97,7 +98,7 @@ TEST(Governor, AnEvaluationDoesNotDependOnThoseBefore) {
 TEST(Governor, DesignsThatCannotBeAssembledHaveAStatus) {
   Shipped shipped("governor");
   shipped.study.duration = 0.001;
-  Evaluator evaluator(make_system(shipped.robot, shipped.study));
+  Evaluator evaluator = evaluator_of(make_system(shipped.robot, shipped.study));
   // The shortest arms on the tallest pillar do not reach the collar.
   Eigen::VectorXd rho = shipped.start();
   rho << 0.1, 0.06, 0.4, 0.02, 0.02, 0.25, 0.03;

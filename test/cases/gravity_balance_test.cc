@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
+#include "problem/load_problem.h"
 #include "statics/equilibrium.h"
 #include "statics/posture_efforts.h"
 
@@ -13,8 +14,8 @@ constexpr double kSecond = 2.0 * 100.0;  // k_1 0.1 = k_2 0.05
 constexpr double kHeight = 3.0 * 9.81 * 0.5 / ((100.0 + kSecond) * 0.25);
 
 double largest_effort(const Problem& problem) {
-  const PostureGrid& grid = problem.study().grid;
-  PostureStatics statics(*problem.system(), grid, problem.parameters(), {});
+  const PostureGrid& grid = study_of(problem).grid;
+  PostureStatics statics(*system_of(problem), grid, problem.parameters(), {});
   EXPECT_TRUE(statics.begin(posture(grid, 0)).ok());
   double largest = 0.0;
   Frame frame;
@@ -40,11 +41,11 @@ TEST(GravityBalance, ABalancedArmNeedsNoTorqueAndRestsAnywhere) {
   const Problem balanced =
       shipped_problem("gravity_balance", {}, {{"second_stiffness", kSecond}, {"height", kHeight}});
   EXPECT_LT(largest_effort(balanced), 1e-9);
-  Study study = balanced.study();
+  Study study = study_of(balanced);
   study.controllers.clear();
   study.integral.clear();
   const Equilibrium found =
-      find_equilibrium(*make_system(balanced.robot(), study), balanced.parameters(), {});
+      find_equilibrium(*make_system(robot_of(balanced), study), balanced.parameters(), {});
   ASSERT_TRUE(found.status.ok()) << found.status.cause;
   EXPECT_EQ(found.stability, Stability::kNeutral);
   EXPECT_NEAR(found.frame.joints[0].position, 0.5, 1e-9);

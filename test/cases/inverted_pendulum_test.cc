@@ -5,6 +5,7 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/simulation.h"
 #include "optimization/search_hooks.h"
@@ -102,7 +103,8 @@ TEST(InvertedPendulum, SeriesMeetTheReference) {
 
 TEST(InvertedPendulum, FrictionIsAForceAgainstTheSlip) {
   const Shipped shipped("inverted_pendulum");
-  Simulation simulation(make_system(shipped.robot, shipped.study), shipped.parameters());
+  Simulation simulation =
+      simulation_of(make_system(shipped.robot, shipped.study), shipped.parameters());
   ASSERT_EQ(simulation.names().frictions, std::vector<std::string>{"plate_x"});
   EXPECT_FALSE(simulation.names().friction_is_torque[0]);
   double work = 0.0;

@@ -10,6 +10,8 @@
 #include "cases/joint_coordinate_cases.h"
 #include "cases/shipped.h"
 #include "integration/linkages.h"
+#include "integration/simulation_of.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -99,7 +101,8 @@ struct Formulation {
   }
 
   std::vector<Frame> frames() const {
-    Simulation simulation(system, system->parameters(), signals_of(robot, system->topology()));
+    Simulation simulation =
+        simulation_of(system, system->parameters(), signals_of(robot, system->topology()));
     std::vector<Frame> all;
     const Status status = simulate(&simulation, kDuration, kSamples, [&](const Frame& frame) {
       all.push_back(frame);
@@ -160,7 +163,7 @@ TEST_P(JointCoordinates, ObjectiveAndGradientAreThoseOfAbsoluteCoordinates) {
     std::vector<double> start;
     for (int k : in.system->study().tuned)
       start.push_back(in.system->parameters()[static_cast<std::size_t>(k)]);
-    return Evaluator(in.system).evaluate(
+    return evaluator_of(in.system).evaluate(
         Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size())),
         GetParam().has_parameters);
   };
@@ -209,7 +212,7 @@ TEST_P(ShippedInJointCoordinates, ObjectiveAndGradientAreTheSame) {
     const Shipped shipped = tight(GetParam(), coordinates);
     const auto system = make_system(shipped.robot, shipped.study);
     EXPECT_EQ(system->layout().has_forest(), coordinates == CoordinatesKind::kJoint);
-    return Evaluator(system).evaluate(shipped.start(), true);
+    return evaluator_of(system).evaluate(shipped.start(), true);
   };
   const Evaluation joint = evaluate(CoordinatesKind::kJoint),
                    absolute = evaluate(CoordinatesKind::kAbsolute);
@@ -243,7 +246,8 @@ TEST(JointCoordinates, ARunGoesOnWithOtherDimensions) {
     const auto run = [&](const char* coordinates) {
       const Formulation in(c->urdf, study_of(*c), coordinates);
       std::vector<double> parameters = in.system->parameters();
-      Simulation simulation(in.system, parameters, signals_of(in.robot, in.system->topology()));
+      Simulation simulation =
+          simulation_of(in.system, parameters, signals_of(in.robot, in.system->topology()));
       EXPECT_TRUE(simulation.start().ok());
       EXPECT_TRUE(simulation.advance_to(0.1).ok());
       parameters[0] *= 1.2;
@@ -268,7 +272,7 @@ TEST(JointCoordinates, TheAdjointGivesTheDirectGradient) {
     const auto gradient = [&](GradientMethod method) {
       shipped.study.solver.gradient = method;
       const Evaluation evaluation =
-          Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+          evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
       EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
       return evaluation.gradient;
     };
@@ -287,7 +291,7 @@ TEST(JointCoordinates, IdasAgrees) {
       shipped.study.solver.integrator = integrator;
       shipped.study.solver.relative_tolerance = shipped.study.solver.absolute_tolerance = 1e-9;
       const Evaluation evaluation =
-          Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+          evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
       EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
       return evaluation;
     };

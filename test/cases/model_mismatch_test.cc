@@ -5,8 +5,10 @@
 
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -25,7 +27,7 @@ Motion run(const Shipped& shipped, const Gains& gains) {
   std::vector<SignalDescription> signals;
   for (const char* name : {"servo_x/error", "servo_y/error", "servo_x/output", "servo_y/output"})
     signals.push_back(parse_signal(name, {"test", 0}, "signal"));
-  Simulation simulation(make_system(shipped.robot, shipped.study), gains, signals);
+  Simulation simulation = simulation_of(make_system(shipped.robot, shipped.study), gains, signals);
   Motion result;
   const Status status = simulate(&simulation, shipped.study.duration, 11, [&](const Frame& frame) {
     result.error.push_back(std::hypot(frame.signals[0], frame.signals[1]));

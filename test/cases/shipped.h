@@ -12,12 +12,14 @@
 #include "assembly/count_equations.h"
 #include "assembly/make_system.h"
 #include "description/study.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"
 #include "problem/load_problem.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 
@@ -86,7 +88,7 @@ inline void expect_counts(const Shipped& shipped, const std::vector<int>& table)
 inline void expect_reference(const Shipped& shipped, double objective, double tolerance,
                              const std::vector<double>& gradient, double gradient_tolerance) {
   const Evaluation evaluation =
-      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
+      evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective / objective, 1.0, tolerance);
   ASSERT_EQ(static_cast<std::size_t>(evaluation.gradient.size()), gradient.size());
@@ -109,7 +111,8 @@ inline void expect_series(const Shipped& shipped, const std::vector<SignalPoints
   std::vector<SignalDescription> signals;
   for (const SignalPoints& points : expected)
     signals.push_back(parse_signal(points.signal, {"test", 0}, "signal"));
-  Simulation simulation(make_system(shipped.robot, shipped.study), shipped.parameters(), signals);
+  Simulation simulation =
+      simulation_of(make_system(shipped.robot, shipped.study), shipped.parameters(), signals);
   std::size_t at = 0;
   const Status status = simulate(&simulation, shipped.study.duration, 5, [&](const Frame& frame) {
     for (std::size_t k = 0; at > 0 && k < expected.size(); ++k)

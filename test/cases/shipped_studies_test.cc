@@ -6,9 +6,11 @@
 #include "assembly/make_system.h"
 #include "cases/shipped.h"
 #include "description/study.h"
+#include "integration/simulation_of.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -43,7 +45,8 @@ TEST_P(ShippedStudies, Simulate) {
   std::vector<SignalDescription> signals;
   for (const std::string& text : default_signals(shipped.robot, shipped.study.controllers))
     signals.push_back(parse_signal(text, {"test", 0}, "signal"));
-  Simulation simulation(make_system(shipped.robot, shipped.study), shipped.parameters(), signals);
+  Simulation simulation =
+      simulation_of(make_system(shipped.robot, shipped.study), shipped.parameters(), signals);
   int frames = 0;
   const int count = shipped.study.postures > 0 ? shipped.study.postures : 11;
   const auto look = [&](const Frame& frame) {
@@ -78,10 +81,10 @@ TEST_P(ShippedStudies, BothIntegratorsAgree) {
   solver.absolute_tolerance = 0.1 * kTolerance;
   solver.maximum_steps = 200000;
   const Evaluation rosenbrock =
-      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+      evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   solver.integrator = IntegratorKind::kIdas;
   const Evaluation idas =
-      Evaluator(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
+      evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok())
       << rosenbrock.status.cause << idas.status.cause;
   EXPECT_NEAR(idas.objective, rosenbrock.objective,

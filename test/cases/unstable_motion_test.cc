@@ -7,6 +7,7 @@
 #include "cases/shipped.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -18,7 +19,7 @@ class HardSliderCrank : public ::testing::Test {
   Evaluation evaluate(double Kp, bool with_gradient = false) const {
     Eigen::VectorXd rho = shipped.start();
     rho[kGain] = Kp;
-    return Evaluator(make_system(shipped.robot, shipped.study)).evaluate(rho, with_gradient);
+    return evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(rho, with_gradient);
   }
   /// Sets the gain at which the optimizer starts.
   void start_at(double Kp) {

@@ -8,6 +8,7 @@
 #include "cli/run_fixture.h"
 #include "jobs/files.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 
 namespace codesign::cli {
 namespace {
@@ -46,7 +47,7 @@ TEST(Inputs, ReadsModelStudyOverlaysAndSettings) {
   const Problem problem = load(arguments);
   EXPECT_EQ(problem.overlays().size(), 1U);
   EXPECT_EQ(problem.start()[4], 2.0);
-  EXPECT_EQ(load_tunable(arguments).study().tuned.size(), 5U);
+  EXPECT_EQ(study_of(load_tunable(arguments)).tuned.size(), 5U);
 }
 
 TEST(Inputs, ASettingCountsMoreThanAResult) {
@@ -90,7 +91,7 @@ TEST(Inputs, OfAnotherStudysResultWhatFitsIsTaken) {
 TEST(Inputs, ALoneModelHasNothingToTune) {
   Arguments arguments = slider_crank();
   arguments.study.clear();
-  EXPECT_TRUE(load(arguments).study().tuned.empty());
+  EXPECT_TRUE(study_of(load(arguments)).tuned.empty());
   EXPECT_THROW(load_tunable(arguments), InputError);
 }
 

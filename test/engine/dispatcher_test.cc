@@ -7,6 +7,7 @@
 #include "engine/mpi_engine.h"
 #include "engine/rank_fixture.h"
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -16,7 +17,7 @@ constexpr auto kNobody = [](MessageKind, std::uint64_t) { return std::optional<s
 std::vector<EvaluationTask> equal_tasks(const Problem& problem, int count) {
   return std::vector<EvaluationTask>(
       static_cast<std::size_t>(count),
-      {problem.system(), problem.parameters(), Derivatives::kGradient});
+      {system_of(problem), problem.parameters(), Derivatives::kGradient});
 }
 
 constexpr std::chrono::seconds kSilence{2};

@@ -11,6 +11,7 @@
 #include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 std::vector<EvaluationTask> tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
   for (int k = 0; k < count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
+    result.push_back({system_of(problem), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
                       gradient_if(k % 3 != 0)});
   return result;
 }
@@ -67,7 +68,7 @@ TEST(Engine, AResultDoesNotDependOnWhatItsWorkerDidBefore) {
       Eigen::VectorXd rho = problem.start();
       rho[0] += 0.003 * kp;
       rho[4] = kp;
-      order.push_back({problem.system(), problem.parameters(rho), gradient_if(kp > 0.5)});
+      order.push_back({system_of(problem), problem.parameters(rho), gradient_if(kp > 0.5)});
     }
     SerialEngine forward, backward;
     const std::vector<Evaluation> expected = forward.evaluate(order, nullptr);
@@ -165,7 +166,7 @@ class MapMemory final : public EvaluationMemory {
 std::vector<EvaluationTask> designs(const Problem& problem, int first, int count) {
   std::vector<EvaluationTask> result;
   for (int k = first; k < first + count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
+    result.push_back({system_of(problem), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
                       gradient_if(k % 2 == 0)});
   return result;
 }

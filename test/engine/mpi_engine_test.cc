@@ -6,6 +6,7 @@
 #include "engine/thread_engine.h"
 #include "ensemble/ensemble.h"
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 std::vector<EvaluationTask> block_tasks(const Problem& problem, int count) {
   std::vector<EvaluationTask> result;
   for (int k = 0; k < count; ++k)
-    result.push_back({problem.system(), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
+    result.push_back({system_of(problem), problem.parameters(Eigen::Vector2d(10.0 + k, 3.0)),
                       gradient_if(k % 3 != 0)});
   return result;
 }
@@ -179,7 +180,7 @@ TEST_F(RankWorkerTest, SaysHelloAnswersAndSaysGoodbye) {
   EXPECT_EQ(result.get<std::uint64_t>(), 77U);
   const Evaluation expected =
       SerialEngine()
-          .evaluate({{problem.system(), problem.parameters(), Derivatives::kGradient}}, nullptr)
+          .evaluate({{system_of(problem), problem.parameters(), Derivatives::kGradient}}, nullptr)
           .front();
   EXPECT_EQ(read_result(&result).gradient, expected.gradient);
   say(write_numbered(MessageKind::kPing, 3));

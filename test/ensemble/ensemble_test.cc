@@ -7,6 +7,7 @@
 
 #include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -79,7 +80,7 @@ TEST(Ensemble, GradientsOfMeasuresAgreeWithDifferences) {
 TEST(Ensemble, AMeasureThatIsNotFiniteIsAFailure) {
   Problem problem =
       block(std::string(kUncertain) + "robust: {samples: 2, measure: mean_plus_deviation}\n");
-  Study study = problem.study();
+  Study study = study_of(problem);
   for (ObjectiveTerm& term : study.terminal) term.weight = Quantity(1e200);
   problem = with_study(problem, study);
   for (const bool with_gradient : {false, true}) {
@@ -98,7 +99,7 @@ TEST(Ensemble, AFailedSampleRefusesTheDesignOrCountsInTheTail) {
   const Problem problem = block(runs + "robust: {measure: cvar, level: 0.9}\n");
   std::vector<Scenario> scenarios = make_scenarios(problem);
   scenarios[1].values = {{1, -1.0}};
-  RobustOptions options = *problem.study().ensemble.robust;
+  RobustOptions options = *study_of(problem).ensemble.robust;
   const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
   const EnsembleEvaluation refused =
       Ensemble(scenarios, options, engine).evaluate(problem.start(), true);
@@ -144,7 +145,7 @@ TEST(Ensemble, TheRootOfTheMeanHasTheSumOfTheSquares) {
   // A scenario that fails counts as the worst of the others.
   std::vector<Scenario> scenarios = make_scenarios(problem);
   scenarios[2].values = {{1, -1.0}};
-  RobustOptions options = *problem.study().ensemble.robust;
+  RobustOptions options = *study_of(problem).ensemble.robust;
   options.level = 0.7;
   const auto engine = std::shared_ptr<EvaluationEngine>(make_engine({}, 3));
   const EnsembleEvaluation tail =

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -20,7 +21,7 @@ const std::string kConstraints =
 TEST(ParameterRows, DifferWhereRunsChangeWhatTheyRead) {
   const Problem problem = block(kConstraints);
   const std::vector<Scenario> scenarios = make_scenarios(problem);
-  const ParameterRows rows(problem.study(), scenarios);
+  const ParameterRows rows(study_of(problem), scenarios);
   ASSERT_EQ(rows.rows().size(), 4U)
       << "two masses of the first constraint, one row each of the others";
   const Eigen::VectorXd rho = Eigen::Vector2d(20.0, 5.0);
@@ -32,7 +33,7 @@ TEST(ParameterRows, DifferWhereRunsChangeWhatTheyRead) {
 TEST(ParameterRows, DerivativesMeetTheComplexStep) {
   const Problem problem = block(kConstraints);
   const std::vector<Scenario> scenarios = make_scenarios(problem);
-  const ParameterRows rows(problem.study(), scenarios);
+  const ParameterRows rows(study_of(problem), scenarios);
   const Eigen::VectorXd rho = Eigen::Vector2d(17.0, 3.0);
   for (const ParameterRows::Row& row : rows.rows()) {
     Eigen::VectorXd by_rho;
@@ -41,9 +42,10 @@ TEST(ParameterRows, DerivativesMeetTheComplexStep) {
     for (std::size_t k = 0; k < 2; ++k) {
       const std::vector<double> parameters = scenarios[row.scenario].parameters(rho);
       std::vector<std::complex<double>> moved(parameters.begin(), parameters.end());
-      moved[static_cast<std::size_t>(problem.study().tuned[k])] += std::complex<double>(0.0, 1e-30);
+      moved[static_cast<std::size_t>(study_of(problem).tuned[k])] +=
+          std::complex<double>(0.0, 1e-30);
       const double reference =
-          problem.study().constraints[row.constraint].margin->value(moved).imag() / 1e-30;
+          study_of(problem).constraints[row.constraint].margin->value(moved).imag() / 1e-30;
       EXPECT_NEAR(by_rho[static_cast<Eigen::Index>(k)], reference, 1e-12 * std::abs(reference));
     }
   }
@@ -57,7 +59,7 @@ TEST(ParameterRows, AMarginThatIsNoNumberIsNamedWithItsRun) {
   const Problem problem = block(
       "constraints: [\"sqrt(3 - mass)*Kp >= 0\"]\nruns: {light: {}, heavy: {set: {mass: 4}}}\n");
   const std::vector<Scenario> scenarios = make_scenarios(problem);
-  const ParameterRows rows(problem.study(), scenarios);
+  const ParameterRows rows(study_of(problem), scenarios);
   EXPECT_TRUE(std::isnan(rows.margins(problem.start())[0]));
   try {
     rows.require_numbers_at(problem.start());

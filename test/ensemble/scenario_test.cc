@@ -7,6 +7,7 @@
 
 #include "ensemble/ensemble_fixture.h"
 #include "equations/compiled_system.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -15,7 +16,7 @@ TEST(Scenario, AStudyWithoutRunsIsItsOwnRun) {
   const Problem problem = block("");
   const std::vector<Scenario> scenarios = make_scenarios(problem);
   ASSERT_EQ(scenarios.size(), 1u);
-  EXPECT_EQ(scenarios[0].system, problem.system());
+  EXPECT_EQ(scenarios[0].system, system_of(problem));
   EXPECT_EQ(scenarios[0].weight, 1.0);
   EXPECT_EQ(scenarios[0].name(), "");
   EXPECT_EQ(scenarios[0].parameters(problem.start()), problem.parameters());
@@ -35,9 +36,9 @@ robust: {samples: 4}
   EXPECT_DOUBLE_EQ(scenarios[0].weight, 0.25 / 4.0);
   EXPECT_DOUBLE_EQ(scenarios[7].weight, 0.75 / 4.0);
   EXPECT_EQ(scenarios[5].name(), "run \"far\", sample 2");
-  EXPECT_EQ(scenarios[0].system, problem.system())
+  EXPECT_EQ(scenarios[0].system, system_of(problem))
       << "values of parameters need no system of their own";
-  EXPECT_NE(scenarios[4].system, problem.system());
+  EXPECT_NE(scenarios[4].system, system_of(problem));
   const std::vector<double> light = scenarios[1].parameters(problem.start()),
                             far = scenarios[5].parameters(problem.start());
   EXPECT_EQ(light[0], far[0]) << "both runs see the same friction";
@@ -59,7 +60,7 @@ TEST(Scenario, AFrictionLawIsASystemOfItsOwn) {
       "uncertain: {friction_law: {choice: [brown_mcphee, gonthier]}}\nrobust: {samples: 16}\n");
   int gonthier = 0;
   for (const Scenario& scenario : make_scenarios(problem))
-    gonthier += scenario.system->layout().states > problem.system()->layout().states;
+    gonthier += scenario.system->layout().states > system_of(problem)->layout().states;
   EXPECT_GT(gonthier, 4) << "the law of Gonthier has states";
   EXPECT_LT(gonthier, 12);
 }

@@ -8,6 +8,7 @@
 #include "equations/equations.h"
 #include "excitation/excited_cases.h"
 #include "math/differences.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -36,13 +37,14 @@ TEST(LimitEnvelope, Derivatives) {
 /// Compares all derivatives of a program at a point.
 void expect_gradient(const Problem& problem, double tolerance) {
   const MotionLimits limits = motion_limits(problem);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   std::vector<std::string> names;
   for (const MeasuredJoint& joint : limits.joints) names.push_back(joint.name);
   const Information information(variables, names, limits.noise);
-  const TrajectorySpace space(*problem.study().excitation, limits,
+  const TrajectorySpace space(*study_of(problem).excitation, limits,
                               Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size())));
-  ExcitedMotion motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), 1);
+  ExcitedMotion motion(*system_of(problem), limits.joints, limits.followers, problem.parameters(),
+                       1);
   std::vector<int> columns(static_cast<std::size_t>(variables.size()));
   std::iota(columns.begin(), columns.end(), 0);
   ExcitationProgram program(space, limits, information, columns, &motion);
@@ -86,10 +88,10 @@ TEST(ExcitationProgram, GradientOfAClosedLoop) {
 TEST(ExcitationProgram, AMotionThatTellsNothingIsAFailure) {
   const Problem problem = pendulum("", "parameters: {mass: {}, inertia: {}}", "0 0 1");
   const MotionLimits limits = motion_limits(problem);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const Information information(variables, {"hinge"}, limits.noise);
-  const TrajectorySpace space(*problem.study().excitation, limits, Eigen::VectorXd::Zero(1));
-  ExcitedMotion motion(*problem.system(), limits.joints, {}, problem.parameters(), 1);
+  const TrajectorySpace space(*study_of(problem).excitation, limits, Eigen::VectorXd::Zero(1));
+  ExcitedMotion motion(*system_of(problem), limits.joints, {}, problem.parameters(), 1);
   ExcitationProgram program(space, limits, information, {0, 1}, &motion);
   ASSERT_TRUE(motion.begin(space.rest(space.plain())).ok());
   EXPECT_EQ(program.evaluate(space.plain(), true).status.code, StatusCode::kNotIdentifiable);

@@ -8,6 +8,7 @@
 
 #include "excitation/excited_cases.h"
 #include "identification/identify.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -30,13 +31,14 @@ void expect_limits_kept(const ExcitationResult& result) {
 /// from its coefficients.
 double worst_on_fine_scan(const Problem& problem, const ExcitationResult& result, int count) {
   const MotionLimits limits = motion_limits(problem);
-  const TrajectoryBasis basis(*problem.study().excitation);
+  const TrajectoryBasis basis(*study_of(problem).excitation);
   const SampledShapes shapes(basis, times_in_period(basis.period(), count));
   DrivePath path{(shapes.value * result.coefficients).transpose(),
                  (shapes.rate * result.coefficients).transpose(),
                  (shapes.acceleration * result.coefficients).transpose()};
   path.position.colwise() += result.rest;
-  ExcitedMotion motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), 1);
+  ExcitedMotion motion(*system_of(problem), limits.joints, limits.followers, problem.parameters(),
+                       1);
   EXPECT_TRUE(motion.begin(result.rest).ok());
   return worst_along(limits, path, &motion);
 }

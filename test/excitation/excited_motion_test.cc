@@ -6,6 +6,7 @@
 #include "excitation/excited_cases.h"
 #include "excitation/trajectory_space.h"
 #include "math/differences.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -15,9 +16,10 @@ struct Moved {
   explicit Moved(const Problem& of, int threads = 1)
       : problem(of),
         limits(motion_limits(problem)),
-        space(*problem.study().excitation, limits,
+        space(*study_of(problem).excitation, limits,
               Eigen::VectorXd::Zero(static_cast<Eigen::Index>(limits.joints.size()))),
-        motion(*problem.system(), limits.joints, limits.followers, problem.parameters(), threads) {
+        motion(*system_of(problem), limits.joints, limits.followers, problem.parameters(),
+               threads) {
     const Eigen::VectorXd x = space.shrunk(
         space.mixed(Eigen::VectorXd::LinSpaced(space.size(), 0.1, 0.9).unaryExpr([](double u) {
           return std::fmod(5.3 * u, 1.0);
@@ -130,7 +132,7 @@ TEST(ExcitedMotion, JointsThatDoNotDetermineTheMotionAreRefused) {
        "identify: {}\nexcite: {joints: {elbow: {noise: 1}}}\nparameters: {fore_mass: {}}\n"});
   const MotionLimits limits = motion_limits(problem);
   try {
-    ExcitedMotion(*problem.system(), limits.joints, {}, problem.parameters(), 1);
+    ExcitedMotion(*system_of(problem), limits.joints, {}, problem.parameters(), 1);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(error.fault().message.find("excite.joints"), std::string::npos) << error.what();

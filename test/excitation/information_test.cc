@@ -8,6 +8,7 @@
 #include "equations/equations.h"
 #include "excitation/excited_cases.h"
 #include "math/differences.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -33,7 +34,7 @@ class InformationOfAPendulum : public testing::Test {
   const Problem problem_ = pendulum("", "parameters: {inertia: {}, viscous: {}}", "0 1 0",
                                     "joints: {hinge: {effort_scale: {initial: 2.0}, delay: "
                                     "{initial: 0.01, upper: 0.02}, offset: {initial: 0.5}}}");
-  const FitVariables variables_{problem_.study()};
+  const FitVariables variables_{study_of(problem_)};
   const Information information_{variables_, {"hinge"}, Eigen::VectorXd::Constant(1, 0.1)};
 };
 

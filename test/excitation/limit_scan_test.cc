@@ -5,6 +5,7 @@
 
 #include "equations/equations.h"
 #include "excitation/excited_cases.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -14,10 +15,10 @@ class LimitScanOf : public testing::Test {
   void open(const Problem& problem) {
     limits_ = motion_limits(problem);
     const auto joints = static_cast<Eigen::Index>(limits_.joints.size());
-    space_ = std::make_unique<TrajectorySpace>(*problem.study().excitation, limits_,
+    space_ = std::make_unique<TrajectorySpace>(*study_of(problem).excitation, limits_,
                                                Eigen::VectorXd::Zero(joints));
-    motion_ = std::make_unique<ExcitedMotion>(*problem.system(), limits_.joints, limits_.followers,
-                                              problem.parameters(), 1);
+    motion_ = std::make_unique<ExcitedMotion>(*system_of(problem), limits_.joints,
+                                              limits_.followers, problem.parameters(), 1);
     scan_ = std::make_unique<LimitScan>(*space_, limits_, motion_.get());
     x_ = space_->mixed(Eigen::VectorXd::LinSpaced(space_->size(), 0.1, 0.9).unaryExpr([](double u) {
       return std::fmod(5.3 * u, 1.0);

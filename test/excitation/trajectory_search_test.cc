@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "excitation/excited_cases.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -14,10 +15,10 @@ TEST_P(TrajectorySearchOf, LowersTheCriterionWithinTheLimits) {
   const Problem problem = pendulum("harmonics: 4, max_evaluations: 120, search: " + GetParam(),
                                    "parameters: {mass: {}, inertia: {}, viscous: {}}");
   const MotionLimits limits = motion_limits(problem);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const Information information(variables, {"hinge"}, limits.noise);
-  const TrajectorySpace space(*problem.study().excitation, limits, Eigen::VectorXd::Zero(1));
-  ExcitedMotion motion(*problem.system(), limits.joints, {}, problem.parameters(), 1);
+  const TrajectorySpace space(*study_of(problem).excitation, limits, Eigen::VectorXd::Zero(1));
+  ExcitedMotion motion(*system_of(problem), limits.joints, {}, problem.parameters(), 1);
   ExcitationProgram program(space, limits, information, {0, 1, 2}, &motion);
   Eigen::VectorXd x = space.shrunk(space.plain(), 0.5);
   ASSERT_TRUE(motion.begin(space.rest(x)).ok());
@@ -28,7 +29,7 @@ TEST_P(TrajectorySearchOf, LowersTheCriterionWithinTheLimits) {
     return true;
   };
   const TrajectorySearchResult found =
-      search_trajectory(*problem.study().excitation, x, 3, count, &program);
+      search_trajectory(*study_of(problem).excitation, x, 3, count, &program);
   EXPECT_EQ(found.evaluations, trials);
   EXPECT_LE(found.evaluations, 120);
   EXPECT_LT(found.criterion, found.initial_criterion - 3.0);
@@ -41,16 +42,16 @@ INSTANTIATE_TEST_SUITE_P(Methods, TrajectorySearchOf, testing::Values("slsqp", "
 TEST(TrajectorySearch, EndsWhenToldWithTheBestPointSoFar) {
   const Problem problem = pendulum("harmonics: 4", "parameters: {inertia: {}, viscous: {}}");
   const MotionLimits limits = motion_limits(problem);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const Information information(variables, {"hinge"}, limits.noise);
-  const TrajectorySpace space(*problem.study().excitation, limits, Eigen::VectorXd::Zero(1));
-  ExcitedMotion motion(*problem.system(), limits.joints, {}, problem.parameters(), 1);
+  const TrajectorySpace space(*study_of(problem).excitation, limits, Eigen::VectorXd::Zero(1));
+  ExcitedMotion motion(*system_of(problem), limits.joints, {}, problem.parameters(), 1);
   ExcitationProgram program(space, limits, information, {0, 1}, &motion);
   const Eigen::VectorXd x = space.shrunk(space.plain(), 0.5);
   ASSERT_TRUE(motion.begin(space.rest(x)).ok());
   const auto stop = [](const ExcitationTrial& trial) { return trial.evaluation < 6; };
   const TrajectorySearchResult found =
-      search_trajectory(*problem.study().excitation, x, 1, stop, &program);
+      search_trajectory(*study_of(problem).excitation, x, 1, stop, &program);
   EXPECT_EQ(found.evaluations, 6);
   EXPECT_EQ(found.termination, "cancelled");
   EXPECT_LE(found.criterion, found.initial_criterion);

@@ -7,6 +7,7 @@
 
 #include "equations/equations.h"
 #include "excitation/excited_cases.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -18,7 +19,7 @@ class TrajectorySpaceOfArm : public testing::Test {
  protected:
   const Problem problem_ = arm("harmonics: 3");
   const MotionLimits limits_ = motion_limits(problem_);
-  const TrajectorySpace space_{*problem_.study().excitation, limits_, Eigen::Vector2d(0.1, 0.2)};
+  const TrajectorySpace space_{*study_of(problem_).excitation, limits_, Eigen::Vector2d(0.1, 0.2)};
   const SampledShapes fine_{space_.basis(), times_in_period(5.0, 500)};
   Eigen::VectorXd some_point() const {
     return space_.mixed(

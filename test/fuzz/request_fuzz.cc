@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "problem/load_problem.h"
 #include "ros/jobs/job.h"
 
 namespace codesign::fuzz {
@@ -28,7 +29,7 @@ std::string odd_name(const std::string& usual, Dice* dice) {
 
 void choose(const Problem& problem, Dice* dice, std::vector<std::string>* names,
             std::vector<double>* values) {
-  for (const Parameter& parameter : problem.study().parameters) {
+  for (const Parameter& parameter : study_of(problem).parameters) {
     if (dice->one_in(2)) continue;
     names->push_back(odd_name(parameter.name, dice));
     values->push_back(odd_number(parameter.value, dice));
@@ -104,7 +105,7 @@ std::string run_request(const std::vector<Seed>& seeds, const Limits& limits, Di
   const Seed& seed = dice->pick(seeds);
   if (!seed.files.empty()) return "";  // requests of identification read files
   const Problem problem = load_problem({"model.urdf", seed.urdf}, {}, {"study.yaml", seed.study});
-  if (problem.study().tuned.empty()) return "";
+  if (study_of(problem).tuned.empty()) return "";
   const bool evaluates = dice->one_in(2);
   return run_isolated(
       [&](const std::atomic<bool>& cancel) {

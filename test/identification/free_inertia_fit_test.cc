@@ -7,6 +7,7 @@
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -57,7 +58,7 @@ std::map<std::string, double> truth(const Problem& problem) {
   std::map<std::string, double> values;
   int k = 0;
   for (const std::string& name : sought()) {
-    const auto& all = problem.study().parameters;
+    const auto& all = study_of(problem).parameters;
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&name](const Parameter& one) { return one.name == name; });
     const double sign = ++k % 2 == 0 ? 1.0 : -1.0;

@@ -229,7 +229,7 @@ TEST(Identify, ADriveGainComesFromMotionsWithAndWithoutAPayload) {
   StudyRecordings recordings;
   recordings.data = {without.record("identify.data[0]"), with.record("identify.data[1]")};
   EXPECT_NE(identify(problem, recordings, {}, nullptr).data[0].rms, 0.0);
-  recordings.data[1].settings = problem.study().identification->holdout.at(0).settings;
+  recordings.data[1].settings = study_of(problem).identification->holdout.at(0).settings;
   ASSERT_EQ(recordings.data[1].settings.size(), 1U);
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
@@ -287,7 +287,7 @@ TEST(Identify, ASpeedAloneIsIntegratedFromAStartThatIsFitted) {
   for (std::size_t k = 0; k < hinge.effort.size(); ++k)
     hinge.effort[k] += 2.0 * 9.81 * 0.5 * std::cos(hinge.position[k] - 0.35);
   hinge.position.clear();
-  hinge.start = problem.study().identification->data[0].starts.at(0).position;
+  hinge.start = study_of(problem).identification->data[0].starts.at(0).position;
   StudyRecordings recordings;
   recordings.data = {recording};
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
@@ -322,7 +322,7 @@ TEST(Identify, AStartThatNothingTellsIsNamed) {
   recordings.data = {Rig().record("identify.data[0]")};
   recordings.data[0].joints[0].position.clear();
   recordings.data[0].joints[0].start =
-      problem.study().identification->data[0].starts.at(0).position;
+      study_of(problem).identification->data[0].starts.at(0).position;
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   ASSERT_EQ(result.undetermined.size(), 1U);

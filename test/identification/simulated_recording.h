@@ -18,7 +18,7 @@ namespace codesign {
 inline JointRecording record_run(const Problem& problem, const std::map<std::string, double>& truth,
                                  const std::vector<std::string>& joints, double rate) {
   std::vector<double> parameters;
-  for (const Parameter& parameter : problem.study().parameters) {
+  for (const Parameter& parameter : study_of(problem).parameters) {
     const auto found = truth.find(parameter.name);
     parameters.push_back(found == truth.end() ? parameter.value : found->second);
   }
@@ -33,7 +33,7 @@ inline JointRecording record_run(const Problem& problem, const std::map<std::str
     recording.joints.push_back({joint, {}, {}, {}});
   }
   Simulation simulation(problem, parameters, signals);
-  const double duration = problem.study().duration;
+  const double duration = study_of(problem).duration;
   const Status status = simulate(&simulation, duration, static_cast<int>(duration * rate + 0.5) + 1,
                                  [&](const Frame& frame) {
                                    recording.times.push_back(frame.time);

@@ -7,6 +7,7 @@
 #include "description/study.h"
 #include "equations/formulas.h"
 #include "integration/energy_balance.h"
+#include "integration/simulation_of.h"
 #include "mechanism/constants.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
@@ -49,7 +50,7 @@ std::vector<double> at_end(const std::string& urdf, const std::string& text,
   std::vector<SignalDescription> parsed;
   for (const std::string& signal : signals) parsed.push_back(parse_signal(signal, {}, "test"));
   const auto system = make_system(description, study);
-  Simulation simulation(system, system->parameters(), parsed);
+  Simulation simulation = simulation_of(system, system->parameters(), parsed);
   Frame frame;
   Status status = simulation.start();
   if (status.ok()) status = simulation.advance(study.duration);

@@ -6,6 +6,7 @@
 
 #include "assembly/count_equations.h"
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -43,7 +44,7 @@ TEST(Couplings, StayInStepOverManyTurnsAndMoveAsOneInertia) {
     const double in_step = integrator == std::string("idas") ? 2e-3 : 1e-6;
     const std::string solver = std::string("{integrator: ") + integrator +
                                ", relative_tolerance: 1e-8, absolute_tolerance: 1e-9}";
-    Simulation simulation(
+    Simulation simulation = simulation_of(
         compile(geared(), motion_study(3.0, "{out: {position: 9.0}}", "out/velocity", solver)), {});
     const std::vector<std::string>& names = simulation.names().joints;
     const auto joint = [&names](const Frame& frame, const std::string& name) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -22,7 +23,7 @@ inline std::vector<SignalDescription> parsed_signals(const std::vector<std::stri
 inline std::vector<double> end_of(const std::string& urdf, const std::string& study, double time,
                                   const std::vector<std::string>& texts) {
   const std::shared_ptr<const CompiledSystem> system = compile(urdf, study);
-  Simulation run(system, system->parameters(), parsed_signals(texts));
+  Simulation run = simulation_of(system, system->parameters(), parsed_signals(texts));
   EXPECT_TRUE(run.start().ok());
   const Status status = time > 0.0 ? run.advance_to(time) : Status();
   EXPECT_TRUE(status.ok()) << status.cause;

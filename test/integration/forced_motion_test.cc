@@ -7,8 +7,10 @@
 #include "integration/equal_steps.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -108,8 +110,8 @@ TEST(ForcedMotion, BothIntegratorsAgreeOnObjectiveAndGradient) {
   const std::vector<double> values = rosenbrock->parameters();
   Eigen::VectorXd rho(static_cast<Eigen::Index>(values.size()));
   for (std::size_t k = 0; k < values.size(); ++k) rho[static_cast<Eigen::Index>(k)] = values[k];
-  const Evaluation a = Evaluator(rosenbrock).evaluate(rho, true),
-                   b = Evaluator(idas).evaluate(rho, true);
+  const Evaluation a = evaluator_of(rosenbrock).evaluate(rho, true),
+                   b = evaluator_of(idas).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok() && b.status.ok()) << b.status.cause;
   EXPECT_NEAR(b.objective / a.objective, 1.0, 1e-6);
   EXPECT_LT((b.gradient - a.gradient).norm(), 1e-5 * a.gradient.norm());
@@ -133,7 +135,7 @@ TEST(ForcedMotion, ComputedTorqueLeavesALinearError) {
   const auto error = [](double e, double rate, double t) {
     return ((8.0 * e + rate) * std::exp(-2.0 * t) - (2.0 * e + rate) * std::exp(-8.0 * t)) / 6.0;
   };
-  Simulation simulation(system, system->parameters());
+  Simulation simulation = simulation_of(system, system->parameters());
   const Status status = simulate(&simulation, 1.0, 11, [&](const Frame& frame) {
     EXPECT_NEAR(frame.controllers[0].error, error(-0.5, w, frame.time), 1e-6);
     EXPECT_NEAR(frame.controllers[1].error, error(0.0, w - 1.0, frame.time), 1e-6);
@@ -155,7 +157,7 @@ double lasting_error(const std::string& keys) {
     study += controller;
   }
   const auto system = compile(double_pendulum(), study);
-  Simulation simulation(system, system->parameters());
+  Simulation simulation = simulation_of(system, system->parameters());
   double error = 0.0;
   const Status status = simulate(&simulation, 8.0, 2, [&error](const Frame& frame) {
     error = frame.controllers[0].error;

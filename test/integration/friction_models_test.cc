@@ -9,6 +9,7 @@
 #include "assembly/make_system.h"
 #include "description/study.h"
 #include "integration/mechanisms.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -45,7 +46,7 @@ Series run(const std::string& urdf, double duration, const std::string& initial,
   std::vector<SignalDescription> signals;
   for (const std::string& name : names)
     signals.push_back(parse_signal(name, {"test", 0}, "signal"));
-  Simulation simulation(make_system(description, study), {}, signals);
+  Simulation simulation = simulation_of(make_system(description, study), {}, signals);
   Series series;
   series.status = simulate(&simulation, duration, count, [&](const Frame& frame) {
     series.frames.push_back(frame.signals);

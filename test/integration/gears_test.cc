@@ -8,6 +8,7 @@
 #include "equations/compiled.h"
 #include "integration/driven_slides.h"
 #include "integration/energy_balance.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -59,7 +60,8 @@ double acceleration(const Screw& screw, double torque, double velocity, const ch
   const RobotDescription robot = read_urdf({"test.urdf", screw.urdf()});
   const auto system =
       make_system(robot, read_study({"t.yaml", study(torque, velocity, coordinates)}, robot));
-  Simulation simulation(system, system->parameters(), {parse_signal("lift/acceleration", {}, "t")});
+  Simulation simulation =
+      simulation_of(system, system->parameters(), {parse_signal("lift/acceleration", {}, "t")});
   EXPECT_TRUE(simulation.start().ok());
   Frame frame;
   simulation.sample(0.0, &frame);
@@ -97,7 +99,7 @@ std::vector<double> left_alone(const std::string& urdf, const char* coordinates)
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   const auto system =
       make_system(robot, read_study({"t.yaml", study(0.0, 0.0, coordinates)}, robot));
-  Simulation simulation(
+  Simulation simulation = simulation_of(
       system, system->parameters(),
       parsed_signals({"lift/velocity", "lift/position", "lift/gear_torque", "lift/gear_loss"}));
   EXPECT_TRUE(simulation.start().ok());
@@ -159,9 +161,10 @@ Ratios ratios(double efficiency, double backdrive, const char* coordinates) {
            coordinates + "}\n"},
       robot);
   const auto system = make_system(robot, study);
-  Simulation simulation(system, system->parameters(),
-                        parsed_signals({"hinge/velocity", "hinge/acceleration", "hinge/effort",
-                                        "hinge/gear_torque", "hinge/friction_power"}));
+  Simulation simulation =
+      simulation_of(system, system->parameters(),
+                    parsed_signals({"hinge/velocity", "hinge/acceleration", "hinge/effort",
+                                    "hinge/gear_torque", "hinge/friction_power"}));
   Ratios result;
   const Status status = simulate(&simulation, 3.0, 301, [&](const Frame& frame) {
     const std::vector<double>& s = frame.signals;

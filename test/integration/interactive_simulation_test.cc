@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 
 namespace codesign {
 namespace {
@@ -73,7 +74,7 @@ TEST_P(Commanded, AStepInEffortIsTheRunOfTwoStudies) {
   std::snprintf(start, sizeof start, "{position: %.17g, velocity: %.17g}", middle.position,
                 middle.velocity);
   const auto second = bar_at(start, GetParam(), "loads: [{joint: hinge, effort: -3.0}]\n");
-  Simulation other(second, second->parameters());
+  Simulation other = simulation_of(second, second->parameters());
   Frame frame;
   ASSERT_TRUE(other.start().ok());
   ASSERT_TRUE(other.advance(0.5).ok());
@@ -121,7 +122,8 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Commanded, testing::Values(kByRosenbrock, 
 TEST(InteractiveSimulation, WithoutCommandsItTakesTheStepsOfTheStudy) {
   const auto system = servo("{relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7}");
   InteractiveSimulation run(*system, {}, {parse_signal("servo/output", {}, "signal")});
-  Simulation plain(system, system->parameters(), {parse_signal("servo/output", {}, "signal")});
+  Simulation plain =
+      simulation_of(system, system->parameters(), {parse_signal("servo/output", {}, "signal")});
   ASSERT_TRUE(run.start(system->parameters()).ok());
   ASSERT_TRUE(plain.start().ok());
   EXPECT_EQ(run.names().controllers, plain.names().controllers);

@@ -19,6 +19,7 @@
 #include "assembly/make_system.h"
 #include "description/study.h"
 #include "equations/compiled_system.h"
+#include "integration/simulation_of.h"
 #include "mechanism/topology.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"
@@ -180,7 +181,7 @@ double largest_difference(const std::string& urdf, int states, unsigned seed) {
       moved.push_back(number);
     }
     const auto system = make_system(robot, study);
-    Simulation simulation(system, system->parameters(), signals);
+    Simulation simulation = simulation_of(system, system->parameters(), signals);
     EXPECT_TRUE(simulation.start().ok());
     Frame frame;
     simulation.sample(0.0, &frame);

@@ -4,6 +4,7 @@
 
 #include "integration/energy_balance.h"
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -30,8 +31,8 @@ struct Range {
 
 Range positions(const std::string& urdf, const std::string& study_text, double duration = 2.0) {
   Range range;
-  Simulation simulation(compile(urdf, study_text), {},
-                        {parse_signal("hinge/position", {"test", 0}, "signal")});
+  Simulation simulation = simulation_of(compile(urdf, study_text), {},
+                                        {parse_signal("hinge/position", {"test", 0}, "signal")});
   const Status status = simulate(&simulation, duration, 401, [&range](const Frame& frame) {
     range.last = frame.signals[0];
     range.least = std::min(range.least, range.last);
@@ -90,9 +91,9 @@ std::string servo_limits(const std::string& limits) {
 }
 
 Frame at_end(const std::string& urdf, const std::string& limits) {
-  Simulation simulation(compile(urdf, servo_limits(limits)), {},
-                        {parse_signal("hinge/effort", {"test", 0}, "signal"),
-                         parse_signal("servo/output", {"test", 0}, "signal")});
+  Simulation simulation = simulation_of(compile(urdf, servo_limits(limits)), {},
+                                        {parse_signal("hinge/effort", {"test", 0}, "signal"),
+                                         parse_signal("servo/output", {"test", 0}, "signal")});
   Frame last;
   EXPECT_TRUE(simulate(&simulation, 0.1, 2, [&last](const Frame& frame) {
                 last = frame;

@@ -8,6 +8,7 @@
 #include "integration/driven_slides.h"
 #include "integration/energy_balance.h"
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -23,8 +24,8 @@ TEST(Linkages, RowsOfFourBarsSwingAsTheirPlanarEquationSays) {
     ASSERT_TRUE(status.ok()) << status.cause;
     EXPECT_EQ(counts.degrees_of_freedom, 1);
     EXPECT_EQ(counts.redundant_constraints, 3 * count);
-    Simulation simulation(system, {},
-                          parsed_signals({"bar0_hinge/position", "bar1_hinge/position"}));
+    Simulation simulation =
+        simulation_of(system, {}, parsed_signals({"bar0_hinge/position", "bar1_hinge/position"}));
     status = simulate(&simulation, 1.5, 6, [&](const Frame& frame) {
       const auto f = [count](double theta) { return four_bar_row_acceleration(count, theta); };
       const double theta = frame.time == 0.0 ? 0.6 : reference_angle(f, 0.6, 1.0, frame.time);
@@ -46,9 +47,10 @@ TEST(Linkages, ABricardRingKeepsToItsClosedForm) {
   EXPECT_EQ(counts.degrees_of_freedom, 1);
   EXPECT_EQ(counts.redundant_constraints, 1);
   double least = 10.0, most = -10.0;
-  Simulation simulation(system, {},
-                        parsed_signals({"turn1/position", "turn2/position", "turn3/position",
-                                        "turn4/position", "turn5/position"}));
+  Simulation simulation =
+      simulation_of(system, {},
+                    parsed_signals({"turn1/position", "turn2/position", "turn3/position",
+                                    "turn4/position", "turn5/position"}));
   status = simulate(&simulation, 2.0, 41, [&](const Frame& frame) {
     const std::vector<double>& theta = frame.signals;
     least = std::min(least, theta[0]);

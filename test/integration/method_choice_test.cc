@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "integration/method_choice.h"
 
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/gradient_cases.h"
@@ -64,7 +65,7 @@ TEST_P(MethodChoiceTest, ChangesOverBothWaysWithinARun) {
 
 TEST_P(MethodChoiceTest, TheRunKnowsWhichMethodTookWhichSteps) {
   const auto system = stick_slip(GetParam()).compile("auto", "direct");
-  Simulation simulation(system, system->parameters());
+  Simulation simulation = simulation_of(system, system->parameters());
   ASSERT_TRUE(simulation.start().ok());
   ASSERT_TRUE(simulation.advance(system->study().duration).ok());
   const std::vector<MethodChange>& methods = simulation.methods();

@@ -8,8 +8,10 @@
 #include "integration/driven_slides.h"
 #include "integration/planar_linkages.h"
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -28,7 +30,7 @@ std::vector<std::vector<double>> run(const std::string& urdf, const std::string&
                                      const std::vector<std::string>& signals) {
   std::vector<std::vector<double>> all;
   const auto system = made(urdf, study);
-  Simulation simulation(system, system->parameters(), parsed_signals(signals));
+  Simulation simulation = simulation_of(system, system->parameters(), parsed_signals(signals));
   const Status status = simulate(&simulation, system->study().duration, 6, [&](const Frame& frame) {
     all.push_back(frame.signals);
     return true;
@@ -200,7 +202,7 @@ TEST(PlanarLoops, ADesignThatLeavesThePlaneHasNoValue) {
       made(urdf,
            "duration: 0.1\ninitial_state: {left_hinge: {position: 0.5}}\nparameters: {tilt: "
            "{}}\nobjective: {integral: [{signal: left_hinge/velocity}]}\n");
-  Evaluator evaluator(system);
+  Evaluator evaluator = evaluator_of(system);
   EXPECT_TRUE(evaluator.evaluate(Eigen::VectorXd::Zero(1), false).status.ok());
   const Status status = evaluator.evaluate(Eigen::VectorXd::Constant(1, 0.1), false).status;
   EXPECT_EQ(status.code, StatusCode::kInvalidDesign);
@@ -215,7 +217,7 @@ TEST(PlanarLoops, PosturesAreThoseOfSharedLoops) {
       "parameters: {crank: {}, pitch: {}}\nobjective: {sum: [{signal: block/position/x}, {signal: "
       "slide/reaction_force/x, weight: 0.01}]}\n";
   const auto evaluated = [&study](const std::string& urdf) {
-    return Evaluator(made(urdf, study)).evaluate(Eigen::Vector2d(0.3, 1.3), true);
+    return evaluator_of(made(urdf, study)).evaluate(Eigen::Vector2d(0.3, 1.3), true);
   };
   const Evaluation held = evaluated(held_in_plane(block_on_a_loop())),
                    shared = evaluated(block_on_a_loop());

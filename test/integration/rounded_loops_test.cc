@@ -61,7 +61,7 @@ std::string study(double tolerance, const std::string& more = "") {
 Evaluation evaluate(const std::string& urdf, double tolerance, const std::string& more = "") {
   const Problem problem =
       load_problem({"four.urdf", urdf}, {}, {"four.yaml", study(tolerance, more)});
-  Evaluator evaluator(problem.system());
+  Evaluator evaluator(problem);
   return evaluator.evaluate(problem.start(), true);
 }
 
@@ -112,8 +112,8 @@ TEST(RoundedLoops, OtherLinkagesSettleAsTheToleranceFalls) {
       const Problem problem =
           load_problem({"rounded.urdf", c.urdf}, {},
                        {"rounded.yaml", rounded::study(c.start, c.signal, 0.2, tolerance)});
-      EXPECT_FALSE(problem.system()->sharing().dropped.empty()) << c.name;
-      return Evaluator(problem.system()).evaluate(problem.start(), true);
+      EXPECT_FALSE(system_of(problem)->sharing().dropped.empty()) << c.name;
+      return Evaluator(problem).evaluate(problem.start(), true);
     };
     const Evaluation tight = at(1e-11);
     ASSERT_TRUE(tight.status.ok()) << c.name << ": " << tight.status.cause;

@@ -128,10 +128,10 @@ struct End {
 
 End run(const std::string& urdf, const std::string& study) {
   const Problem problem = load_problem({"rounded.urdf", urdf}, {}, {"rounded.yaml", study});
-  const auto integrator = make_integrator(*problem.system());
+  const auto integrator = make_integrator(*system_of(problem));
   Status status = integrator->start(problem.parameters());
-  while (status.ok() && integrator->state().t < problem.study().duration)
-    status = integrator->advance(problem.study().duration);
+  while (status.ok() && integrator->state().t < study_of(problem).duration)
+    status = integrator->advance(study_of(problem).duration);
   return {status, integrator->statistics()};
 }
 

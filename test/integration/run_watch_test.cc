@@ -8,6 +8,7 @@
 #include "integration/rosenbrock_integrator.h"
 #include "integration/run_watch.h"
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -231,7 +232,7 @@ TEST(RunWatch, WhatSpringsHoldAtRestHasNoEnergyToBeChecked) {
     const auto system =
         compile(slide, motion_study(1.0, "{}", "slide/velocity", solver(integrator, 1e-6)) +
                            "gravity: [0, 0, 0]\n");
-    Simulation simulation(system, system->parameters());
+    Simulation simulation = simulation_of(system, system->parameters());
     Status status = simulation.start();
     if (status.ok()) status = simulation.advance(1.0);
     EXPECT_TRUE(status.ok()) << integrator << ": " << status.cause;
@@ -320,7 +321,7 @@ TEST(RunWatch, AMechanismThatHardlyMovesIsNotJudgedByWhatNoToleranceResolves) {
   const std::string text = motion_study(2.0, "{left_hinge: {position: 0.3}}", "left_hinge/velocity",
                                         solver("rosenbrock", 1e-6));
   const auto system = compile(four_bar(), text + "gravity: [0, -9.81, 0]\n");
-  Simulation simulation(system, system->parameters());
+  Simulation simulation = simulation_of(system, system->parameters());
   Status status = simulation.start();
   if (status.ok()) status = simulation.advance(2.0);
   EXPECT_TRUE(status.ok()) << status.cause;

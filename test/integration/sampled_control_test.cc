@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "integration/servo.h"
+#include "integration/simulation_of.h"
 
 namespace codesign {
 namespace {
@@ -73,7 +74,7 @@ double critical_gain(double d) {
 /// Positions at the samples.
 std::vector<double> simulate_cart(const std::shared_ptr<const CompiledSystem>& system,
                                   int samples) {
-  Simulation simulation(system, {}, {parse_signal("slide/position", {}, "signal")});
+  Simulation simulation = simulation_of(system, {}, {parse_signal("slide/position", {}, "signal")});
   std::vector<double> positions;
   const Status status =
       simulate(&simulation, samples * kPeriod, samples + 1, [&](const Frame& frame) {
@@ -130,7 +131,7 @@ TEST(SampledControl, RoundsWhatItMeasures) {
   // x = 0.1 + 0.3 t with a gain of zero would not show; a small gain and a coarse encoder give
   // outputs in multiples of p q.
   const auto system = cart("{p: 0.01}", ", quantization: 0.02", "rosenbrock", 0.5);
-  Simulation simulation(
+  Simulation simulation = simulation_of(
       system, {},
       {parse_signal("pd/output", {}, "signal"), parse_signal("slide/position", {}, "signal")});
   int changes = 0;
@@ -149,7 +150,7 @@ TEST(SampledControl, RoundsWhatItMeasures) {
 
 TEST(SampledControl, GoesOnBeyondTheDuration) {
   const auto system = cart(pd(900.0, 40.0), "", "rosenbrock", 0.05);
-  Simulation simulation(system, {}, {parse_signal("slide/position", {}, "signal")});
+  Simulation simulation = simulation_of(system, {}, {parse_signal("slide/position", {}, "signal")});
   ASSERT_TRUE(simulation.start().ok());
   Frame frame;
   ASSERT_TRUE(simulation.advance(0.6).ok());

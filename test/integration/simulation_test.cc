@@ -11,6 +11,7 @@
 
 #include "assembly/make_system.h"
 #include "equations/compiled.h"
+#include "integration/simulation_of.h"
 
 namespace codesign {
 namespace {
@@ -31,7 +32,8 @@ std::shared_ptr<const CompiledSystem> small_swing() {
 const double kFrequency = std::sqrt(9.81 * 0.5 / (0.0834 + 0.25));
 
 TEST(Simulation, ASmallSwingIsHarmonicBetweenStepsToo) {
-  Simulation simulation(small_swing(), {}, {parse_signal("hinge/velocity", {}, "signal")});
+  Simulation simulation =
+      simulation_of(small_swing(), {}, {parse_signal("hinge/velocity", {}, "signal")});
   std::vector<double> times;
   const Status status = simulate(&simulation, 1.0, 51, [&](const Frame& frame) {
     times.push_back(frame.time);
@@ -49,7 +51,7 @@ TEST(Simulation, ASmallSwingIsHarmonicBetweenStepsToo) {
 }
 
 TEST(Simulation, TheObjectiveGrowsToItsIntegral) {
-  Simulation simulation(small_swing(), {});
+  Simulation simulation = simulation_of(small_swing(), {});
   Frame frame;
   ASSERT_TRUE(simulation.start().ok());
   ASSERT_TRUE(simulation.advance(1.0).ok());
@@ -67,7 +69,7 @@ TEST(Simulation, TheInstantsAskedForDoNotChangeTheRun) {
       return true;
     };
   };
-  Simulation a(small_swing(), {}), b(small_swing(), {});
+  Simulation a = simulation_of(small_swing(), {}), b = simulation_of(small_swing(), {});
   ASSERT_TRUE(simulate(&a, 1.0, 2, last(&coarse)).ok());
   ASSERT_TRUE(simulate(&b, 1.0, 201, last(&fine)).ok());
   EXPECT_EQ(coarse.joints[0].position, fine.joints[0].position);
@@ -75,7 +77,7 @@ TEST(Simulation, TheInstantsAskedForDoNotChangeTheRun) {
 }
 
 TEST(Simulation, RunsOnBeyondTheDuration) {
-  Simulation simulation(small_swing(), {});
+  Simulation simulation = simulation_of(small_swing(), {});
   Frame frame;
   ASSERT_TRUE(simulation.start().ok());
   for (double time : {0.5, 1.0, 1.7, 3.0}) {
@@ -86,9 +88,10 @@ TEST(Simulation, RunsOnBeyondTheDuration) {
 }
 
 TEST(Simulation, ContinuousJointsCountTheirTurns) {
-  Simulation simulation(system_of(pendulum(), let_go("{hinge: {position: 14.0, velocity: 20.0}}",
-                                                     "hinge/velocity", kTight)),
-                        {});
+  Simulation simulation = simulation_of(
+      system_of(pendulum(),
+                let_go("{hinge: {position: 14.0, velocity: 20.0}}", "hinge/velocity", kTight)),
+      {});
   double previous = 14.0;
   const Status status = simulate(&simulation, 1.0, 101, [&](const Frame& frame) {
     EXPECT_GE(frame.joints[0].position, previous);
@@ -101,7 +104,7 @@ TEST(Simulation, ContinuousJointsCountTheirTurns) {
 }
 
 TEST(Simulation, AnObserverMayEndIt) {
-  Simulation simulation(small_swing(), {});
+  Simulation simulation = simulation_of(small_swing(), {});
   int frames = 0;
   const Status status =
       simulate(&simulation, 1.0, 11, [&frames](const Frame&) { return ++frames < 3; });
@@ -111,7 +114,7 @@ TEST(Simulation, AnObserverMayEndIt) {
 }
 
 TEST(Simulation, ObeysACancelBetweenSamplesToo) {
-  Simulation simulation(small_swing(), {});
+  Simulation simulation = simulation_of(small_swing(), {});
   std::atomic<bool> cancel{false};
   std::thread other([&cancel] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

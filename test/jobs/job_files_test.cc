@@ -11,6 +11,7 @@
 #include "jobs/job_files.h"
 #include "mechanism_codesign/error.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 #include "temporary_directory.h"
 
 namespace codesign {
@@ -24,7 +25,7 @@ Inputs slider_crank() {
 
 TEST(Inputs, WithoutAStudyAreTheMechanismAlone) {
   const Problem problem = load(slider_crank());
-  EXPECT_TRUE(problem.study().tuned.empty());
+  EXPECT_TRUE(study_of(problem).tuned.empty());
   EXPECT_EQ(problem.duration(), 0.0);
 }
 
@@ -32,7 +33,7 @@ TEST(Inputs, WithAStudyAreTheWholeProblem) {
   Inputs inputs = slider_crank();
   inputs.study = read_source(source_dir() + "/config/slider_crank_haug.yaml");
   const Problem problem = load(inputs);
-  ASSERT_FALSE(problem.study().tuned.empty());
+  ASSERT_FALSE(study_of(problem).tuned.empty());
   inputs.settings = {{problem.tuned_names().front(), problem.start()[0] * 1.01}};
   EXPECT_EQ(load(inputs).start()[0], problem.start()[0] * 1.01);
   inputs.settings = {{"none_of_these", 1.0}};

@@ -10,6 +10,7 @@
 #include "jobs/edited_line.h"
 #include "jobs/journal_lines.h"
 #include "jobs/json.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -35,7 +36,7 @@ TEST(JournalHeader, SaysWhatDiffers) {
   EXPECT_NE(
       header_difference(journal_header(problem, options), own).find("options of the optimizer"),
       std::string::npos);
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.tuned.pop_back();
   EXPECT_NE(header_difference(header_of(with_study(problem, study)), own).find("tuned parameters"),
             std::string::npos);

@@ -9,6 +9,7 @@
 #include "ensemble/ensemble_fixture.h"
 #include "jobs/edited_line.h"
 #include "jobs/json.h"
+#include "problem/load_problem.h"
 #include "temporary_directory.h"
 
 namespace codesign {
@@ -21,7 +22,7 @@ class JournalTest : public testing::Test {
   }
   std::string path() const { return (folder_.path() / "journal.jsonl").string(); }
   EvaluationTask task(double kp, bool with_gradient = false) const {
-    return {problem_.system(), problem_.parameters(Eigen::Vector2d(kp, 3.0)),
+    return {system_of(problem_), problem_.parameters(Eigen::Vector2d(kp, 3.0)),
             gradient_if(with_gradient)};
   }
   static Evaluation value(double objective) {
@@ -81,7 +82,7 @@ TEST_F(JournalTest, FindsWhatAnEarlierProcessKept) {
   EXPECT_EQ(journal.find(task(2.0, true))->gradient, Eigen::Vector2d(20.0, -20.0));
   EXPECT_FALSE(journal.find(task(1.0, true))) << "its gradient is not known";
   EXPECT_FALSE(journal.find(task(1.0 + 1e-16 * 4))) << "other bits";
-  EXPECT_FALSE(journal.find({block("").system(), task(1.0).parameters, Derivatives::kNone}))
+  EXPECT_FALSE(journal.find({system_of(block("")), task(1.0).parameters, Derivatives::kNone}))
       << "a system of another problem";
   journal.keep(task(3.0), value(30.0));
   EXPECT_EQ(journal.find(task(3.0))->objective, 30.0);

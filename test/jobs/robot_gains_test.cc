@@ -6,6 +6,7 @@
 #include "description/study.h"
 #include "jobs/robot_gains.h"
 #include "jobs/tuned_pendulum.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -32,7 +33,7 @@ TEST(RobotGainsOfAStudy, WithoutHardwareThereAreNone) {
 /// With another name of the controller.
 std::string gains_of(const std::string& controller) {
   const Problem problem = pendulum_on_hardware();
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.controllers.at(0).name = study.hardware.at(0).controller = controller;
   return gains_yaml(with_study(problem, study), problem.parameters());
 }

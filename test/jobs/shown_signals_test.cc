@@ -5,6 +5,7 @@
 #include "jobs/json.h"
 #include "jobs/shown_signals.h"
 #include "jobs/tuned_pendulum.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -47,7 +48,7 @@ TEST(ShownSignals, HaveUnitsAndLimits) {
 TEST(ShownSignals, UnitsOfLinksAndDifferences) {
   const Problem problem = pendulum();
   const auto unit = [&problem](const char* text) {
-    return unit_of(parse_signal(text, {}, ""), problem.robot(), problem.study().controllers);
+    return unit_of(parse_signal(text, {}, ""), robot_of(problem), study_of(problem).controllers);
   };
   EXPECT_EQ(unit("bob/position/x - ground/position/x"), "m");
   EXPECT_EQ(unit("bob/velocity/z"), "m/s");

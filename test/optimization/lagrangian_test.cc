@@ -6,6 +6,7 @@
 #include "ensemble/ensemble_fixture.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/lagrangian.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -14,8 +15,8 @@ struct Conditions {
   explicit Conditions(const Problem& of)
       : problem(of),
         ensemble(problem),
-        scaling(problem.study()),
-        parameters(problem.study(), ensemble.scenarios()),
+        scaling(study_of(problem)),
+        parameters(study_of(problem), ensemble.scenarios()),
         program(ensemble) {}
   Optimality at(const Eigen::VectorXd& rho) {
     return optimality(ensemble.evaluate(rho, true), rho, scaling, parameters, &program);
@@ -111,7 +112,7 @@ TEST(Lagrangian, ManySamplesWithBoundedSignalsTakeFewMatrices) {
 TEST(Lagrangian, ABoundIsWorthItsMultiplier) {
   const auto tune = [](const std::string& constraint, double upper) {
     const Problem problem = block(constraint, kTight);
-    Study study = problem.study();
+    Study study = study_of(problem);
     study.parameters[static_cast<std::size_t>(study.tuned[0])].upper = upper;
     return optimize(with_study(problem, study));
   };

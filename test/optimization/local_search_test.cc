@@ -7,6 +7,7 @@
 
 #include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -69,7 +70,7 @@ TEST(LocalSearch, ALostWorkerEndsTheSearchWithTheBestPoint) {
   const Problem problem = block(kRuns);
   for (const int calls : {0, 4}) {
     const Ensemble ensemble(make_scenarios(problem), {}, std::make_shared<LosingEngine>(calls));
-    const OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(),
+    const OptimizationResult result = search_locally(study_of(problem), problem.optimizer_options(),
                                                      problem.start(), ensemble, {}, nullptr);
     EXPECT_EQ(result.status.code, StatusCode::kWorkerLost);
     EXPECT_EQ(result.status.cause, "rank 1 is gone; the best point so far is kept");

@@ -11,6 +11,7 @@
 #include "optimization/search_results.h"
 #include "paths.h"
 #include "problem/load_problem.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -137,28 +138,28 @@ TEST(Outcome, ASearchTurnsBackWhereAConstraintIsNoNumber) {
 
 TEST(Outcome, AGradientThatIsNotFiniteIsNoSuccess) {
   const Problem problem = problem_of("", "${sqrt(length - 1)}");
-  const Evaluation evaluation = Evaluator(problem.system()).evaluate(problem.start(), true);
+  const Evaluation evaluation = Evaluator(problem).evaluate(problem.start(), true);
   EXPECT_EQ(evaluation.status.code, StatusCode::kNonFiniteGradient);
   EXPECT_NE(evaluation.status.cause.find("\"length\""), std::string::npos)
       << evaluation.status.cause;
-  EXPECT_TRUE(Evaluator(problem.system()).evaluate(problem.start(), false).status.ok());
+  EXPECT_TRUE(Evaluator(problem).evaluate(problem.start(), false).status.ok());
   EXPECT_EQ(search(problem).status.code, StatusCode::kNonFiniteGradient);
   for (const CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders})
-    EXPECT_EQ(check_gradient(problem.system(), problem.start(), method).status.code,
+    EXPECT_EQ(check_gradient(system_of(problem), problem.start(), method).status.code,
               StatusCode::kNonFiniteGradient);
 }
 
 TEST(Outcome, AReferenceThatIsNotFiniteIsNoCheck) {
   // The objective exists to the right of the start alone, where the gradient is zero.
   const Problem problem = problem_of("", "${length >= 1 ? 1 : sqrt(length - 1)}");
-  EXPECT_TRUE(Evaluator(problem.system()).evaluate(problem.start(), true).status.ok());
+  EXPECT_TRUE(Evaluator(problem).evaluate(problem.start(), true).status.ok());
   EXPECT_FALSE(
-      check_gradient(problem.system(), problem.start(), CheckMethod::kRidders).status.ok());
+      check_gradient(system_of(problem), problem.start(), CheckMethod::kRidders).status.ok());
 }
 
 TEST(Outcome, AnObjectiveThatIsNotFiniteIsNoSuccess) {
   const Problem problem = problem_of("", "1e308");
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.terminal.front().reference = Quantity(1e100);
   EXPECT_EQ(search(with_study(problem, study)).status.code, StatusCode::kNonFinite);
 }
@@ -218,7 +219,7 @@ TEST(Outcome, SaysHowStationaryItsPointIs) {
   EXPECT_EQ(stop_sentence(early).find("stopped early: the slope is 0.4 of the start's"), 0U)
       << stop_sentence(early);
   const Problem problem = problem_of("");
-  const Study& study = problem.study();
+  const Study& study = study_of(problem);
   early.best.rho = early.optimality.bound_multipliers = Eigen::VectorXd::Constant(1, 0.0);
   EXPECT_TRUE(has_warning(search_warnings(study, study.optimizer, early), "not_stationary",
                           "no algorithm gains"));
@@ -239,7 +240,7 @@ TEST(Outcome, ABasisUsesItsCoefficientsWithoutNamingThem) {
       "controllers: {push: {type: basis, output: hinge, coefficients: {count: 3, lower: -1, upper: "
       "1}}}\n",
       "1", "length: {}");
-  EXPECT_EQ(problem.study().tuned.size(), 4U);
+  EXPECT_EQ(study_of(problem).tuned.size(), 4U);
   EXPECT_FALSE(has_warning(problem.warnings(), "unused_parameter"));
 }
 

@@ -10,6 +10,7 @@
 
 #include "ensemble/ensemble_fixture.h"
 #include "optimization/search_hooks.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -109,7 +110,7 @@ TEST(SearchHooks, CancelledWhileScreeningItKeepsTheBestPoint) {
   EXPECT_GE(result.multistart.screened, 20);
   EXPECT_LT(result.multistart.screened, 1000) << "only those that were evaluated";
   EXPECT_NE(result.best.rho, problem.start());
-  const auto start = memory->find({problem.system(), problem.parameters(), Derivatives::kNone});
+  const auto start = memory->find({system_of(problem), problem.parameters(), Derivatives::kNone});
   ASSERT_TRUE(start);
   EXPECT_LT(result.best.objective, start->objective);
 }

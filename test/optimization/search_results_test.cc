@@ -5,6 +5,7 @@
 #include "ensemble/ensemble_fixture.h"
 #include "optimization/local_search.h"
 #include "optimization/search_results.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -65,7 +66,7 @@ TEST(ScenarioResults, AValidationThatIsNotFiniteIsAFailure) {
       "uncertain: {mu: {uniform: [0.2, 0.4]}}\nrobust: {measure: mean_plus_deviation, samples: 1, "
       "validate: 4}\n",
       "{algorithm: slsqp, max_evaluations: 2}");
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.terminal.at(0).weight = 1e200;
   problem = with_study(problem, study);
   const OptimizationResult result = optimize(problem);
@@ -96,7 +97,7 @@ TEST(ScenarioResults, AnInterruptedValidationIsNone) {
   };
   const Ensemble ensemble(problem);
   ProgressMeter meter(100, progress, std::chrono::milliseconds(1));
-  OptimizationResult result = search_locally(problem.study(), problem.optimizer_options(),
+  OptimizationResult result = search_locally(study_of(problem), problem.optimizer_options(),
                                              problem.start(), ensemble, {}, &cancel);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   const Ensemble counted(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -11,12 +12,12 @@ namespace {
 class SearchTrialsTest : public testing::Test {
  protected:
   SearchTrials trials(const TrialObserver& observer, const std::atomic<bool>* cancel = nullptr) {
-    return {problem_.study(), options_, ensemble_, observer, cancel, scaling_, &program_};
+    return {study_of(problem_), options_, ensemble_, observer, cancel, scaling_, &program_};
   }
   const Problem problem_ = block("");
   const OptimizerOptions options_ = problem_.optimizer_options();
   const Ensemble ensemble_{problem_};
-  const Scaling scaling_{problem_.study()};
+  const Scaling scaling_{study_of(problem_)};
   SmoothProgram program_{ensemble_};
   const TrialObserver none_;
 };
@@ -80,11 +81,11 @@ TEST(SearchTrials, OutsideTheConstraintsItDoesNotMatterHowTheAlgorithmEnded) {
   const Problem problem = block("final: [{signal: slide/position, at_least: 4.0}]\n");
   const OptimizerOptions options = problem.optimizer_options();
   const Ensemble ensemble(problem);
-  const Scaling scaling(problem.study());
+  const Scaling scaling(study_of(problem));
   const TrialObserver none;
   for (const bool has_failed : {false, true}) {
     SmoothProgram program(ensemble);
-    SearchTrials trials(problem.study(), options, ensemble, none, nullptr, scaling, &program);
+    SearchTrials trials(study_of(problem), options, ensemble, none, nullptr, scaling, &program);
     trials.start(problem.start());
     ASSERT_TRUE(trials.evaluate(problem.start(), Derivatives::kGradient));
     ASSERT_TRUE(trials.evaluate(Eigen::Vector2d(30.0, 5.0), Derivatives::kGradient));
@@ -97,7 +98,7 @@ TEST(SearchTrials, OutsideTheConstraintsItDoesNotMatterHowTheAlgorithmEnded) {
               has_failed);
   }
   SmoothProgram program(ensemble);
-  SearchTrials trials(problem.study(), options, ensemble, none, nullptr, scaling, &program);
+  SearchTrials trials(study_of(problem), options, ensemble, none, nullptr, scaling, &program);
   trials.start(problem.start());
   ASSERT_TRUE(trials.evaluate(problem.start(), Derivatives::kGradient));
   trials.result().termination = "algorithm_failed";

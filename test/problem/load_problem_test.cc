@@ -21,18 +21,18 @@ Problem slider_crank(const ParameterSettings& settings = {}) {
 
 TEST(Problem, CopiesShareWhatTheyHold) {
   const Problem problem = slider_crank(), copy = problem;
-  EXPECT_EQ(copy.system(), problem.system());
-  EXPECT_EQ(&copy.study(), &problem.study());
+  EXPECT_EQ(system_of(copy), system_of(problem));
+  EXPECT_EQ(&study_of(copy), &study_of(problem));
   EXPECT_EQ(&copy.urdf(), &problem.urdf());
 }
 
 TEST(Problem, SaysWhatItsStudySays) {
   const Problem problem = slider_crank();
-  EXPECT_EQ(problem.duration(), problem.study().duration);
+  EXPECT_EQ(problem.duration(), study_of(problem).duration);
   EXPECT_EQ(problem.all_parameters().size(), problem.parameters().size());
   EXPECT_EQ(problem.tuned_names().size(), static_cast<std::size_t>(problem.start().size()));
   EXPECT_EQ(problem.parameters(problem.start()), problem.parameters());
-  EXPECT_EQ(problem.optimizer_options().algorithm, problem.study().optimizer.algorithm);
+  EXPECT_EQ(problem.optimizer_options().algorithm, study_of(problem).optimizer.algorithm);
 }
 
 TEST(Problem, SettingsMakeAnotherProblem) {
@@ -42,13 +42,13 @@ TEST(Problem, SettingsMakeAnotherProblem) {
   const Problem changed = with_settings(problem, {{name, moved}});
   EXPECT_EQ(changed.start()[0], moved);
   EXPECT_NE(problem.start()[0], moved);
-  EXPECT_NE(changed.system(), problem.system());
+  EXPECT_NE(system_of(changed), system_of(problem));
   EXPECT_EQ(changed.start(), slider_crank({{name, moved}}).start());
 }
 
 TEST(Problem, AnotherStudyOfTheSameModelIsCompiledAnew) {
   const Problem problem = slider_crank();
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.duration = 0.25;
   study.tuned.resize(1);
   const Problem changed = with_study(problem, study);
@@ -96,7 +96,7 @@ TEST(PortableProblem, IsTheSameProblemElsewhere) {
 }
 
 TEST(PortableProblem, CarriesValuesAndTheChoiceOfParameters) {
-  Study study = block("").study();
+  Study study = study_of(block(""));
   study.tuned = {3, 0};
   const Problem problem = with_study(block(""), study, {{"mass", 3.3}, {"Kd", 7.0}});
   ASSERT_EQ(problem.tuned_names(), (std::vector<std::string>{"Kd", "mu"}));
@@ -139,9 +139,9 @@ TEST(PortableProblem, CarriesTheFilesThatTheStudyNames) {
   const Problem problem = load_problem(plain.urdf(), {}, study, {}, {}, files);
   const Problem copy = load_portable(make_portable(problem));
   EXPECT_EQ(reads, 1) << "the file is read once, by the process that has it";
-  ASSERT_EQ(copy.study().ensemble.uncertain.size(), 1U);
-  EXPECT_EQ(copy.study().ensemble.uncertain[0].distribution.deviation, 0.01);
-  EXPECT_EQ(load_portable(make_portable(copy)).study().ensemble.uncertain.size(), 1U)
+  ASSERT_EQ(study_of(copy).ensemble.uncertain.size(), 1U);
+  EXPECT_EQ(study_of(copy).ensemble.uncertain[0].distribution.deviation, 0.01);
+  EXPECT_EQ(study_of(load_portable(make_portable(copy))).ensemble.uncertain.size(), 1U)
       << "a copy of a copy";
   EXPECT_EQ(make_portable(with_settings(problem, {{"mass", 2.5}})).files.size(), 1U);
   PortableProblem without = make_portable(problem);

@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "ensemble/ensemble_fixture.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
 Warnings warnings_of(const std::string& constraint, const std::string& more = "",
                      const std::string& parameters = "") {
-  return unsatisfiable_constraints(
-      block("constraints: [" + constraint + "]\n" + more, "{algorithm: slsqp}", parameters)
-          .study());
+  return unsatisfiable_constraints(study_of(
+      block("constraints: [" + constraint + "]\n" + more, "{algorithm: slsqp}", parameters)));
 }
 
 void expect_warning(const std::string& constraint) {

@@ -34,12 +34,12 @@ objective: {integral: [{signal: hinge/position}]}
 
 TEST(Problem, HoldsAllParametersAndTheStart) {
   const Problem problem = load_problem(kPendulum, {}, kStudy);
-  EXPECT_EQ(problem.robot().name, "pendulum");
+  EXPECT_EQ(robot_of(problem).name, "pendulum");
   EXPECT_EQ(problem.parameters(), (std::vector<double>{1.0, 3.0, 2.0}));
   EXPECT_EQ(problem.start(), Eigen::Vector2d(2.0, 1.0));
   EXPECT_EQ(problem.tuned_names(), (std::vector<std::string>{"Kp", "length"}));
   EXPECT_EQ(problem.parameters(Eigen::Vector2d(5.0, 0.7)), (std::vector<double>{0.7, 3.0, 5.0}));
-  EXPECT_NE(problem.system(), nullptr);
+  EXPECT_NE(system_of(problem), nullptr);
 }
 
 TEST(Problem, SettingsReplaceStartsAndDefaults) {
@@ -69,7 +69,7 @@ TEST(Problem, OverlaysAreMerged) {
   const SourceText overlay{"overlay.urdf",
                            R"(<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
     <joint name="hinge"><codesign:friction model="brown_mcphee" mu_static="0.4" mu_dynamic="0.3" joint_length="0.02" pin_radius="0.01"/></joint></robot>)"};
-  EXPECT_TRUE(load_mechanism(kPendulum, {overlay}).robot().joints.at(0).friction.has_value());
+  EXPECT_TRUE(robot_of(load_mechanism(kPendulum, {overlay})).joints.at(0).friction.has_value());
 }
 
 void expect_refused(const ParameterSettings& settings, const std::string& message,

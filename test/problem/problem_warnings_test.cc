@@ -62,12 +62,12 @@ Problem problem_of(const std::string& mass, const std::string& more = "",
 }
 
 std::size_t warnings_of(const Problem& problem) {
-  return unused_parameters(problem.study()).size();
+  return unused_parameters(study_of(problem)).size();
 }
 
 TEST(UnusedParameters, AreTunedButMoveNothing) {
   const Problem problem = problem_of("");
-  const Warnings warnings = unused_parameters(problem.study());
+  const Warnings warnings = unused_parameters(study_of(problem));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].code, "unused_parameter");
   EXPECT_NE(warnings[0].message.find("${weight}"), std::string::npos) << warnings[0].message;
@@ -121,7 +121,7 @@ TEST(UnusedParameters, WhatAnOverlayReplacesDoesNotUseThem) {
 TEST(UnusedParameters, SettingsAndOtherStudiesKeepTheRecord) {
   const Problem problem = problem_of("codesign:value=\"${weight}\"");
   EXPECT_EQ(warnings_of(with_settings(problem, {{"weight", 4.0}})), 0U);
-  EXPECT_EQ(load_mechanism(problem.urdf(), {}).study().used_parameters, std::set<int>{0});
+  EXPECT_EQ(study_of(load_mechanism(problem.urdf(), {})).used_parameters, std::set<int>{0});
 }
 
 Study study_with(Interpolation interpolation, const std::vector<double>& positions,

@@ -8,14 +8,15 @@
 #include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "equations/compiled_system.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
 TEST(Variants, OneStudyIsItsOwn) {
   const Problem problem = block("");
-  EXPECT_EQ(variant_of(problem, 0, -1), problem.system());
-  EXPECT_EQ(count_laws(problem.study()), 0);
+  EXPECT_EQ(variant_of(problem, 0, -1), system_of(problem));
+  EXPECT_EQ(count_laws(study_of(problem)), 0);
 }
 
 TEST(Variants, EachRunHasEachLaw) {
@@ -23,8 +24,8 @@ TEST(Variants, EachRunHasEachLaw) {
 runs: {own: {set: {mass: 1.0}}, far: {controllers: {hold: {setpoint: 0.9}}}}
 uncertain: {friction_law: {choice: [gonthier, lugre]}}
 )");
-  ASSERT_EQ(count_laws(problem.study()), 2);
-  EXPECT_EQ(variant_of(problem, 0, -1), problem.system());
+  ASSERT_EQ(count_laws(study_of(problem)), 2);
+  EXPECT_EQ(variant_of(problem, 0, -1), system_of(problem));
   EXPECT_EQ(variant_of(problem, 0, 0)->robot().joints[0].friction->model, FrictionModel::kGonthier);
   EXPECT_EQ(variant_of(problem, 1, 1)->robot().joints[0].friction->model, FrictionModel::kLuGre);
   EXPECT_EQ(variant_of(problem, 1, -1)->robot().joints[0].friction->model,
@@ -40,7 +41,7 @@ runs: {own: {}, light: {set: {mass: 1.0}}, far: {controllers: {hold: {setpoint: 
 uncertain: {friction_law: {choice: [gonthier, lugre]}}
 )");
   const auto systems = distinct_systems(problem);
-  EXPECT_EQ(systems.front(), problem.system());
+  EXPECT_EQ(systems.front(), system_of(problem));
   // Two systems with the model's own law, since one run only sets a value, and three runs with two
   // laws each.
   EXPECT_EQ(systems.size(), 8U);
@@ -49,7 +50,7 @@ uncertain: {friction_law: {choice: [gonthier, lugre]}}
 
 // As a request to a node does.
 Problem tuning(const Problem& problem, int parameter) {
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.tuned.push_back(parameter);
   return with_study(problem, study);
 }
@@ -62,7 +63,7 @@ TEST(Variants, ARequestCannotTuneWhatARunSetsOrWhatIsUncertain) {
 
 TEST(Variants, ManyStartsNeedBounds) {
   const Problem problem = block("multistart: {starts: 2}\n");
-  Study study = problem.study();
+  Study study = study_of(problem);
   study.parameters[2].upper = std::numeric_limits<double>::infinity();
   EXPECT_THROW(with_study(problem, study), InputError);
 }

@@ -8,6 +8,7 @@
 #include "equations/compiled_system.h"
 #include "integration/servo.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -68,8 +69,8 @@ TEST_P(FrictionLaws, GradientIsThatOfTheStepsTaken) {
 
 TEST_P(FrictionLaws, BothIntegratorsFindTheSameObjective) {
   const auto a = rubbing_servo(GetParam(), kRosenbrock), b = rubbing_servo(GetParam(), kIdas);
-  const Evaluation rosenbrock = Evaluator(a).evaluate(start_of(*a), false),
-                   idas = Evaluator(b).evaluate(start_of(*b), false);
+  const Evaluation rosenbrock = evaluator_of(a).evaluate(start_of(*a), false),
+                   idas = evaluator_of(b).evaluate(start_of(*b), false);
   ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok())
       << rosenbrock.status.cause << idas.status.cause;
   EXPECT_NEAR(idas.objective / rosenbrock.objective, 1.0, 1e-5);
@@ -79,8 +80,8 @@ TEST_P(FrictionLaws, BothIntegratorsFindTheSameObjective) {
 // sliding.
 TEST(FrictionModels, IdasFindsTheSameGradient) {
   const auto a = rubbing_servo("lugre", kRosenbrock), b = rubbing_servo("lugre", kIdas);
-  const Evaluation rosenbrock = Evaluator(a).evaluate(start_of(*a), true),
-                   idas = Evaluator(b).evaluate(start_of(*b), true);
+  const Evaluation rosenbrock = evaluator_of(a).evaluate(start_of(*a), true),
+                   idas = evaluator_of(b).evaluate(start_of(*b), true);
   ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok())
       << rosenbrock.status.cause << idas.status.cause;
   for (Eigen::Index k = 0; k < idas.gradient.size(); ++k)
@@ -108,7 +109,7 @@ Evaluation slide(const std::string& model, bool turned) {
       "solver: {integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-8, "
       "absolute_tolerance: 1.0e-9}\n";
   const auto system = compile(urdf, study);
-  return Evaluator(system).evaluate(start_of(*system), true);
+  return evaluator_of(system).evaluate(start_of(*system), true);
 }
 
 TEST_P(FrictionLaws, ThePlaneHasNoDirectionOfItsOwn) {

@@ -6,6 +6,7 @@
 
 #include "mechanism_codesign/gradient.h"
 #include "sensitivity/gradient_cases.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {

@@ -71,7 +71,7 @@ TEST(GradientCheck, AWrongComponentShowsAlongEachDirection) {
 TEST(GradientCheck, BothReferencesAlongADirectionMeetItsDerivative) {
   const Eigen::MatrixXd half = Eigen::MatrixXd::Constant(1, 1, 0.5);
   const auto system = make("{position: 0.5}");
-  const Eigen::VectorXd gradient = Evaluator(system).evaluate(kGain, true).gradient;
+  const Eigen::VectorXd gradient = evaluator_of(system).evaluate(kGain, true).gradient;
   for (CheckMethod method : {CheckMethod::kComplexStep, CheckMethod::kRidders}) {
     const GradientCheck check = check_design(system, {3.0}, method, nullptr, half);
     ASSERT_TRUE(check.status.ok()) << check.status.cause;

@@ -10,6 +10,7 @@
 #include "reading/urdf/urdf_reader.h"
 #include "sensitivity/adjoint_gradient.h"
 #include "sensitivity/gradient_cases.h"
+#include "sensitivity/gradient_check.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/idas_gradient.h"
 #include "sensitivity/rosenbrock_gradient.h"
@@ -117,7 +118,7 @@ TEST(GradientEngine, NothingTunedIsNoGradient) {
 TEST(GradientEngine, ACancelledEvaluationCanBeRepeated) {
   const std::atomic<bool> cancel{true};
   const auto system = servo("{gradient: adjoint}");
-  Evaluator evaluator(system);
+  Evaluator evaluator = evaluator_of(system);
   Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));
   for (Eigen::Index k = 0; k < rho.size(); ++k)
     rho[k] = system->parameters()[static_cast<std::size_t>(
@@ -150,7 +151,7 @@ void expect_reference(const std::string& name, const std::string& integrator, do
                       const std::vector<double>& gradient) {
   Case c = shipped(name);
   c.study.solver.integrator = integrator_named(integrator);
-  const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, true);
+  const Evaluation evaluation = evaluator_of(make_system(c.robot, c.study)).evaluate(c.rho, true);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_NEAR(evaluation.objective, objective, 1e-7 * objective);
   ASSERT_EQ(static_cast<std::size_t>(evaluation.gradient.size()), gradient.size());
@@ -218,7 +219,8 @@ TEST(Evaluation, AJammedDesignHasTheSameValueWithBothIntegrators) {
     Case c = shipped("slider_crank_haug");
     c.study.solver.integrator = k ? IntegratorKind::kIdas : IntegratorKind::kRosenbrock;
     c.rho[1] = 0.24;
-    const Evaluation evaluation = Evaluator(make_system(c.robot, c.study)).evaluate(c.rho, false);
+    const Evaluation evaluation =
+        evaluator_of(make_system(c.robot, c.study)).evaluate(c.rho, false);
     ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
     objective[k] = evaluation.objective;
   }
@@ -230,7 +232,7 @@ void expect_failures_are_statuses(const std::string& integrator) {
   Case c = shipped("slider_crank_haug");
   c.study.duration = 0.02;
   c.study.solver.integrator = integrator_named(integrator);
-  Evaluator evaluator(make_system(c.robot, c.study));
+  Evaluator evaluator = evaluator_of(make_system(c.robot, c.study));
   Eigen::VectorXd rho = c.rho;
   // The rod does not reach the slider's rail.
   rho[1] = 0.05;

@@ -9,6 +9,7 @@
 #include "paths.h"
 #include "reading/study/study_reader.h"
 #include "reading/urdf/urdf_reader.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -34,7 +35,7 @@ Evaluation evaluate(const std::string& urdf, const std::string& study_text) {
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     rho[static_cast<Eigen::Index>(k)] =
         study.parameters[static_cast<std::size_t>(study.tuned[k])].value;
-  return Evaluator(system).evaluate(rho, true);
+  return evaluator_of(system).evaluate(rho, true);
 }
 
 const Evaluation& reference() {

@@ -8,6 +8,7 @@
 #include "integration/linkages.h"
 #include "integration/servo.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {

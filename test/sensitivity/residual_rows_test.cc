@@ -5,6 +5,7 @@
 #include "elements/state_view.h"
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/gradient_cases.h"
+#include "sensitivity/gradient_check.h"
 #include "sensitivity/rosenbrock_gradient.h"
 
 namespace codesign {
@@ -137,7 +138,7 @@ TEST_P(ResidualRowsTest, AreThoseOfTheOtherIntegrator) {
   Eigen::MatrixXd H[2];
   for (const IntegratorKind kind : {IntegratorKind::kRosenbrock, IntegratorKind::kIdas}) {
     study.solver.integrator = kind;
-    Evaluator evaluator(make_system(test.robot, study));
+    Evaluator evaluator = evaluator_of(make_system(test.robot, study));
     const Evaluation evaluation = evaluator.evaluate_design(
         make_system(test.robot, study)->parameters(), Derivatives::kGaussNewton);
     ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
@@ -176,7 +177,7 @@ GradientCase block_on_rail(const std::string& integral, const std::string& termi
 TEST(ResidualRows, HaveTheSquaresOfSensitivitiesThatAreKnown) {
   const GradientCase test = block_on_rail("{signal: slide/position, weight: \"${w}\"}",
                                           "{signal: slide/velocity, reference: 1.0, weight: 4}");
-  const Evaluation evaluation = Evaluator(test.compile("rodas5p", "auto"))
+  const Evaluation evaluation = evaluator_of(test.compile("rodas5p", "auto"))
                                     .evaluate(Eigen::Vector2d(3.0, 0.5), Derivatives::kGaussNewton);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   const Eigen::MatrixXd H = evaluation.jacobian_root.transpose() * evaluation.jacobian_root;
@@ -189,7 +190,7 @@ TEST(ResidualRows, HaveTheSquaresOfSensitivitiesThatAreKnown) {
 
 TEST(ResidualRows, WeightsOfZeroHaveNone) {
   const GradientCase test = block_on_rail("{signal: slide/position, weight: \"${w}\"}", "");
-  const Evaluation evaluation = Evaluator(test.compile("rodas5p", "auto"))
+  const Evaluation evaluation = evaluator_of(test.compile("rodas5p", "auto"))
                                     .evaluate(Eigen::Vector2d(3.0, 0.0), Derivatives::kGaussNewton);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   EXPECT_EQ(evaluation.jacobian_root, Eigen::MatrixXd::Zero(2, 2));
@@ -198,7 +199,7 @@ TEST(ResidualRows, WeightsOfZeroHaveNone) {
 TEST(ResidualRows, ANegativeWeightIsNoSumOfSquares) {
   const GradientCase test =
       block_on_rail("{signal: slide/velocity}, {signal: slide/position, weight: \"${w}\"}", "");
-  Evaluator evaluator(test.compile("rodas5p", "auto"));
+  Evaluator evaluator = evaluator_of(test.compile("rodas5p", "auto"));
   const Evaluation evaluation =
       evaluator.evaluate(Eigen::Vector2d(3.0, -0.5), Derivatives::kGaussNewton);
   EXPECT_EQ(evaluation.status.code, StatusCode::kInvalidDesign);
@@ -211,11 +212,11 @@ TEST(ResidualRows, ANegativeWeightIsNoSumOfSquares) {
 TEST(ResidualRows, AStudyThatAsksForTheAdjointHasThem) {
   const GradientCase test = gradient_cases().back();
   const auto adjoint = test.compile("rodas4", "adjoint"), direct = test.compile("rodas4", "direct");
-  Evaluator evaluator(adjoint);
+  Evaluator evaluator = evaluator_of(adjoint);
   const Evaluation first = evaluator.evaluate_design(adjoint->parameters(), true);
   const Evaluation a = evaluator.evaluate_design(adjoint->parameters(), Derivatives::kGaussNewton);
   const Evaluation b =
-      Evaluator(direct).evaluate_design(direct->parameters(), Derivatives::kGaussNewton);
+      evaluator_of(direct).evaluate_design(direct->parameters(), Derivatives::kGaussNewton);
   ASSERT_TRUE(a.status.ok() && b.status.ok());
   EXPECT_EQ(a.jacobian_root, b.jacobian_root);
   EXPECT_EQ(evaluator.evaluate_design(adjoint->parameters(), true).gradient, first.gradient);

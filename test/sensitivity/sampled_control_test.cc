@@ -103,7 +103,8 @@ TEST_P(ControlGradientTest, IsThatOfTheOtherIntegrator) {
   const auto other = compile_case(
       GetParam(), "{integrator: idas, relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}");
   const Eigen::VectorXd rho = start_of(own->study());
-  const Evaluation a = Evaluator(own).evaluate(rho, true), b = Evaluator(other).evaluate(rho, true);
+  const Evaluation a = evaluator_of(own).evaluate(rho, true),
+                   b = evaluator_of(other).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok()) << a.status.cause;
   ASSERT_TRUE(b.status.ok()) << b.status.cause;
   EXPECT_NEAR(a.objective, b.objective, 1e-6 * a.objective);
@@ -123,8 +124,8 @@ TEST_P(ControlGradientTest, OfTheAdjointIsTheSameWhereThereIsOne) {
   const auto direct = compile_case(GetParam(), "{gradient: direct}"),
              adjoint = compile_case(GetParam(), "{gradient: adjoint}");
   const Eigen::VectorXd rho = start_of(direct->study());
-  const Evaluation a = Evaluator(direct).evaluate(rho, true),
-                   b = Evaluator(adjoint).evaluate(rho, true);
+  const Evaluation a = evaluator_of(direct).evaluate(rho, true),
+                   b = evaluator_of(adjoint).evaluate(rho, true);
   ASSERT_TRUE(a.status.ok() && b.status.ok());
   EXPECT_LT((a.gradient - b.gradient).cwiseAbs().maxCoeff(),
             1e-10 * a.gradient.cwiseAbs().maxCoeff());
@@ -151,7 +152,7 @@ TEST(RoundedMeasurements, HaveNoGradient) {
   const ControlCase rounded{"", shoulder("sample_time: 0.02, quantization: 0.01"),
                             "shoulder/position"};
   const auto system = compile_case(rounded, "{}");
-  Evaluator evaluator(system);
+  Evaluator evaluator = evaluator_of(system);
   EXPECT_TRUE(evaluator.evaluate(start_of(system->study()), false).status.ok());
   const Evaluation refused = evaluator.evaluate(start_of(system->study()), true);
   EXPECT_EQ(refused.status.code, StatusCode::kNonFiniteGradient);

@@ -50,7 +50,7 @@ TEST_P(SignalJumpsTest, ValuesBeforeAndBehindThemCount) {
   const auto [integrator, d] = GetParam();
   const auto system = saw(integrator, d);
   const std::vector<double> design = system->parameters();
-  const Evaluation evaluation = Evaluator(system).evaluate_design(design, true);
+  const Evaluation evaluation = evaluator_of(system).evaluate_design(design, true);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   const Extremes& extremes = evaluation.extremes;
   const WatchLayout::Entry entry = WatchLayout(system->study()).entries()[0];

@@ -6,6 +6,7 @@
 
 #include "description/study.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 #include "sensitivity/oscillator.h"
 #include "sensitivity/watched_cases.h"
 
@@ -76,7 +77,7 @@ TEST(SignalMeasures, GradientsMeetDifferences) {
   add(WatchedSignal::Measure::kStroke, "slider_joint/position", 1.0);
   add(WatchedSignal::Measure::kMaximum, joint + "/velocity", 0.1);
   const auto system = test.compile("rodas5p", "auto");
-  const Evaluation run = Evaluator(system).evaluate(start_of(test.study), false);
+  const Evaluation run = evaluator_of(system).evaluate(start_of(test.study), false);
   ASSERT_TRUE(run.status.ok()) << run.status.cause;
   // A band around the middle of the slider's motion.
   const WatchLayout layout(system->study());

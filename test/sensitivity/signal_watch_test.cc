@@ -3,6 +3,7 @@
 
 #include "description/study.h"
 #include "description/tuned_parameters.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 #include "sensitivity/gradient_check.h"
 #include "sensitivity/signal_watch.h"
@@ -57,7 +58,7 @@ std::vector<SignalDescription> watched_signals(const MotionStudy& study) {
 // A scan of the same run finds nothing beyond the extremes, and at their times it has their values.
 TEST_P(SignalWatchTest, NoSampleOfTheRunIsBeyondTheExtremes) {
   const auto system = test_.compile("rodas4", "auto");
-  const Evaluation evaluation = Evaluator(system).evaluate_design(system->parameters(), false);
+  const Evaluation evaluation = evaluator_of(system).evaluate_design(system->parameters(), false);
   ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   const WatchLayout layout(system->study());
   ASSERT_EQ(evaluation.extremes.values.size(), layout.size());
@@ -68,7 +69,8 @@ TEST_P(SignalWatchTest, NoSampleOfTheRunIsBeyondTheExtremes) {
         times.push_back(evaluation.extremes.times[place]);
   for (int k = 0; k <= 2000; ++k) times.push_back(test_.study.duration * (0.1 + 0.85 * k / 2000));
   std::sort(times.begin(), times.end());
-  Simulation simulation(system, system->parameters(), watched_signals(system->study()));
+  Simulation simulation =
+      simulation_of(system, system->parameters(), watched_signals(system->study()));
   ASSERT_TRUE(simulation.start().ok());
   Frame frame;
   int met = 0;
@@ -128,8 +130,8 @@ TEST(SignalWatch, IdasAgrees) {
   const auto rosenbrock = test.compile("rodas5p", "auto");
   test.study.solver.integrator = IntegratorKind::kIdas;
   const auto idas = test.compile("rodas5p", "auto");
-  const Evaluation a = Evaluator(rosenbrock).evaluate(start_of(test.study), true),
-                   b = Evaluator(idas).evaluate(start_of(test.study), true);
+  const Evaluation a = evaluator_of(rosenbrock).evaluate(start_of(test.study), true),
+                   b = evaluator_of(idas).evaluate(start_of(test.study), true);
   ASSERT_TRUE(a.status.ok() && b.status.ok()) << a.status.cause << b.status.cause;
   EXPECT_NEAR(b.objective, a.objective, 1e-5 * std::abs(a.objective));
   const double scale = a.extremes.values.cwiseAbs().maxCoeff(),
@@ -140,7 +142,7 @@ TEST(SignalWatch, IdasAgrees) {
 
 TEST(SignalWatch, WithoutWatchedSignalsThereIsNothing) {
   const auto system = gradient_cases().front().compile("rodas4", "auto");
-  const Evaluation evaluation = Evaluator(system).evaluate(start_of(system->study()), true);
+  const Evaluation evaluation = evaluator_of(system).evaluate(start_of(system->study()), true);
   EXPECT_EQ(evaluation.extremes.values.size(), 0);
 }
 

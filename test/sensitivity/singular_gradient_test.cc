@@ -25,7 +25,7 @@ Evaluation evaluate(const std::string& integrator, double tolerance, double dura
                             ", absolute_tolerance: " + to_decimal(tolerance) +
                             "}\nobjective: {integral: [{signal: hinge0/velocity}]}\n";
   const Problem problem = load_problem({"row.urdf", urdf}, {}, {"row.yaml", study});
-  return Evaluator(problem.system()).evaluate(problem.start(), true);
+  return Evaluator(problem).evaluate(problem.start(), true);
 }
 
 TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsByBothIntegrators) {

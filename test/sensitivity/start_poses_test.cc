@@ -5,6 +5,7 @@
 
 #include "integration/servo.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {

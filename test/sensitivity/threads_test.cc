@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "sensitivity/gradient_cases.h"
+#include "sensitivity/gradient_check.h"
 
 namespace codesign {
 namespace {
@@ -14,7 +15,7 @@ constexpr int kDesigns = 3;  // per thread
 std::vector<Evaluation> evaluate(const std::shared_ptr<const CompiledSystem>& system,
                                  std::size_t thread) {
   std::vector<Evaluation> results;
-  Evaluator evaluator(system);
+  Evaluator evaluator = evaluator_of(system);
   const std::vector<double> parameters = system->parameters();
   for (int design = 0; design < kDesigns; ++design) {
     Eigen::VectorXd rho(static_cast<Eigen::Index>(system->study().tuned.size()));

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "problem/load_problem.h"
 #include "statics/statics_cases.h"
 
 namespace codesign {
 namespace {
 
 Equilibrium equilibrium_of(const Problem& problem) {
-  return find_equilibrium(*problem.system(), problem.parameters(), {});
+  return find_equilibrium(*system_of(problem), problem.parameters(), {});
 }
 
 double position_of(const Equilibrium& found, const std::string& joint) {
@@ -97,7 +98,7 @@ TEST(Equilibrium, ClosesLoops) {
              "duration: 10\ngravity: [0, 0, 0]\ninitial_state: {crank_joint: {position: 0.7}, "
              "slider_joint: {guess: 0.35}}\nloads: [{joint: slider_joint, effort: 8}]\n");
   for (const char* coordinates : {"joint", "absolute"}) {
-    Study study = problem.study();
+    Study study = study_of(problem);
     study.solver.coordinates =
         *coordinates == 'j' ? CoordinatesKind::kJoint : CoordinatesKind::kAbsolute;
     const Equilibrium found = equilibrium_of(with_study(problem, study));
@@ -191,7 +192,7 @@ TEST(Equilibrium, RefusesPostures) {
 TEST(Equilibrium, EndsWhenCancelled) {
   const std::atomic<bool> cancel{true};
   const Problem problem = loaded(pendulum_urdf(), start_at(1.0));
-  EXPECT_EQ(find_equilibrium(*problem.system(), problem.parameters(), {}, &cancel).status.code,
+  EXPECT_EQ(find_equilibrium(*system_of(problem), problem.parameters(), {}, &cancel).status.code,
             StatusCode::kCancelled);
 }
 

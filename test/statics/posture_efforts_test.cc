@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "problem/load_problem.h"
 #include "statics/statics_cases.h"
 
 namespace codesign {
@@ -11,8 +12,8 @@ namespace {
 
 /// The efforts in all postures of a study with a grid.
 std::vector<std::vector<PostureEffort>> efforts_of(const Problem& problem) {
-  const PostureGrid& grid = problem.study().grid;
-  PostureStatics statics(*problem.system(), grid, problem.parameters(), {});
+  const PostureGrid& grid = study_of(problem).grid;
+  PostureStatics statics(*system_of(problem), grid, problem.parameters(), {});
   EXPECT_TRUE(statics.begin(posture(grid, 0)).ok());
   std::vector<std::vector<PostureEffort>> all(count_postures(grid));
   Frame frame;
@@ -85,7 +86,7 @@ TEST(PostureStatics, HoldsAnArmOfTwoLinks) {
   const auto efforts = efforts_of(problem);
   ASSERT_EQ(efforts.size(), 8U);
   for (std::size_t k = 0; k < efforts.size(); ++k) {
-    const Eigen::VectorXd at = posture(problem.study().grid, k);
+    const Eigen::VectorXd at = posture(study_of(problem).grid, k);
     const double elbow = 2.0 * kGravity * 0.2 * std::sin(at[0] + at[1]),
                  shoulder = 2.0 * kGravity * (0.2 + 0.4) * std::sin(at[1]) + elbow;
     EXPECT_NEAR(efforts[k][0].rest, elbow, 1e-12);
@@ -158,7 +159,7 @@ TEST(PostureStatics, RefusesAGridThatDoesNotDetermineThePosture) {
   const auto statics = [](const std::string& urdf, const std::string& grid) {
     return refused([&] {
       const Problem problem = loaded(urdf, "duration: 1\nefforts: {grid: " + grid + "}\n");
-      PostureStatics(*problem.system(), problem.study().grid, problem.parameters(), {});
+      PostureStatics(*system_of(problem), study_of(problem).grid, problem.parameters(), {});
     });
   };
   const std::string open = statics(arm_urdf(), "{shoulder: [0.1]}");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/study.h"
+#include "problem/load_problem.h"
 #include "statics/statics_cases.h"
 
 namespace codesign {
@@ -11,7 +12,7 @@ namespace {
 
 SetpointMotion motion_of(const std::string& controllers) {
   const Problem problem = loaded(arm_urdf(), "duration: 2\ncontrollers: " + controllers + "\n");
-  return {problem.study(), problem.parameters()};
+  return {study_of(problem), problem.parameters()};
 }
 
 TEST(SetpointMotion, IsThatOfTheSetpoints) {

@@ -179,10 +179,10 @@ class MotionComparison {
                    const std::vector<MeasuredJoint>& joints, const MeasuredMotion& first,
                    const std::function<bool()>& stop)
       : stop_(stop),
-        is_simulated_(problem.study().identification->residual == ResidualKind::kMotion),
-        model_(*problem.system(), joints, some_positions(first, joints), parameters) {
+        is_simulated_(study_of(problem).identification->residual == ResidualKind::kMotion),
+        model_(*system_of(problem), joints, some_positions(first, joints), parameters) {
     if (is_simulated_)
-      measured_.emplace(*problem.system(), joints, some_positions(first, joints), parameters);
+      measured_.emplace(*system_of(problem), joints, some_positions(first, joints), parameters);
   }
 
   const FrameNames& names() const { return model_.names(); }
@@ -273,16 +273,16 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings,
   double seconds = 0.0;
   for (const JointRecording& recording : all) {
     motions.push_back(
-        measured_motion(recording, problem.study().identification->filter, &known_warnings));
+        measured_motion(recording, study_of(problem).identification->filter, &known_warnings));
     seconds +=
         static_cast<double>(motions.back().end - motions.back().first) * motions.back().times.step;
   }
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   for (MeasuredMotion& motion : motions) shift_to_fitted_starts(variables, result.x, &motion);
   MotionComparison comparison(problem, result.parameters, joints, motions.front(), stop);
   compared->names = comparison.names();
-  compared->link_parents = link_parents(problem.robot());
-  compared->joints = compared_joints(problem.robot(), joints, result.parameters, compared->names);
+  compared->link_parents = link_parents(robot_of(problem));
+  compared->joints = compared_joints(robot_of(problem), joints, result.parameters, compared->names);
   const double shown_rate =
       std::min(rate, kMostMemory / (bytes_of_both(compared->names) * std::max(seconds, 1e-3)));
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -298,7 +298,7 @@ void compare_all(const Problem& problem, const StudyRecordings& recordings,
           instants_of(motions[k], series, begins[of_series], begins[of_series + 1], shown_rate);
     std::optional<MotionComparison> with_settings;
     if (!all[k].settings.empty()) {
-      const FitVariables own(problem.study(), nullptr, all[k].settings);
+      const FitVariables own(study_of(problem), nullptr, all[k].settings);
       with_settings.emplace(problem, own.parameters(result.x), joints, motions[k], stop);
     }
     (with_settings ? *with_settings : comparison)

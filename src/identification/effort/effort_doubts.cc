@@ -52,10 +52,10 @@ std::vector<MeasuredMotion> thinned_motions(const std::vector<JointRecording>& r
 std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVariables& variables,
                                           const std::vector<JointRecording>& recordings) {
   const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
-  FilterOptions filter = problem.study().identification->filter;
+  FilterOptions filter = study_of(problem).identification->filter;
   std::vector<MeasuredMotion> motions = thinned_motions(recordings, filter);
   filter.residual_cutoff = 0.0;
-  EffortResiduals residuals(*problem.system(), variables, joints, std::move(motions), filter, 1);
+  EffortResiduals residuals(*system_of(problem), variables, joints, std::move(motions), filter, 1);
   EffortEvidence evidence;
   const Eigen::VectorXd& x = variables.start();
   if (!residuals.begin(x).ok() || !residuals.evaluate(x, &evidence.computed, nullptr).ok())
@@ -223,7 +223,7 @@ std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
   if (std::none_of(joints.begin(), joints.end(),
                    [](const MeasuredJoint& joint) { return joint.with_effort; }))
     return {};
-  const FitVariables variables(problem.study(), &problem.robot());
+  const FitVariables variables(study_of(problem), &robot_of(problem));
   const std::optional<EffortEvidence> evidence = evidence_of(problem, variables, recordings);
   std::vector<EffortDoubt> doubts;
   for (std::size_t k = 0; evidence && k < evidence->joints.size(); ++k) {

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -48,7 +49,7 @@ constexpr double kFarFuture = 3600.0;
 }  // namespace
 
 void SafeRanges::add_limits_of(const Problem& problem, const std::vector<double>& parameters) {
-  for (const JointDescription& joint : problem.robot().joints) {
+  for (const JointDescription& joint : robot_of(problem).joints) {
     if (!joint.limit) continue;
     const auto symmetric = [&](const char* quantity, const Quantity& bound) {
       const double largest = bound.at(parameters);

@@ -7,6 +7,7 @@
 
 #include "jobs/saved_result.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 #include "ros/common/parameters.h"
 
 namespace codesign {
@@ -78,8 +79,8 @@ std::string trimmed(const std::string& text) {
 
 bool has_the_values_of_its_model(const Problem& problem) {
   const std::vector<double> values = problem.parameters();
-  for (std::size_t k = 0; k < problem.robot().parameters.size(); ++k)
-    if (values[k] != problem.robot().parameters[k].value) return false;
+  for (std::size_t k = 0; k < robot_of(problem).parameters.size(); ++k)
+    if (values[k] != robot_of(problem).parameters[k].value) return false;
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/gradient.h"
 #include "optimization/smooth_program.h"
+#include "problem/load_problem.h"
 #include "ros/jobs/job.h"
 #include "ros/jobs/messages.h"
 #include "ros/jobs/request.h"
@@ -24,11 +25,11 @@ CheckMethod method_of(const std::string& check) {
 void add_constraints(const Problem& problem, const Ensemble& ensemble, const Eigen::VectorXd& rho,
                      const std::vector<Extremes>& extremes,
                      mechanism_codesign::EvaluateResponse* reply) {
-  for (const ParameterConstraint& constraint : problem.study().constraints)
+  for (const ParameterConstraint& constraint : study_of(problem).constraints)
     reply->constraints.push_back(constraint.text);
-  reply->margins = to_array(ParameterRows(problem.study(), ensemble.scenarios()).margins(rho));
+  reply->margins = to_array(ParameterRows(study_of(problem), ensemble.scenarios()).margins(rho));
   reply->signals = watched_messages(SmoothProgram(ensemble).describe(extremes, extremes, rho),
-                                    problem.study().ensemble.is_ensemble());
+                                    study_of(problem).ensemble.is_ensemble());
 }
 
 void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
@@ -46,7 +47,7 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   } else {
     check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
     // A check computes many runs, so that one more run per scenario for the signals is cheap.
-    if (check.status.ok() && !problem.study().watched.empty())
+    if (check.status.ok() && !study_of(problem).watched.empty())
       extremes = ensemble.evaluate(rho, false, &cancel).extremes;
   }
   set_status(check.status, reply);

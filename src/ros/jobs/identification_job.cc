@@ -13,6 +13,7 @@
 #include "jobs/job_files.h"
 #include "jobs/trial_lines.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 #include "ros/bags/bag_contents.h"
 #include "ros/bags/bag_files.h"
 #include "ros/bags/job_bag.h"
@@ -29,14 +30,14 @@ class IdentificationJob {
                     const IdentificationObserver& observer, IdentificationOutcome* outcome)
       : problem_(std::move(problem)),
         options_(options),
-        files_(options.output_directory, problem_.robot().name),
-        feedback_(files_.name(), FitVariables(problem_.study()).names(),
+        files_(options.output_directory, robot_of(problem_).name),
+        feedback_(files_.name(), FitVariables(study_of(problem_)).names(),
                   problem_.optimizer_options().max_evaluations, observer),
         outcome_(outcome) {}
 
   void fit(const std::string& folder, const std::atomic<bool>& cancel) {
     feedback_.begin("reading");
-    recordings_ = load_recordings(*problem_.study().identification, problem_.robot(), folder,
+    recordings_ = load_recordings(*study_of(problem_).identification, robot_of(problem_), folder,
                                   cancellable_bag_reader(cancel), &warnings_);
     FitLines lines(problem_.optimizer_options().max_evaluations);
     const auto observe = [&](const FitTrial& trial) {

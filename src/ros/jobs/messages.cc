@@ -7,6 +7,7 @@
 #include "jobs/optimization_records.h"
 #include "math/arrays.h"
 #include "optimization/result_report.h"
+#include "problem/load_problem.h"
 #include "ros/bags/job_bag.h"
 #include "ros/common/replies.h"
 
@@ -157,7 +158,7 @@ mechanism_codesign::OptimizeResult optimization_message(const Problem& problem,
   mechanism_codesign::OptimizeResult message;
   set_status(result.status, &message);
   message.parameters = problem.tuned_names();
-  for (const ParameterConstraint& constraint : problem.study().constraints)
+  for (const ParameterConstraint& constraint : study_of(problem).constraints)
     message.constraints.push_back(constraint.text);
   message.margins = to_array(result.constraints.margins);
   message.initial = to_array(result.initial.rho);
@@ -208,7 +209,7 @@ mechanism_codesign::IdentifyResult identification_message(const Problem& problem
   mechanism_codesign::IdentifyResult message;
   set_status(result.status, &message);
   message.message = result.status.cause;  // a fit has no time of its own
-  const IntervalOptions& intervals = problem.study().identification->intervals;
+  const IntervalOptions& intervals = study_of(problem).identification->intervals;
   message.level = intervals.level;
   message.noise = kNoiseNames[to_index(intervals.noise)];
   for (const IdentifiedNumber& number : result.numbers)

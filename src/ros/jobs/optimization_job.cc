@@ -20,6 +20,7 @@
 #include "mechanism_codesign/optimization.h"
 #include "optimization/result_report.h"
 #include "optimization/search_hooks.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/bags/job_bag.h"
 #include "ros/jobs/feedback.h"
@@ -36,7 +37,7 @@ BagRuns run_both(const Problem& problem, const OptimizationResult& result, const
                  double rate, Patience* patience) {
   const auto side = [&](const Eigen::VectorXd& rho) {
     const std::vector<double> parameters = scenario.parameters(rho);
-    const Laws& laws = problem.robot().laws;
+    const Laws& laws = robot_of(problem).laws;
     return BagSide{
         write_tuned_urdf(problem.urdf(), problem.overlays(), parameters,
                          find_friction(laws, scenario.friction_law), laws),
@@ -60,7 +61,7 @@ class Job {
       : problem_(request.problem),
         optimizer_options_(request.options),
         options_(options),
-        files_(files_of(resume, options.output_directory, problem_.robot().name)),
+        files_(files_of(resume, options.output_directory, robot_of(problem_).name)),
         best_(files_.stem() + ".", problem_),
         record_(record),
         outcome_(outcome) {
@@ -80,7 +81,7 @@ class Job {
     JobFeedback feedback(files_.name(), problem_.tuned_names(), observer);
     ProgressMeter meter(optimizer_options_.max_evaluations,
                         [&](const Progress& progress) { feedback.publish(progress); });
-    TrialLines lines(problem_.study());
+    TrialLines lines(study_of(problem_));
     const auto observe = [&](const Trial& trial) {
       const Progress now = meter.now();
       best_.note(trial);
@@ -114,7 +115,7 @@ class Job {
       outcome_->result.objective = kUnevaluated;
     Patience patience(cancel);
     Scenario nominal;
-    nominal.system = problem_.system();
+    nominal.system = system_of(problem_);
     record_->nominal = run_both(problem_, result_, nominal, options_.rate, &patience);
     if (const int worst = worst_scenario(result_); worst >= 0)
       record_->worst = run_both(problem_, result_, make_scenarios(problem_)[to_index(worst)],
@@ -229,7 +230,7 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
   record.request = request;
   record.request.version = version();
   record.study = study;
-  for (const LoadedFile& one : problem.contents().files)
+  for (const LoadedFile& one : contents_of(problem).files)
     record.study_files.push_back(one.source.text);
   OptimizationOutcome outcome;
   try {

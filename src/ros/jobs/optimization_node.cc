@@ -12,6 +12,7 @@
 #include "engine/evaluation_engine.h"
 #include "jobs/job_files.h"
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 #include "ros/apply/apply.h"
 #include "ros/bags/bag_files.h"
 #include "ros/common/inputs.h"
@@ -99,17 +100,17 @@ void OptimizationNode::load() {
     study_ = inputs.study.text;
     folder_ = study_folder(inputs);
     Problem problem = codesign::load(inputs, bag_trajectory_loader(folder_));
-    require_every_parameter(inputs, problem.robot());
-    require_engine(problem.study().ensemble.engine, options_.ranks);
+    require_every_parameter(inputs, robot_of(problem));
+    require_engine(study_of(problem).ensemble.engine, options_.ranks);
     check_recording(problem, options_.rate, private_node_.resolveName("rate"));
     for (const std::string& sentence : remove_leftovers(options_.output_directory))
       ROS_WARN_STREAM(sentence);
     state_.warn("files", problem.warnings());
     problem_ = std::move(problem);
-    state_.show("robot", problem_->robot().name);
+    state_.show("robot", robot_of(*problem_).name);
     state_.show("output directory", options_.output_directory);
-    state_.set(NodeState::Level::kOk, "ready: " + problem_->robot().name + ", " +
-                                          std::to_string(problem_->study().tuned.size()) +
+    state_.set(NodeState::Level::kOk, "ready: " + robot_of(*problem_).name + ", " +
+                                          std::to_string(study_of(*problem_).tuned.size()) +
                                           " parameters to tune");
   } catch (const InputError& error) {
     fault_ = error.what();

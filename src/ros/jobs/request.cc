@@ -8,6 +8,7 @@
 #include "description/tuned_parameters.h"
 #include "identification/identify.h"
 #include "math/arrays.h"
+#include "problem/load_problem.h"
 #include "ros/common/parameters.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -112,7 +113,7 @@ ParameterSettings choose_parameters(const Request& request, Study* study) {
 
 void check_size(const Problem& problem, const std::vector<std::string>& names,
                 const std::vector<double>& values, const std::string& values_field) {
-  const std::size_t known = problem.study().parameters.size();
+  const std::size_t known = study_of(problem).parameters.size();
   check_names(names, known);
   if (values.size() > known)
     fail(values_field, "more values than there are parameters",
@@ -137,7 +138,7 @@ OptimizationRequest apply_request(const Problem& problem,
   choose_options(request, &options);
   check_size(problem, request.parameters, request.start, "start");
   if (request.parameters.empty() && request.start.empty()) return {problem, options};
-  Study study = problem.study();
+  Study study = study_of(problem);
   const ParameterSettings starts = choose_parameters(request, &study);
   return {with_study(problem, std::move(study), starts), options};
 }
@@ -145,7 +146,7 @@ OptimizationRequest apply_request(const Problem& problem,
 Problem apply_request(const Problem& problem, const mechanism_codesign::IdentifyGoal& request) {
   require_identification(problem);
   check_size(problem, request.parameters, request.start, "start");
-  Study study = problem.study();
+  Study study = study_of(problem);
   choose_limits(request, &study.optimizer);
   const ParameterSettings starts = choose_parameters(request, &study);
   return with_study(problem, std::move(study), starts);
@@ -154,14 +155,14 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Identify
 Eigen::VectorXd design_of(const Problem& problem,
                           const mechanism_codesign::EvaluateRequest& request) {
   require_objective(problem);
-  require_differentiable(problem.study());
+  require_differentiable(study_of(problem));
   const std::vector<std::string> tuned = problem.tuned_names();
   check_length("check", request.check);
   check_size(problem, request.parameters, request.values, "values");
   Eigen::VectorXd rho = problem.start();
   for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
     const std::size_t k = index_of(name, tuned);
-    const Parameter& parameter = problem.study().parameters[to_index(problem.study().tuned[k])];
+    const Parameter& parameter = study_of(problem).parameters[to_index(study_of(problem).tuned[k])];
     if (!(value >= parameter.lower && value <= parameter.upper))
       fail(name, "value outside the parameter's bounds", to_decimal(value),
            "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]");

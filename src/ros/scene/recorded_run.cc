@@ -6,8 +6,10 @@
 #include <cstdint>
 
 #include "equations/compiled_system.h"
+#include "integration/simulation_of.h"
 #include "mechanism/signal_catalog.h"
 #include "observation/observer.h"
+#include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -28,15 +30,15 @@ double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
 }  // namespace
 
 void check_recording(const Problem& problem, double rate, const std::string& element) {
-  const double duration = problem.study().duration;
+  const double duration = study_of(problem).duration;
   if (duration > kLongestRun)
-    throw InputError({{problem.study().file, 0},
+    throw InputError({{study_of(problem).file, 0},
                       "duration",
                       "the run is longer than ROS time can represent",
                       to_decimal(duration),
                       "at most " + to_decimal(kLongestRun) + " s"});
-  const double runs = problem.study().ensemble.is_ensemble() ? 4.0 : 2.0;
-  const double most = kMostMemory / (runs * bytes_of_a_frame(problem.robot(), problem.study()));
+  const double runs = study_of(problem).ensemble.is_ensemble() ? 4.0 : 2.0;
+  const double most = kMostMemory / (runs * bytes_of_a_frame(robot_of(problem), study_of(problem)));
   if (!(duration * rate <= most))
     throw InputError(
         {{element, 0},
@@ -50,7 +52,7 @@ RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system,
                        const std::vector<double>& parameters, double rate,
                        const std::function<bool()>& stop) {
   RecordedRun run;
-  Simulation simulation(system, parameters, signals_of(system->whole_study()));
+  Simulation simulation = simulation_of(system, parameters, signals_of(system->whole_study()));
   run.names = simulation.names();
   run.link_parents = link_parents(system->robot());
   const double duration = system->whole_study().duration;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mechanism_codesign/version.h"
+#include "problem/load_problem.h"
 #include "ros/scene/recorded_run.h"
 #include "ros/simulation/command_inbox.h"
 #include "text/number_text.h"
@@ -85,10 +86,10 @@ void FloatTopics::publish(const Frame& frame) const {
 
 SimulationScene::SimulationScene(const Problem& problem, const std::string& urdf,
                                  const MarkerStyle& given, const std::function<bool()>& stop)
-    : has_objective_(!problem.study().integral.empty()) {
+    : has_objective_(!study_of(problem).integral.empty()) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
   const RecordedRun run =
-      record_run(problem.system(), problem.parameters(), kInstants / problem.study().duration,
+      record_run(system_of(problem), problem.parameters(), kInstants / study_of(problem).duration,
                  [&] { return stop() || ros::WallTime::now() > end; });
   const auto solids = std::make_shared<LinkBoxes>(link_boxes(urdf, run.names.links));
   layout_ = lay_out({{run.names, run.frames, solids}});

@@ -15,6 +15,7 @@
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "observation/observer.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/bags/bag_files.h"
@@ -116,11 +117,11 @@ void SimulationNode::load() {
   const Inputs inputs = read_inputs(node_, private_node_);
   problem_ = codesign::load(inputs, bag_trajectory_loader(study_folder(inputs)));
   simulation_ = std::make_unique<InteractiveSimulation>(
-      *problem_->system(), command_options(options_), signals_of(problem_->study()));
+      *system_of(*problem_), command_options(options_), signals_of(study_of(*problem_)));
   check_duration(private_node_, options_, simulation_->duration());
-  link_parents_ = link_parents(problem_->robot());
+  link_parents_ = link_parents(robot_of(*problem_));
   commanded_.emplace(simulation_.get(), options_.command_timeout);
-  state_.show("robot", problem_->robot().name);
+  state_.show("robot", robot_of(*problem_).name);
   state_.show("joints of ~command/efforts", list_names(simulation_->inputs().joints));
   state_.warn("files", problem_->warnings());
   control_.configure(options_.start_paused, static_cast<std::int64_t>(options_.step_frames));
@@ -152,7 +153,7 @@ void SimulationNode::tell_description() {
   std_msgs::String message;
   const std::string urdf =
       write_tuned_urdf(problem_->urdf(), problem_->overlays(), simulation_->parameters(),
-                       std::nullopt, problem_->robot().laws);
+                       std::nullopt, robot_of(*problem_).laws);
   message.data = with_sticks(urdf);
   if (message.data == description_) return;
   description_ = message.data;
@@ -161,8 +162,9 @@ void SimulationNode::tell_description() {
 }
 
 MessageContext SimulationNode::context(double time) const {
-  return {clock_.stamp(time),
-          options_.frame_prefix + problem_->robot().links[to_index(problem_->robot().root)].name};
+  return {
+      clock_.stamp(time),
+      options_.frame_prefix + robot_of(*problem_).links[to_index(robot_of(*problem_).root)].name};
 }
 
 void SimulationNode::set_scene() {

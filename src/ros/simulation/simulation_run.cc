@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "problem/load_problem.h"
 #include "ros/simulation/simulation_node.h"
 #include "text/number_text.h"
 
@@ -48,7 +49,7 @@ void SimulationNode::run_all() {
       state_.set(NodeState::Level::kWarning, why);
       return end_for_good(why);
     }
-    state_.set(NodeState::Level::kOk, "running " + problem_->robot().name);
+    state_.set(NodeState::Level::kOk, "running " + robot_of(*problem_).name);
     clock_.start_run(previous_duration);
     if (previous_duration == 0.0) place_root();
     const Status status = run_once();
@@ -56,7 +57,7 @@ void SimulationNode::run_all() {
     previous_duration = frame_.time + 1.0 / options_.rate;
     if (stopping()) return;
     if (control_.wants_restart() || (status.ok() && options_.loop)) continue;
-    const std::string why = status.ok() ? "finished " + problem_->robot().name
+    const std::string why = status.ok() ? "finished " + robot_of(*problem_).name
                                         : std::string(name_of(status.code)) + ": " + reason(status);
     state_.set(status.ok() ? NodeState::Level::kOk : NodeState::Level::kError, why);
     wait_for_restart(why);

@@ -5,6 +5,7 @@
 
 #include "identification/identify.h"
 #include "identification/swinging_arm.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -85,7 +86,7 @@ TEST(CompareMotion, PositionsBeginAtTheIdentifiedStart) {
   recordings.data = {rig.record("identify.data[0]")};
   recordings.data[0].joints[0].position.clear();
   recordings.data[0].joints[0].start =
-      problem.study().identification->data[0].starts.at(0).position;
+      study_of(problem).identification->data[0].starts.at(0).position;
   IdentificationResult result;
   result.parameters = {0.3, 0.4};
   result.x = Eigen::Vector3d(0.3, 0.4, 0.0);  // the arm begins at 0, not at 0.7

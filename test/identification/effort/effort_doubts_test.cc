@@ -9,6 +9,7 @@
 #include "identification/identify.h"
 #include "identification/motion_rig.h"
 #include "identification/swinging_arm.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -78,7 +79,7 @@ void expect_named(const Problem& problem, const JointRecording& recording,
   EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), has))
       << words << ": " << result.status.cause;
   const Warnings checked =
-      warnings_of(*problem.study().identification, find_effort_doubts(problem, {recording}));
+      warnings_of(*study_of(problem).identification, find_effort_doubts(problem, {recording}));
   ASSERT_FALSE(checked.empty()) << words;
   EXPECT_EQ(checked[0].code, "recording_effort");
   EXPECT_NE(checked[0].message.find(words), std::string::npos) << checked[0].message;

@@ -8,6 +8,7 @@
 #include "identification/effort/motion_projection.h"
 #include "identification/recorded_motion.h"
 #include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -180,7 +181,7 @@ TEST(DrivenReplay, ShowsWhatWasSimulated) {
   const Problem problem = shipped_problem("slider_crank", {});
   Simulation simulation(problem, problem.parameters());
   ASSERT_TRUE(simulation.start().ok());
-  DrivenReplay replay(*problem.system(), {{"crank_joint", true, 1.0, {}}},
+  DrivenReplay replay(*system_of(problem), {{"crank_joint", true, 1.0, {}}},
                       Eigen::MatrixXd::Zero(1, 1), problem.parameters());
   ASSERT_EQ(replay.names().joints, simulation.names().joints);
   ASSERT_EQ(replay.names().frictions, simulation.names().frictions);
@@ -205,7 +206,7 @@ TEST(DrivenReplay, ShowsWhatWasSimulated) {
 
 TEST(DrivenReplay, APositionThatCannotBeAssembledIsAStatus) {
   const Problem problem = shipped_problem("slider_crank", {});
-  DrivenReplay replay(*problem.system(), {{"slider_joint", true, 1.0, {}}},
+  DrivenReplay replay(*system_of(problem), {{"slider_joint", true, 1.0, {}}},
                       Eigen::MatrixXd::Zero(1, 1), problem.parameters());
   EXPECT_EQ(replay.begin(column_of(100.0)).code, StatusCode::kAssemblyFailed)
       << "the rod does not reach";

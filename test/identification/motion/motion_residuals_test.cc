@@ -8,6 +8,7 @@
 
 #include "identification/effort/effort_residuals.h"
 #include "identification/motion_rig.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -16,8 +17,8 @@ namespace {
 struct MotionCase {
   MotionCase(const Problem& of, const std::vector<JointRecording>& recordings, int threads = 1)
       : problem(of),
-        variables(problem.study()),
-        residuals(*problem.system(), variables, *problem.study().identification,
+        variables(study_of(problem)),
+        residuals(*system_of(problem), variables, *study_of(problem).identification,
                   require_same_joints(recordings), recordings, threads, &warnings) {}
 
   Problem problem;
@@ -110,7 +111,7 @@ TEST(MotionResiduals, APointWithDerivativesTakesOneRunAndSaysWhatItsStartsOwe) {
   // The same from the measured starts, step by step.
   MotionCase steps(c.problem, {record_pendulum(rig)});
   steps.residuals.count_by(Eigen::VectorXd::Constant(1, 1e-3),
-                           c.problem.study().identification->loss);
+                           study_of(c.problem).identification->loss);
   ASSERT_TRUE(steps.residuals.begin(truth).ok());
   double inner_decrease = 0.0, cost = 0.0;
   for (int step = 1; step <= 3; ++step) {

@@ -10,6 +10,7 @@
 #include "identification/motion_rig.h"
 #include "math/differences.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -37,14 +38,15 @@ JointRecording wavy(const std::string& joint, double effort) {
 struct Prepared {
   Prepared(const Problem& problem, const std::string& joint, double effort)
       : recording(wavy(joint, effort)),
-        variables(problem.study()),
+        variables(study_of(problem)),
         joints{{joint, true, 1.0, {}}},
-        outputs(motion_outputs(*problem.system(), joints, {recording})),
-        of(make_segment_system(*problem.system(), variables, joints, {joint}, outputs, recording)) {
+        outputs(motion_outputs(*system_of(problem), joints, {recording})),
+        of(make_segment_system(*system_of(problem), variables, joints, {joint}, outputs,
+                               recording)) {
     Warnings warnings;
     std::vector<Segment> segments = cut_into_segments(recording, of, variables, {joint},
-                                                      *problem.study().identification, &warnings);
-    EXPECT_TRUE(set_branches(recording, of, *problem.system(), variables, variables.start(),
+                                                      *study_of(problem).identification, &warnings);
+    EXPECT_TRUE(set_branches(recording, of, *system_of(problem), variables, variables.start(),
                              {joint}, nullptr, &segments)
                     .ok());
     segment = segments.at(1);

@@ -5,6 +5,7 @@
 
 #include "identification/effort/effort_residuals.h"
 #include "identification/motion_rig.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::string> outputs_of(const Problem& problem,
                                     const std::vector<JointRecording>& recordings) {
   std::vector<std::string> names;
   for (const MotionOutput& output :
-       motion_outputs(*problem.system(), require_same_joints(recordings), recordings))
+       motion_outputs(*system_of(problem), require_same_joints(recordings), recordings))
     names.push_back(output.name());
   return names;
 }
@@ -48,10 +49,11 @@ TEST(SegmentSystem, SensorsOfInputsAndTheStartFollowTheParameters) {
       "  joints: {hinge: {effort_scale: 3.0, delay: {initial: 0.01}, offset: {initial: 0.2}}}\n",
       "viscous: {}, dry: {}");
   const JointRecording recording = recorded(false, true, 40.0);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const SegmentSystem of = make_segment_system(
-      *problem.system(), variables, require_same_joints({recording}), {"hinge"},
-      motion_outputs(*problem.system(), require_same_joints({recording}), {recording}), recording);
+      *system_of(problem), variables, require_same_joints({recording}), {"hinge"},
+      motion_outputs(*system_of(problem), require_same_joints({recording}), {recording}),
+      recording);
   EXPECT_EQ(of.inputs, std::vector<std::string>{"hinge"});
   EXPECT_EQ(of.columns, (std::vector<int>{0, 1, 2, 3})) << "the known scale is not tuned";
   EXPECT_EQ(of.starts, 2);
@@ -68,10 +70,11 @@ TEST(SegmentSystem, SensorsOfInputsAndTheStartFollowTheParameters) {
 TEST(SegmentSystem, AControllerKeepsItsClockAndItsIntegralIsFree) {
   const Problem problem = motion_problem(motion_servo(), "", "viscous: {}");
   const JointRecording recording = recorded(false, true, 40.0);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const SegmentSystem of = make_segment_system(
-      *problem.system(), variables, require_same_joints({recording}), {"hinge"},
-      motion_outputs(*problem.system(), require_same_joints({recording}), {recording}), recording);
+      *system_of(problem), variables, require_same_joints({recording}), {"hinge"},
+      motion_outputs(*system_of(problem), require_same_joints({recording}), {recording}),
+      recording);
   EXPECT_TRUE(of.inputs.empty()) << "the servo drives, and its effort is compared";
   EXPECT_EQ(of.epoch, 0.0);
   EXPECT_EQ(of.starts, 3);

@@ -6,6 +6,7 @@
 #include "identification/motion/segments.h"
 #include "identification/motion_rig.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -17,14 +18,15 @@ struct FittedSegment {
             motion_servo() + "solver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}\n",
             "  segment: 1.0\n" + more, "inertia: {}, viscous: {}, dry: {}")),
         recording(record_pendulum(rig)),
-        variables(problem.study()),
+        variables(study_of(problem)),
         joints{{"hinge", true, 1.0, {}}},
-        of(make_segment_system(*problem.system(), variables, joints, {"hinge"},
-                               motion_outputs(*problem.system(), joints, {recording}), recording)),
+        of(make_segment_system(*system_of(problem), variables, joints, {"hinge"},
+                               motion_outputs(*system_of(problem), joints, {recording}),
+                               recording)),
         segments(cut_into_segments(recording, of, variables, {"hinge"},
-                                   *problem.study().identification, &warnings)) {
-    EXPECT_TRUE(set_branches(recording, of, *problem.system(), variables, truth, {"hinge"}, nullptr,
-                             &segments)
+                                   *study_of(problem).identification, &warnings)) {
+    EXPECT_TRUE(set_branches(recording, of, *system_of(problem), variables, truth, {"hinge"},
+                             nullptr, &segments)
                     .ok());
     for (const MotionOutput& output : of.outputs) {
       efforts.emplace_back();
@@ -38,7 +40,7 @@ struct FittedSegment {
                       SegmentWork work = SegmentWork::kBestStart) {
     SegmentRun run(of, segments.front().begin);
     return fit_segment({of, variables, efforts, segments.at(1), truth, spreads,
-                        problem.study().identification->loss},
+                        study_of(problem).identification->loss},
                        guesses, work, &run);
   }
 
@@ -131,15 +133,15 @@ TEST(Segments, EachSampleIsInOneOfThem) {
   rig.duration = 5.4;
   rig.begin = 100.0;
   const JointRecording recording = record_pendulum(rig);
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const std::vector<MeasuredJoint> joints{{"hinge", true, 1.0, {}}};
   const SegmentSystem of =
-      make_segment_system(*problem.system(), variables, joints, {"hinge"},
-                          motion_outputs(*problem.system(), joints, {recording}), recording);
+      make_segment_system(*system_of(problem), variables, joints, {"hinge"},
+                          motion_outputs(*system_of(problem), joints, {recording}), recording);
   EXPECT_EQ(of.epoch, 100.0);
   Warnings warnings;
   const std::vector<Segment> segments = cut_into_segments(
-      recording, of, variables, {"hinge"}, *problem.study().identification, &warnings);
+      recording, of, variables, {"hinge"}, *study_of(problem).identification, &warnings);
   ASSERT_EQ(segments.size(), 5U) << "the last one is longer";
   std::size_t sample = 0;
   for (const Segment& segment : segments) {
@@ -158,14 +160,14 @@ TEST(Segments, EachSampleIsInOneOfThem) {
 TEST(Segments, ShorterThanTheStepsOfTheRecordingTheyAreRefused) {
   const Problem problem = motion_problem("", "  segment: 1.0e-9\n", "inertia: {}");
   const JointRecording recording = record_pendulum({});
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const std::vector<MeasuredJoint> joints{{"hinge", true, 1.0, {}}};
   const SegmentSystem of =
-      make_segment_system(*problem.system(), variables, joints, {"hinge"},
-                          motion_outputs(*problem.system(), joints, {recording}), recording);
+      make_segment_system(*system_of(problem), variables, joints, {"hinge"},
+                          motion_outputs(*system_of(problem), joints, {recording}), recording);
   Warnings warnings;
   try {
-    cut_into_segments(recording, of, variables, {"hinge"}, *problem.study().identification,
+    cut_into_segments(recording, of, variables, {"hinge"}, *study_of(problem).identification,
                       &warnings);
     ADD_FAILURE();
   } catch (const InputError& error) {
@@ -191,20 +193,20 @@ TEST(Segments, ALoopStaysOnItsBranchThroughWholeTurns) {
     crank.position.push_back(1.0 - 0.1 * k);
   }
   recording.joints = {crank};
-  const FitVariables variables(problem.study());
+  const FitVariables variables(study_of(problem));
   const std::vector<MeasuredJoint> joints{{"crank_joint", false, 1.0, {}}};
   const SegmentSystem of =
-      make_segment_system(*problem.system(), variables, joints, {"crank_joint"},
-                          motion_outputs(*problem.system(), joints, {recording}), recording);
+      make_segment_system(*system_of(problem), variables, joints, {"crank_joint"},
+                          motion_outputs(*system_of(problem), joints, {recording}), recording);
   Warnings warnings;
   std::vector<Segment> segments = cut_into_segments(recording, of, variables, {"crank_joint"},
-                                                    *problem.study().identification, &warnings);
-  const Status status = set_branches(recording, of, *problem.system(), variables, variables.start(),
-                                     {"crank_joint"}, nullptr, &segments);
+                                                    *study_of(problem).identification, &warnings);
+  const Status status = set_branches(recording, of, *system_of(problem), variables,
+                                     variables.start(), {"crank_joint"}, nullptr, &segments);
   ASSERT_TRUE(status.ok()) << status.cause;
   // All segments have the slider on the side where it is at the start of the study.
-  const RobotDescription& robot = problem.system()->robot();
-  StartWorkspace usual(*problem.system(), problem.system()->parameters());
+  const RobotDescription& robot = system_of(problem)->robot();
+  StartWorkspace usual(*system_of(problem), system_of(problem)->parameters());
   ASSERT_TRUE(usual.solve_positions().ok());
   for (std::size_t joint = 0; joint < robot.joints.size(); ++joint) {
     if (robot.joints[joint].name != "slider_joint") continue;

@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "fuzz/damage.h"
+#include "integration/simulation_of.h"
 #include "jobs/files.h"
 #include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 #include "ros/bags/bag_files.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"
@@ -115,7 +117,7 @@ TEST_F(TrajectoryBag, AStudyFollowsIt) {
   const Problem problem =
       load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"pendulum.yaml", study}, {},
                    bag_trajectory_loader(directory_.path().string()));
-  Simulation simulation(problem.system(), problem.parameters());
+  Simulation simulation = simulation_of(system_of(problem), problem.parameters());
   std::vector<double> setpoints;
   simulate(&simulation, 0.5, 3, [&setpoints](const Frame& frame) {
     setpoints.push_back(frame.controllers.at(0).setpoint);

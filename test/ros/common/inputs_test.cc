@@ -9,6 +9,7 @@
 
 #include "mechanism_codesign/error.h"
 #include "paths.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/common/parameters.h"
@@ -75,7 +76,7 @@ TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
   EXPECT_EQ(problem.tuned_names(), std::vector<std::string>{"Kp"})
       << "the study says {length: {}}, and that is what is lost";
   try {
-    require_every_parameter(inputs, problem.robot());
+    require_every_parameter(inputs, robot_of(problem));
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().where.file, "/optimization/study");
@@ -87,7 +88,7 @@ TEST(RequireEveryParameter, ATreeThatLostAnEmptyMappingIsRefused) {
 TEST(RequireEveryParameter, AFileMayLeaveParametersOut) {
   Inputs inputs = as_tree(kPendulumUrdf, kPendulumStudy);
   inputs.study_is_tree = false;
-  EXPECT_NO_THROW(require_every_parameter(inputs, load(inputs).robot()));
+  EXPECT_NO_THROW(require_every_parameter(inputs, robot_of(load(inputs))));
 }
 
 TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
@@ -101,7 +102,7 @@ TEST(RequireEveryParameter, TheShippedStudiesTuneTheSameAsATree) {
         source_dir() + "/urdf/overlays/" + entry.path().stem().string() + ".urdf";
     if (std::filesystem::exists(overlay)) tree.overlays.push_back(read_source(overlay));
     const Problem problem = load(tree);
-    EXPECT_NO_THROW(require_every_parameter(tree, problem.robot())) << entry.path();
+    EXPECT_NO_THROW(require_every_parameter(tree, robot_of(problem))) << entry.path();
     // XML-RPC sorts by name.
     std::vector<std::string> from_file = load_problem(urdf, tree.overlays, study).tuned_names(),
                              from_tree = problem.tuned_names();

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "mechanism_codesign/error.h"
+#include "problem/load_problem.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"
 
@@ -39,11 +40,11 @@ std::string fault_of(const EvaluateRequest& request) {
 TEST(OptimizeRequest, AnEmptyOneChangesNothing) {
   const Problem problem = pendulum();
   const OptimizationRequest same = apply_request(problem, OptimizeGoal());
-  EXPECT_EQ(same.problem.system(), problem.system());
+  EXPECT_EQ(system_of(same.problem), system_of(problem));
   EXPECT_EQ(same.problem.start(), problem.start());
   EXPECT_EQ(same.options.algorithm, "lbfgs");
   EXPECT_EQ(same.options.max_evaluations, 30);
-  EXPECT_EQ(same.options.relative_tolerance, problem.study().optimizer.relative_tolerance);
+  EXPECT_EQ(same.options.relative_tolerance, study_of(problem).optimizer.relative_tolerance);
 }
 
 TEST(OptimizeRequest, ChoosesParametersAndStarts) {

@@ -5,8 +5,10 @@
 
 #include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
+#include "integration/simulation_of.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/simulation.h"
+#include "problem/load_problem.h"
 #include "ros/pendulum.h"
 
 namespace codesign {
@@ -14,7 +16,7 @@ namespace {
 
 TEST(CheckRecording, RefusesWhatMemoryOrRosTimeCannotHold) {
   const auto fault_of = [](double duration, double rate) -> std::string {
-    Study study = pendulum().study();
+    Study study = study_of(pendulum());
     study.duration = duration;
     const Problem problem = with_study(pendulum(), study);
     try {
@@ -49,7 +51,7 @@ TEST(CheckRecording, AStudyWithScenariosRecordsTwiceAsManyRuns) {
 
 TEST(Advance, AsksOnTheWayAndStops) {
   const Problem problem = pendulum();
-  Simulation simulation(problem.system(), problem.parameters());
+  Simulation simulation = simulation_of(system_of(problem), problem.parameters());
   ASSERT_TRUE(simulation.start().ok());
   int asked = 0;
   EXPECT_EQ(advance(&simulation, 0.0, 0.5, [&] { return ++asked == 5; }).code,
@@ -59,8 +61,8 @@ TEST(Advance, AsksOnTheWayAndStops) {
 
 TEST(Advance, ChangesNoStepOfTheRun) {
   const Problem problem = pendulum();
-  Simulation sliced(problem.system(), problem.parameters()),
-      whole(problem.system(), problem.parameters());
+  Simulation sliced = simulation_of(system_of(problem), problem.parameters()),
+             whole = simulation_of(system_of(problem), problem.parameters());
   Frame from_sliced, from_whole;
   ASSERT_TRUE(sliced.start().ok() && whole.start().ok());
   ASSERT_TRUE(advance(&sliced, 0.0, 0.5, [] { return false; }).ok() && whole.advance(0.5).ok());

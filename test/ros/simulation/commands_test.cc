@@ -5,13 +5,14 @@
 
 #include <limits>
 
+#include "problem/load_problem.h"
 #include "ros/servo_arm.h"
 
 namespace codesign {
 namespace {
 
 const CommandInputs& arm_inputs() {
-  static const CommandInputs kInputs(*servo_arm().system(), {});
+  static const CommandInputs kInputs(*system_of(servo_arm()), {});
   return kInputs;
 }
 
@@ -150,7 +151,7 @@ class CommandedArm : public testing::Test {
     return {ros::Time(begin), {{joint, follower, std::move(points)}}};
   }
 
-  InteractiveSimulation run_{*servo_arm().system(), {}, {}};
+  InteractiveSimulation run_{*system_of(servo_arm()), {}, {}};
   CommandedRun commanded_{&run_, 0.1};
   RunClock clock_{0.0};
   Frame frame_;

@@ -7,6 +7,7 @@
 
 #include "integration/interactive_simulation.h"
 #include "mechanism/signal_catalog.h"
+#include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/pendulum.h"
@@ -33,7 +34,7 @@ TEST(FloatTopics, EachNumberHasALegalNameOfItsOwn) {
 
 TEST(FloatTopics, TheNumbersAreThoseOfTheFrame) {
   const Problem problem = servo_arm();
-  InteractiveSimulation run(*problem.system(), {}, signals_of(problem.study()));
+  InteractiveSimulation run(*system_of(problem), {}, signals_of(study_of(problem)));
   ASSERT_TRUE(run.start(run.parameters()).ok());
   Frame frame;
   ASSERT_TRUE(run.advance(0.1).ok());
