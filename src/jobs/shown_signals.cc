@@ -23,7 +23,7 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
 /// @param input unit of the input of the controller whose quantity it is.
 std::string unit_of(const SignalFacts& facts, const JointDescription* joint,
                     const std::string& input) {
-  const std::string unit = facts.unit;
+  std::string unit = facts.unit;
   if (unit.empty()) return "";
   if (unit.front() == 'e') return input + unit.substr(1);
   if (unit.front() != 'q' && unit.front() != 'Q') return unit;
