@@ -197,6 +197,13 @@ void EquationCode::record_start(RecordedEquations* equations) {
     // Without the flags of dropped rows, which no step changes.
     return std::vector<VectorX<Traced>>{vector(turned.turns).head(system_.layout().drop_slot)};
   });
+  if (!system_.stuck().empty())
+    record(EquationFunction::kStuckSlips, [&] {
+      std::vector<VectorX<Traced>> slips(2);
+      formulas.load(state);
+      formulas.stuck_slips(&slips[0], &slips[1]);
+      return slips;
+    });
   for (std::size_t k = 0; k < system_.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);
     formulas.load(state);

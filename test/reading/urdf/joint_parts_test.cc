@@ -209,6 +209,25 @@ TEST(FrictionReader, FaultsInNewtonMetres) {
                {"did you mean \"stribeck_velocity\"?"});
 }
 
+TEST(FrictionReader, ATransitionVelocityThatLuGresModelDoesNotReadIsRefused) {
+  const std::string message = "transition_velocity has no effect: in the LuGre model";
+  expect_error(text_with("coulomb=\"5\" model=\"lugre\" transition_velocity=\"0.1\""),
+               {message, "value: 0.1, allowed: beside static or viscous_exponent"});
+  const std::string rest = "coulomb=\"5\" transition_velocity=\"0.1\" ";
+  for (const std::string& with :
+       {"model=\"lugre\" static=\"6\"", "model=\"lugre\" viscous=\"1\" viscous_exponent=\"0.8\"",
+        "model=\"gonthier\"", "model=\"brown_mcphee\"", "model=\"stribeck\""})
+    EXPECT_EQ(friction(rest + with).transition_velocity.nominal(), 0.1) << with;
+  const auto geared = [](const std::string& model) {
+    return pendulum(
+        "\n<codesign:actuator rotor_inertia=\"1e-5\" coulomb=\"0.01\" "
+        "transition_velocity=\"0.1\" model=\"" +
+        model + "\"/>");
+  };
+  expect_error(geared("lugre"), {message, "the same in gears (value: 0.1, allowed: with another"});
+  EXPECT_NO_THROW(read_urdf(geared("gonthier")));
+}
+
 std::optional<GearDescription> gear(const std::string& attributes) {
   const std::string actuator = "\n<codesign:actuator rotor_inertia=\"1e-5\" " + attributes + "/>";
   return read_urdf(pendulum(actuator)).joints.at(0).actuator->gear;
