@@ -8,8 +8,16 @@ if(NOT TARGET codesign)
 endif()
 
 set(codesign_share ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_SHARE_DESTINATION})
-configure_file(man/codesign.1.in ${PROJECT_BINARY_DIR}/share/man/man1/codesign.1 @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/share/man/man1/codesign.1 DESTINATION share/man/man1)
+# The manual page has commands and options from the program's own help.
+set(codesign_manual ${PROJECT_BINARY_DIR}/share/man/man1/codesign.1)
+set(commands "@commands@")
+configure_file(man/codesign.1.in ${PROJECT_BINARY_DIR}/codesign.1.in @ONLY)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/man/man1)
+add_custom_command(OUTPUT ${codesign_manual}
+  COMMAND ${PROJECT_SOURCE_DIR}/man/write_manual $<TARGET_FILE:codesign> ${PROJECT_BINARY_DIR}/codesign.1.in > ${codesign_manual}
+  DEPENDS codesign man/write_manual ${PROJECT_BINARY_DIR}/codesign.1.in VERBATIM)
+add_custom_target(codesign_manual_page ALL DEPENDS ${codesign_manual})
+install(FILES ${codesign_manual} DESTINATION share/man/man1)
 foreach(shell bash zsh)
   configure_file(completion/codesign.${shell} ${codesign_share}/completion/codesign.${shell} COPYONLY)
 endforeach()

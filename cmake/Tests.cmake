@@ -139,7 +139,8 @@ set(codesign_setup)
 if(TARGET codesign_ros)
   set(codesign_setup ${CATKIN_DEVEL_PREFIX}/setup.bash)
 endif()
-add_test(NAME command_line COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/command_line_test.py $<TARGET_FILE:codesign> ${codesign_setup})
+add_test(NAME command_line COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/command_line_test.py $<TARGET_FILE:codesign>
+  ${PROJECT_BINARY_DIR}/share/man/man1/codesign.1 ${codesign_setup})
 add_test(NAME compare_algorithms COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/compare_algorithms_test.py $<TARGET_FILE:codesign>)
 add_test(NAME identify_then_tune COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/identify_then_tune_test.py $<TARGET_FILE:codesign>)
 

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-# Completion of `codesign` in bash; `. devel/setup.bash` loads it.
+# Completion of `codesign` in bash; `. devel/setup.bash` loads it. Commands and options are those of the program's own help.
 
 # The values of an option: names of files, a few words, or nothing.
 _codesign_value() {
@@ -18,8 +18,8 @@ _codesign_value() {
 _codesign() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]-} options
   shopt -q extglob || return 0
-  if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate efforts equilibrium gradient optimize identify excite new report apply help --help --version" -- "$word")
+  if [ "$COMP_CWORD" -eq 1 ] || [ "$command" = help ]; then
+    mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" help 2>/dev/null | grep -oE '^  ([a-z]+|--version) ') --help" -- "$word")
     return
   fi
   # readline splits --verify=ridders in three.
@@ -27,30 +27,14 @@ _codesign() {
     _codesign_value "${COMP_WORDS[COMP_CWORD - 2]}" "$word"
     return
   fi
-  if [ "$command" = help ]; then
-    mapfile -t COMPREPLY < <(compgen -W "check urdf simulate efforts equilibrium gradient optimize identify excite new report apply" -- "$word")
-    return
-  fi
-  case $previous in
-    --overlay | --result | --csv | --output | --resume | --set | --signals | --samples | --run | --from | -o | --server | --ramp | --hold | --limit | --deviation | --joint-states | --max-age)
-      _codesign_value "$previous" "$word"
-      return
-      ;;
-  esac
-  options="--overlay --result --set --json --quiet --help"
-  case $command in
-    urdf) options+=" --sticks --fill" ;;
-    simulate | efforts) options+=" --signals --csv --samples --run" ;;
-    equilibrium) options+=" --signals --run" ;;
-    gradient) options+=" --verify --run" ;;
-    optimize) options+=" --output --resume" ;;
-    identify | excite) options+=" --output" ;;
-    new) options="--from --json --quiet --help" ;;
-    report) options="-o --output --help" ;;
-    apply) options="--dry-run --server --ramp --hold --limit --deviation --joint-states --max-age --unwatched --json --help" ;;
-  esac
-  if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  # One line per option; ` X` follows those with a value. `apply` is a program of its own.
+  local help=(help "$command")
+  [ "$command" = apply ] && help=(apply --help)
+  options=$("${COMP_WORDS[0]}" "${help[@]}" 2>/dev/null | grep -oE '(^ +|, )--?[a-z][a-z-]*( [A-Z]|=)?' | sed -E 's/^[ ,]+//; s/=$//; s/ [A-Z]$/ X/')
+  if grep -qxe "$previous X" <<< "$options"; then
+    _codesign_value "$previous" "$word"
+  elif [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "${options// X/} --help" -- "$word")
   elif [ "$command" = new ]; then
     COMPREPLY=()
   elif [ "$command" = report ] || [ "$command" = apply ]; then

@@ -54,9 +54,7 @@ class Resolver {
   /// Whether a term contains the output of the k-th controller or of a later one. A reaction does
   /// if one of them drives its joint.
   bool reads_effort(const SignalReference& term, std::size_t k) const {
-    if (term.kind == SignalKind::kJointEffort || term.kind == SignalKind::kJointEffortRate ||
-        term.kind == SignalKind::kActuatorPower || term.kind == SignalKind::kMotorTorque)
-      return true;
+    if (facts_of(term.kind).needs == SignalNeeds::kEfforts) return true;
     if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque)
       return false;
     const auto drives = [&](const ControllerDescription& controller) {
@@ -140,9 +138,8 @@ class Resolver {
   /// instant of the sample. The same holds for a filter, whose state begins at its input.
   void refuse_rates(std::size_t k) const {
     const auto is_rate = [](const SignalReference& term) {
-      using K = SignalKind;
-      return !is_of_motion(term.kind) && term.kind != K::kControllerError &&
-             term.kind != K::kControllerIntegral && term.kind != K::kControllerOutput;
+      const SignalNeeds needs = facts_of(term.kind).needs;
+      return needs != SignalNeeds::kMotion && needs != SignalNeeds::kControl;
     };
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))

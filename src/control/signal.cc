@@ -2,7 +2,6 @@
 #include "control/signal.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -21,45 +20,12 @@ std::optional<int> find_named(const Items& items, const std::string& name) {
   return std::nullopt;
 }
 
-const std::map<std::string, SignalKind>& joint_kinds() {
-  static const std::map<std::string, SignalKind> kinds{
-      {"position", SignalKind::kJointPosition},
-      {"velocity", SignalKind::kJointVelocity},
-      {"acceleration", SignalKind::kJointAcceleration},
-      {"effort", SignalKind::kJointEffort},
-      {"effort_rate", SignalKind::kJointEffortRate},
-      {"friction", SignalKind::kJointFriction},
-      {"gear_torque", SignalKind::kGearTorque},
-      {"gear_loss", SignalKind::kGearLoss},
-      {"normal_force", SignalKind::kJointNormalForce},
-      {"sliding_velocity", SignalKind::kJointSlidingVelocity},
-      {"friction_power", SignalKind::kFrictionPower},
-      {"damping_power", SignalKind::kDampingPower},
-      {"actuator_power", SignalKind::kActuatorPower},
-      {"load_power", SignalKind::kLoadPower},
-      {"motor_torque", SignalKind::kMotorTorque},
-      {"motor_speed", SignalKind::kMotorSpeed},
-      {"motor_position", SignalKind::kMotorPosition},
-      {"gear_deflection", SignalKind::kGearDeflection},
-      {"reaction_force", SignalKind::kReactionForce},
-      {"reaction_torque", SignalKind::kReactionTorque}};
-  return kinds;
-}
-
 int axis_of(const std::string& component) {
   return component == "x" ? 0 : component == "y" ? 1 : 2;
 }
 
-const std::map<std::string, SignalKind>& mechanism_kinds() {
-  static const std::map<std::string, SignalKind> kinds{
-      {"kinetic_energy", SignalKind::kKineticEnergy},
-      {"potential_energy", SignalKind::kPotentialEnergy},
-      {"total_energy", SignalKind::kTotalEnergy},
-      {"friction_power", SignalKind::kFrictionPower},
-      {"damping_power", SignalKind::kDampingPower},
-      {"actuator_power", SignalKind::kActuatorPower},
-      {"load_power", SignalKind::kLoadPower}};
-  return kinds;
+SignalKind kind_of(SignalOwner owner, const SignalTerm& term) {
+  return find_quantity(owner, term.quantity)->kind;
 }
 
 /// Throws InputError: the child of the joint has no mass and transmits the reaction to the next
@@ -83,7 +49,7 @@ const std::map<std::string, SignalKind>& mechanism_kinds() {
 SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDescription& signal,
                               const RobotDescription& robot, const Topology& topology) {
   SignalReference reference;
-  reference.kind = joint_kinds().at(term.quantity);
+  reference.kind = kind_of(SignalOwner::kJoint, term);
   reference.pair = topology.joint_pair[to_index(joint)];
   if (reference.pair < 0)
     throw InputError(
@@ -113,35 +79,13 @@ SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescr
   SignalReference reference;
   reference.link = link;
   reference.axis = axis_of(term.component);
-  reference.kind = term.quantity == "position"      ? SignalKind::kLinkPosition
-                   : term.quantity == "velocity"    ? SignalKind::kLinkVelocity
-                   : term.quantity == "orientation" ? SignalKind::kLinkOrientation
-                                                    : SignalKind::kLinkAngularVelocity;
+  reference.kind = kind_of(SignalOwner::kLink, term);
   if (reference.kind == SignalKind::kLinkOrientation)
     reference.axis = term.component == "w" ? 0 : 1 + axis_of(term.component);
   if (topology.link_body[to_index(link)] == Topology::kMassless)
     throw InputError({signal.where, "signal",
                       "the link has no <inertial>, so it is folded into a joint and cannot be read",
                       signal.text, ""});
-  return reference;
-}
-
-SignalReference resolve_controller(const SignalTerm& term, int controller) {
-  SignalReference reference;
-  reference.controller = controller;
-  reference.kind = term.quantity == "error"      ? SignalKind::kControllerError
-                   : term.quantity == "setpoint" ? SignalKind::kControllerSetpoint
-                   : term.quantity == "integral" ? SignalKind::kControllerIntegral
-                                                 : SignalKind::kControllerOutput;
-  return reference;
-}
-
-SignalReference resolve_spring(const SignalTerm& term, int spring) {
-  SignalReference reference;
-  reference.spring = spring;
-  reference.kind = term.quantity == "force"    ? SignalKind::kSpringForce
-                   : term.quantity == "length" ? SignalKind::kSpringLength
-                                               : SignalKind::kSpringSpeed;
   return reference;
 }
 
@@ -170,36 +114,6 @@ std::shared_ptr<const ResolvedFormula> resolve_formula(const SignalDescription& 
   return std::make_shared<const ResolvedFormula>(std::move(formula));
 }
 
-std::optional<SignalKind> derivative_kind(SignalKind kind) {
-  switch (kind) {
-    case SignalKind::kJointPosition:
-      return SignalKind::kJointVelocity;
-    case SignalKind::kJointVelocity:
-    case SignalKind::kJointSlidingVelocity:
-      return SignalKind::kJointAcceleration;
-    case SignalKind::kMotorPosition:
-      return SignalKind::kMotorSpeed;
-    case SignalKind::kMotorSpeed:
-      return SignalKind::kMotorAcceleration;
-    case SignalKind::kGearDeflection:
-      return SignalKind::kGearDeflectionRate;
-    case SignalKind::kLinkPosition:
-      return SignalKind::kLinkVelocity;
-    case SignalKind::kLinkVelocity:
-      return SignalKind::kLinkAcceleration;
-    case SignalKind::kSpringLength:
-      return SignalKind::kSpringSpeed;
-    case SignalKind::kControllerIntegral:
-      return SignalKind::kControllerError;
-    case SignalKind::kControllerError:
-      return SignalKind::kControllerErrorRate;
-    case SignalKind::kControllerSetpoint:
-      return SignalKind::kControllerSetpointRate;
-    default:
-      return std::nullopt;
-  }
-}
-
 }  // namespace
 
 Signal resolve_signal(const SignalDescription& signal, const RobotDescription& robot,
@@ -212,12 +126,14 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
   for (const SignalTerm& term : signal.terms) {
     SignalReference reference;
     if (is_of_mechanism(term)) {
-      reference.kind = mechanism_kinds().at(term.quantity);
+      reference.kind = kind_of(SignalOwner::kMechanism, term);
     } else if (const auto spring = find_named(robot.spring_dampers, term.object);
                spring && is_of_spring(term)) {
-      reference = resolve_spring(term, *spring);
+      reference.kind = kind_of(SignalOwner::kSpring, term);
+      reference.spring = *spring;
     } else if (const auto controller = find_named(controllers, term.object)) {
-      reference = resolve_controller(term, *controller);
+      reference.kind = kind_of(SignalOwner::kController, term);
+      reference.controller = *controller;
     } else if (const auto joint = find_named(robot.joints, term.object);
                joint && (term.component.empty() || is_reaction(term))) {
       reference = resolve_joint(term, *joint, signal, robot, topology);
@@ -229,32 +145,6 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
     resolved.push_back(reference);
   }
   return resolved;
-}
-
-bool is_of_motion(SignalKind kind) {
-  switch (kind) {
-    case SignalKind::kJointPosition:
-    case SignalKind::kJointVelocity:
-    case SignalKind::kLinkPosition:
-    case SignalKind::kLinkVelocity:
-    case SignalKind::kLinkAngularVelocity:
-    case SignalKind::kLinkOrientation:
-    case SignalKind::kKineticEnergy:
-    case SignalKind::kPotentialEnergy:
-    case SignalKind::kTotalEnergy:
-    case SignalKind::kSpringForce:
-    case SignalKind::kSpringLength:
-    case SignalKind::kSpringSpeed:
-    case SignalKind::kMotorSpeed:
-    case SignalKind::kMotorPosition:
-    case SignalKind::kGearDeflection:
-    case SignalKind::kGearDeflectionRate:
-    case SignalKind::kElasticTorque:
-    case SignalKind::kControllerSetpoint:
-      return true;
-    default:
-      return false;
-  }
 }
 
 bool reads_time(const Signal& signal) {
@@ -269,9 +159,8 @@ std::optional<Signal> differentiate(const Signal& resolved) {
   if (resolved.formula) return std::nullopt;
   Signal derivative = resolved;
   for (SignalReference& reference : derivative) {
-    const auto kind = derivative_kind(reference.kind);
-    if (!kind) return std::nullopt;
-    reference.kind = *kind;
+    reference.kind = facts_of(reference.kind).rate;
+    if (reference.kind == SignalKind::kNone) return std::nullopt;
   }
   return derivative;
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "description/expression_syntax.h"
+#include "description/signal_table.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -21,18 +21,6 @@ std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
-}
-
-bool is_quantity(const std::string& word) {
-  static const std::set<std::string> kQuantities{
-      "position",       "velocity",         "acceleration",   "effort",         "friction",
-      "normal_force",   "sliding_velocity", "error",          "setpoint",       "integral",
-      "output",         "angular_velocity", "orientation",    "reaction_force", "reaction_torque",
-      "friction_power", "damping_power",    "actuator_power", "load_power",     "effort_rate",
-      "kinetic_energy", "potential_energy", "total_energy",   "force",          "length",
-      "speed",          "motor_torque",     "motor_speed",    "gear_torque",    "gear_loss",
-      "motor_position", "gear_deflection"};
-  return kQuantities.count(word) != 0;
 }
 
 /// Parses from left to right. An operator can only follow a quantity or a component, which consist

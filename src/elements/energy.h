@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "description/signal_table.h"
 #include "elements/body.h"
 #include "elements/contact.h"
 #include "elements/elastic_gear.h"
@@ -11,17 +12,6 @@
 #include "math/arrays.h"
 
 namespace codesign {
-
-/// The kinds of power that go into a mechanism, doc/theory.md (14c); their sum is the rate of the
-/// mechanical energy. Gravity, springs and the elastic part of stops are not among them, since
-/// their work is in the potential energy.
-enum class PowerKind {
-  kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
-  kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs, spring-dampers and elastic
-              ///< gears, and the dissipation of stops
-  kActuator,  ///< controllers, as applied within the effort limits, and drives
-  kLoad       ///< the study's efforts and wrenches
-};
 
 // The powers [W] of theory (14c), positive where energy goes into the mechanism. A load L opposes
 // the coordinate, so its power is -L theta'.

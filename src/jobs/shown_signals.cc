@@ -19,37 +19,19 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
   return found == items.end() ? nullptr : &*found;
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-/// The unit of a quantity; null if it depends on the object.
-const char* fixed_unit(const std::string& quantity) {
-  if (ends_with(quantity, "_energy")) return "J";
-  if (ends_with(quantity, "_power")) return "W";
-  if (quantity == "normal_force" || quantity == "reaction_force") return "N";
-  if (quantity == "reaction_torque") return "N m";
-  if (quantity == "angular_velocity" || quantity == "motor_speed") return "rad/s";
-  if (quantity == "motor_torque") return "N m";
-  if (quantity == "motor_position") return "rad";
-  if (quantity == "force") return "N";
-  if (quantity == "length") return "m";
-  if (quantity == "speed") return "m/s";
-  return nullptr;
-}
-
-std::string joint_unit(const std::string& quantity, const JointDescription& joint) {
-  const bool turns = is_turn(joint.type) || joint.type == JointType::kSpherical ||
-                     joint.type == JointType::kUniversal;
-  if (quantity == "position" || quantity == "gear_deflection") return turns ? "rad" : "m";
-  if (quantity == "velocity" || quantity == "sliding_velocity") return turns ? "rad/s" : "m/s";
-  if (quantity == "acceleration") return turns ? "rad/s²" : "m/s²";
-  if (ends_with(quantity, "_rate")) return turns ? "N m/s" : "N/s";
-  return turns ? "N m" : "N";  // effort, friction
-}
-
-std::string link_unit(const std::string& quantity) {
-  return quantity == "position" ? "m" : quantity == "velocity" ? "m/s" : "";
+/// The unit of a quantity, SignalFacts::unit. @param joint whose coordinate it is; null: none.
+/// @param input unit of the input of the controller whose quantity it is.
+std::string unit_of(const SignalFacts& facts, const JointDescription* joint,
+                    const std::string& input) {
+  std::string unit = facts.unit;
+  if (unit.empty()) return "";
+  if (unit.front() == 'e') return input + unit.substr(1);
+  if (unit.front() != 'q' && unit.front() != 'Q') return unit;
+  if (joint == nullptr) return "";
+  const bool turns = is_turn(joint->type) || joint->type == JointType::kSpherical ||
+                     joint->type == JointType::kUniversal;
+  const char* of_joint = unit.front() == 'q' ? (turns ? "rad" : "m") : (turns ? "N m" : "N");
+  return of_joint + unit.substr(1);
 }
 
 /// Adds the limits of a joint that apply to one of its signals.
@@ -115,17 +97,22 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
                     const std::vector<ControllerDescription>& controllers) {
   if (signal.formula) return "";
   const SignalTerm& term = signal.terms.front();
-  if (const char* unit = fixed_unit(term.quantity)) return unit;
+  if (const SignalFacts* facts = find_quantity(SignalOwner::kMechanism, term.quantity);
+      facts != nullptr && is_of_mechanism(term))
+    return facts->unit;
+  if (is_of_spring(term)) return find_quantity(SignalOwner::kSpring, term.quantity)->unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
-    const JointDescription* driven = find_named(robot.joints, controller->output);
-    if (term.quantity == "output") return driven == nullptr ? "" : joint_unit("effort", *driven);
-    const std::string unit = unit_of(controller->input, robot, controllers);
-    return term.quantity == "integral" ? unit + " s" : unit;
+    const SignalFacts* facts = find_quantity(SignalOwner::kController, term.quantity);
+    return unit_of(*facts, find_named(robot.joints, controller->output),
+                   term.quantity == "output" || controller->input.terms.empty()
+                       ? ""
+                       : unit_of(controller->input, robot, controllers));
   }
-  // A joint and a link may share a name; only a link's position and velocity have components.
+  // A joint and a link may share a name; only a joint's reactions have components, too.
   const JointDescription* joint = find_named(robot.joints, term.object);
-  return joint != nullptr && term.component.empty() ? joint_unit(term.quantity, *joint)
-                                                    : link_unit(term.quantity);
+  if (joint != nullptr && (term.component.empty() || is_reaction(term)))
+    return unit_of(*find_quantity(SignalOwner::kJoint, term.quantity), joint, "");
+  return find_quantity(SignalOwner::kLink, term.quantity)->unit;
 }
 
 std::vector<ShownSignal> shown_signals(const Problem& problem,

@@ -28,84 +28,43 @@ struct Offer {
 
 constexpr const char* kMechanism = "mechanism";
 
-bool has_gear(const JointDescription& joint) { return joint.actuator && joint.actuator->gear; }
-
-/// Whether the signal normal_force exists. Friction that is given in N m or N has none.
-bool has_normal_force(const JointDescription& joint) {
-  return joint.friction ? !joint.friction->is_direct : !joint.dry_friction.is_zero();
-}
-
-const Names& reactions() {
-  static const Names kReactions{"reaction_force", "reaction_torque"};
-  return kReactions;
-}
-const Names& spring_quantities() {
-  static const Names kQuantities{"force", "length", "speed"};
-  return kQuantities;
-}
-const Names& powers() {
-  static const Names kPowers{"friction_power", "damping_power", "actuator_power", "load_power"};
-  return kPowers;
-}
-const Names& mechanism_quantities() {
-  static const Names kQuantities = [] {
-    Names all{"kinetic_energy", "potential_energy", "total_energy"};
-    all.insert(all.end(), powers().begin(), powers().end());
-    return all;
-  }();
-  return kQuantities;
-}
-
-void add_joint(const JointDescription& joint, Offer* offer) {
+/// Adds the quantities of an owner for which a condition holds.
+template <class Condition>
+void add_quantities(SignalOwner owner, Condition&& condition, Offer* offer) {
   offer->exists = true;
-  if (has_one_coordinate(joint.type))
-    offer->scalars = {"position",    "velocity",       "acceleration",  "effort",
-                      "effort_rate", "actuator_power", "damping_power", "load_power"};
-  if (joint.actuator)
-    for (const char* quantity : {"motor_torque", "motor_speed", "motor_position"})
-      offer->scalars.emplace_back(quantity);
-  if (joint.has_elastic_gear()) offer->scalars.emplace_back("gear_deflection");
-  if (has_friction(joint)) {
-    offer->scalars.emplace_back("friction");
-    if (has_normal_force(joint)) offer->scalars.emplace_back("normal_force");
-    for (const char* quantity : {"sliding_velocity", "friction_power"})
-      offer->scalars.emplace_back(quantity);
+  for (const SignalFacts& facts : signal_table::kFacts) {
+    if (facts.owner != owner || *facts.quantity == '\0' || !condition(facts)) continue;
+    Names& names = facts.shape == SignalShape::kScalar   ? offer->scalars
+                   : facts.shape == SignalShape::kVector ? offer->vectors
+                                                         : offer->quaternions;
+    // A power that a joint named `mechanism` has, too.
+    const bool is_twice = owner == SignalOwner::kMechanism && contains(names, facts.quantity);
+    (is_twice ? offer->ambiguous : names).emplace_back(facts.quantity);
   }
-  if (has_gear(joint)) offer->scalars.emplace_back("gear_loss");
-  if (joint.has_gear_torque()) offer->scalars.emplace_back("gear_torque");
-  offer->welded = joint.type == JointType::kFixed && !joint.is_loop;
-  if (!offer->welded) offer->vectors = reactions();
 }
 
 Offer offer_of(const std::string& name, const RobotDescription& robot,
                const std::vector<ControllerDescription>& controllers) {
   Offer offer;
-  for (const JointDescription& joint : robot.joints)
-    if (joint.name == name) add_joint(joint, &offer);
+  const auto always = [](const SignalFacts&) { return true; };
+  for (const JointDescription& joint : robot.joints) {
+    if (joint.name != name) continue;
+    add_quantities(
+        SignalOwner::kJoint, [&](const SignalFacts& facts) { return facts.is_of(joint); }, &offer);
+    offer.welded = !is_movable(joint);
+  }
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;
-    offer.exists = true;
-    offer.scalars = controller.kind->has_error() ? Names{"error", "setpoint", "integral", "output"}
-                                                 : Names{"output"};
+    const auto has = [&](const SignalFacts& facts) {
+      return facts.kind == SignalKind::kControllerOutput || controller.kind->has_error();
+    };
+    add_quantities(SignalOwner::kController, has, &offer);
   }
-  for (const LinkDescription& link : robot.links) {
-    if (link.name != name) continue;
-    offer.exists = true;
-    for (const char* quantity : {"position", "velocity", "angular_velocity"})
-      offer.vectors.emplace_back(quantity);
-    offer.quaternions = {"orientation"};
-  }
-  for (const SpringDamperDescription& spring : robot.spring_dampers) {
-    if (spring.name != name) continue;
-    offer.exists = true;
-    offer.scalars.insert(offer.scalars.end(), spring_quantities().begin(),
-                         spring_quantities().end());
-  }
-  if (name == kMechanism) {
-    offer.exists = true;
-    for (const std::string& quantity : mechanism_quantities())
-      (contains(offer.scalars, quantity) ? offer.ambiguous : offer.scalars).push_back(quantity);
-  }
+  for (const LinkDescription& link : robot.links)
+    if (link.name == name) add_quantities(SignalOwner::kLink, always, &offer);
+  for (const SpringDamperDescription& spring : robot.spring_dampers)
+    if (spring.name == name) add_quantities(SignalOwner::kSpring, always, &offer);
+  if (name == kMechanism) add_quantities(SignalOwner::kMechanism, always, &offer);
   return offer;
 }
 
@@ -179,15 +138,16 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
 
 bool is_of_mechanism(const SignalTerm& term) {
   return term.object == kMechanism && term.component.empty() &&
-         contains(mechanism_quantities(), term.quantity);
+         find_quantity(SignalOwner::kMechanism, term.quantity) != nullptr;
 }
 
-bool is_of_spring(const SignalTerm& term) { return contains(spring_quantities(), term.quantity); }
+bool is_of_spring(const SignalTerm& term) {
+  return find_quantity(SignalOwner::kSpring, term.quantity) != nullptr;
+}
 
-bool is_reaction(const SignalTerm& term) { return contains(reactions(), term.quantity); }
-
-bool has_friction(const JointDescription& joint) {
-  return joint.friction.has_value() || !joint.dry_friction.is_zero() || has_gear(joint);
+bool is_reaction(const SignalTerm& term) {
+  const SignalFacts* facts = find_quantity(SignalOwner::kJoint, term.quantity);
+  return facts != nullptr && facts->shape == SignalShape::kVector;
 }
 
 void check_signal(const SignalDescription& signal, const RobotDescription& robot,
@@ -217,9 +177,9 @@ std::vector<std::string> default_signals(const RobotDescription& robot,
     signals.push_back(joint.name + "/friction");
     if (has_normal_force(joint)) signals.push_back(joint.name + "/normal_force");
     signals.push_back(joint.name + "/sliding_velocity");
-    if (!has_gear(joint)) continue;
+    if (!has_gear_loss(joint)) continue;
     signals.push_back(joint.name + "/gear_loss");
-    if (joint.has_gear_torque()) signals.push_back(joint.name + "/gear_torque");
+    if (has_gear_torque(joint)) signals.push_back(joint.name + "/gear_torque");
   }
   for (const ControllerDescription& controller : controllers)
     signals.push_back(controller.name + "/output");

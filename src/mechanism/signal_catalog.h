@@ -6,12 +6,9 @@
 
 #include "description/motion_study.h"
 #include "description/robot.h"
+#include "description/signal_table.h"
 
 namespace codesign {
-
-/// Whether a joint or loop has friction, from `<codesign:friction>`, `<dynamics friction>` or the
-/// losses of its actuator.
-bool has_friction(const JointDescription& joint);
 
 /// Whether a term is a quantity of the whole mechanism, such as `mechanism/total_energy`. The
 /// quantity distinguishes it from a joint, link or controller named `mechanism`; check_signal()

@@ -38,6 +38,15 @@ struct Pair {
   std::vector<ChainElement> around;
 };
 
+/// A coordinate: index in Topology::pairs and in the pair's chain.
+struct CoordinateIndex {
+  int pair = -1, element = -1;
+
+  bool operator==(const CoordinateIndex& other) const {
+    return pair == other.pair && element == other.element;
+  }
+};
+
 /// The bodies, pairs and couplings of a mechanism, derived from its description. It does not depend
 /// on the design.
 struct Topology {

@@ -21,9 +21,10 @@ bool depends_on_reactions(const SignalTerm& term, const RobotDescription& robot)
   const int joint = joint_named(robot, term.object);
   if (term.quantity == "gear_torque" && joint >= 0 && robot.joints[to_index(joint)].motor >= 0)
     return false;
-  return is_reaction(term) || term.quantity == "normal_force" ||
-         term.quantity.find("friction") != std::string::npos || term.quantity == "gear_torque" ||
-         term.quantity == "gear_loss";
+  const auto& facts = signal_table::kFacts;
+  return std::any_of(facts.begin(), facts.end(), [&term](const SignalFacts& one) {
+    return one.quantity == term.quantity && one.needs == SignalNeeds::kReactions;
+  });
 }
 
 }  // namespace

@@ -52,15 +52,6 @@ struct JointLoad {
   bool has_friction() const { return friction || constant_friction || gear; }
 };
 
-/// A coordinate: index in Topology::pairs and in the pair's chain.
-struct CoordinateIndex {
-  int pair = -1, element = -1;
-
-  bool operator==(const CoordinateIndex& other) const {
-    return pair == other.pair && element == other.element;
-  }
-};
-
 /// A gear whose motor moves by itself, theory (9c): the coordinates of its joint and of its motor.
 struct ElasticGear {
   CoordinateIndex joint, motor;

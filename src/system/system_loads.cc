@@ -13,7 +13,7 @@ void System::resolve_load_signals() {
     if (!function.of_signals) return Signal();
     Signal signal = resolve_named(*function.of_signals);
     for (const SignalReference& term : signal)
-      if (!is_of_motion(term.kind))
+      if (facts_of(term.kind).needs != SignalNeeds::kMotion)
         throw InputError({function.of_signals->where, "loads",
                           "a load cannot depend on accelerations, efforts, reactions, friction, "
                           "powers and outputs of controllers, which depend on the loads",
