@@ -66,9 +66,7 @@ struct HeldStart {
     const CompiledSystem& system = compiled.system;
     return compiled.state.s[system.bristles()[system.stuck()[contact].bristle].first + direction];
   }
-  double acceleration() const {
-    return compiled.state.z.head(compiled.system.layout().n).norm();
-  }
+  double acceleration() const { return compiled.state.z.head(compiled.system.layout().n).norm(); }
   double rates_of_bristles() const {
     return compiled.state.z.tail(compiled.system.layout().states).cwiseAbs().maxCoeff();
   }

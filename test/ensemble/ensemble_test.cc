@@ -64,8 +64,9 @@ Problem geared_arm(const std::string& ensemble) {
       {},
       {"arm.yaml",
        "duration: 0.5\ninitial_state: {hinge: {position: 0.8}}\nparameters: {p: {initial: 15.0}, "
-       "mass: {tune: true}}\ncontrollers: {hold: {type: pid, input: hinge/position, output: hinge, "
-       "gains: {p: \"${p}\"}}}\nobjective: {integral: [{signal: hinge/velocity}, {signal: "
+       "mass: {tune: true}}\ncontrollers: {hold: {type: pid, input: hinge/position, setpoint: 0.0, "
+       "output: "
+       "hinge, gains: {p: \"${p}\"}}}\nobjective: {integral: [{signal: hinge/velocity}, {signal: "
        "hinge/gear_loss}]}\n" +
            ensemble});
 }
