@@ -7,6 +7,7 @@
 
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
+#include "description/study.h"
 #include "identification/effort/effort_model.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/fit/residual_fit.h"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "description/study.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/fit/residual_fit.h"
 #include "identification/motion/motion_residuals.h"

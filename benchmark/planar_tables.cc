@@ -4,6 +4,7 @@
 #include "benchmark/mechanisms.h"
 #include "benchmark/report.h"
 #include "benchmark/timing.h"
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"

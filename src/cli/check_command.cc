@@ -5,6 +5,7 @@
 #include "cli/inputs.h"
 #include "cli/recordings.h"
 #include "cli/report.h"
+#include "description/study.h"
 #include "integration/simulation_of.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"

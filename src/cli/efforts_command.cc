@@ -6,6 +6,7 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "cli/series.h"
+#include "description/study.h"
 #include "jobs/effort_recorder.h"
 #include "mechanism/signal_catalog.h"
 #include "problem/load_problem.h"

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/report.h"
+#include "description/study.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/run_recorder.h"

@@ -7,6 +7,7 @@
 #include "cli/inputs.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
+#include "description/study.h"
 #include "excitation/excite.h"
 #include "jobs/csv_writer.h"
 #include "jobs/files.h"

@@ -9,6 +9,7 @@
 #include "cli/progress_line.h"
 #include "cli/recordings.h"
 #include "cli/report.h"
+#include "description/study.h"
 #include "identification/identify.h"
 #include "jobs/files.h"
 #include "jobs/identification_records.h"

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "jobs/job_files.h"
 #include "jobs/saved_result.h"

@@ -7,6 +7,7 @@
 #include "cli/job_folder.h"
 #include "cli/progress_line.h"
 #include "cli/report.h"
+#include "description/study.h"
 #include "engine/dispatcher.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "description/study.h"
 #include "identification/effort/effort_doubts.h"
 #include "problem/load_problem.h"
 #include "text/nearest_name.h"

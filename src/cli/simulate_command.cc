@@ -7,6 +7,7 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "cli/series.h"
+#include "description/study.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "problem/load_problem.h"

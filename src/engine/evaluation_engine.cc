@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "description/study.h"
 #include "engine/mpi_engine.h"
 #include "engine/thread_engine.h"
 #include "math/arrays.h"

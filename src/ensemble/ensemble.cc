@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "math/dense.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "problem/load_problem.h"

@@ -7,6 +7,7 @@
 
 #include "control/control_clock.h"
 #include "equations/compiled_equations.h"
+#include "joints/pair_rows.h"
 
 namespace codesign {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assembly/assembly.h"
+#include "description/study.h"
 #include "engine/thread_engine.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"

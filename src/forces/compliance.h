@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "math/euler_parameters.h"
 #include "math/scalar.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "description/study.h"
 #include "engine/thread_engine.h"
 #include "identification/fit/residual_source.h"
 #include "identification/judgement.h"

@@ -6,7 +6,6 @@
 
 #include "description/signal.h"
 #include "equations/compiled_system.h"
-#include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {

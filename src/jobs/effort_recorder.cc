@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "description/study.h"
 #include "identification/effort/motion_projection.h"
 #include "math/arrays.h"
 #include "problem/load_problem.h"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "description/signal.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "mechanism_codesign/status.h"

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "description/study.h"
 #include "jobs/files.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"

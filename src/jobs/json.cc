@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/json.h"
 
+#include "description/study.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/count_equations.h"
+#include "description/study.h"
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"

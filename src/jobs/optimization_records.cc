@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "description/study.h"
 #include "ensemble/scenario.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "description/study.h"
 #include "jobs/csv_writer.h"
 #include "jobs/files.h"
 #include "jobs/json.h"

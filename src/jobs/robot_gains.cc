@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "description/study.h"
 #include "jobs/json.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "description/study.h"
 #include "integration/simulation_of.h"
 #include "jobs/csv_writer.h"
 #include "jobs/json.h"

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "description/motion_study.h"
+#include "description/signal.h"
 #include "jobs/json.h"
 #include "mechanism_codesign/frame.h"
 #include "mechanism_codesign/simulation.h"

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "description/study.h"
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
 #include "jobs/robot_gains.h"

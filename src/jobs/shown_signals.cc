@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/study.h"
 #include "jobs/json.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"

@@ -5,6 +5,9 @@
 
 namespace codesign {
 
+/// The number of coordinates of a free body, [r, p].
+constexpr int kBodySize = 7;
+
 /// Position, velocity and acceleration of a body's frame: centre of mass r, Euler parameters p,
 /// rotation matrix A, with first (d) and second (dd) time derivatives; doc/theory.md (1). The
 /// ground is a body at rest at the origin. [m], [m/s], [m/s^2]; [-], [1/s], [1/s^2].

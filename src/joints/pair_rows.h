@@ -12,9 +12,8 @@
 
 namespace codesign {
 
-/// The number of coordinates of a pair of bodies, [r_i, p_i, r_j, p_j], and of one body.
-constexpr int kLocalSize = 14;
-constexpr int kBodySize = 7;
+/// The number of coordinates of a pair of bodies, [r_i, p_i, r_j, p_j].
+constexpr int kLocalSize = 2 * kBodySize;
 
 /// The gradient of a scalar by the coordinates of a pair of bodies, stored as a column. Of a body
 /// of the forest, theory (56), the three entries from p_offset() on are the gradient by its angular

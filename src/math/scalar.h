@@ -202,6 +202,19 @@ using Matrix34 = Eigen::Matrix<T, 3, 4>;
 template <class T>
 using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
+/// Cross product that works for every scalar type.
+template <class T>
+Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return Vector3<T>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                    a[0] * b[1] - a[1] * b[0]);
+}
+
+/// Dot product without conjugation (Eigen's dot conjugates, which would break the complex step).
+template <class T>
+T dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /// The value without derivatives or imaginary part. Branches use it, since they must not depend on
 /// the derivatives.
 inline double value_of(double x) { return x; }

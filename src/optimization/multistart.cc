@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "description/study.h"
 #include "engine/thread_engine.h"
 #include "ensemble/parameter_rows.h"
 #include "math/arrays.h"

@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "engine/dispatcher.h"
 #include "equations/compiled_system.h"

@@ -9,12 +9,12 @@
 #include "description/named_file.h"
 #include "description/reference.h"
 #include "description/robot.h"
-#include "description/study.h"
 #include "mechanism_codesign/problem.h"
 
 namespace codesign {
 
 class CompiledSystem;
+struct Study;
 
 /// A trajectory that a study names, as its loader has read it.
 struct LoadedTrajectory {

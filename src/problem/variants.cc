@@ -5,6 +5,7 @@
 
 #include "assembly/make_system.h"
 #include "description/robot.h"
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"

@@ -4,6 +4,7 @@
 // python/mechanism_codesign/.
 #include <pybind11/pybind11.h>
 
+#include "description/study.h"
 #include "jobs/job_files.h"
 #include "jobs/json_records.h"
 #include "jobs/optimization_records.h"

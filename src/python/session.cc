@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"

@@ -2,6 +2,7 @@
 #include "system/reaction_sharing.h"
 
 #include "math/arrays.h"
+#include "system/state.h"
 
 namespace codesign {
 // A body of the forest carries a loop that shares reactions: at most one for each set of loops. It

@@ -5,9 +5,10 @@
 
 #include "math/arrays.h"
 #include "mechanism/topology.h"
-#include "system/state.h"
 
 namespace codesign {
+
+struct Layout;
 
 /// A row of Phi, whatever the coordinates of the system: of a pair or of a coupling.
 struct SharedRow {

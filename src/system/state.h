@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-#include "joints/pair_rows.h"
+#include "joints/body_kinematics.h"
 #include "math/arrays.h"
 #include "math/scalar.h"
 #include "mechanism/forest.h"

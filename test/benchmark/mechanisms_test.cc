@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/count_equations.h"
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"

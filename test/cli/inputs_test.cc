@@ -6,6 +6,7 @@
 
 #include "cli/inputs.h"
 #include "cli/run_fixture.h"
+#include "description/study.h"
 #include "jobs/files.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "problem/load_problem.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "description/study.h"
 #include "excitation/excited_cases.h"
 #include "identification/identify.h"
 #include "problem/load_problem.h"

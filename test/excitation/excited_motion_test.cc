@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "description/study.h"
 #include "excitation/excited_cases.h"
 #include "excitation/trajectory_space.h"
 #include "math/differences.h"

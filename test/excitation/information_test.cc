@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "description/study.h"
 #include "equations/equations.h"
 #include "excitation/excited_cases.h"
 #include "math/differences.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "description/study.h"
 #include "problem/load_problem.h"
 #include "ros/jobs/job.h"
 

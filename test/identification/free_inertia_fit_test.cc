@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "description/study.h"
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"
 #include "paths.h"

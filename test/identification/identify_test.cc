@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "description/study.h"
 #include "identification/motion_rig.h"
 #include "problem/load_problem.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "description/study.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 #include "recordings/joint_recording.h"

@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "description/study.h"
 #include "jobs/files.h"
 #include "jobs/job_files.h"
 #include "mechanism_codesign/error.h"

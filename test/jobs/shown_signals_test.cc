@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
+#include "description/study.h"
 #include "jobs/json.h"
 #include "jobs/shown_signals.h"
 #include "jobs/tuned_pendulum.h"

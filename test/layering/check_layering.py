@@ -4,6 +4,7 @@
 
 Usage: check_layering.py REPOSITORY. Prints each violation as file:line and exits with 1 if there is any.
 """
+import math
 import pathlib
 import re
 import statistics
@@ -82,6 +83,7 @@ DEFINITION = re.compile(r"^(?:class|struct)\s+(\w+)\b[^;]*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 MAX_FILE = 400
 MAX_FUNCTION = 60
+MAX_DEPTH = 15  # of the quoted includes of a header
 
 
 def room_of(header):
@@ -191,6 +193,25 @@ def function_lengths(text):
     return lengths
 
 
+def depths_of(sources):
+    """The length of the longest chain of quoted includes below each header; infinite for a circle."""
+    headers = {"/".join(path.parts[1:]): text for path, text in sources.items() if path.suffix == ".h"}
+    included = {name: [header for bracket, header in (match.groups() for match in map(INCLUDE.match, text.splitlines()) if match)
+                       if bracket == '"' and header in headers] for name, text in headers.items()}
+    depths = {}
+
+    def depth(name, chain):
+        if name in chain:
+            return math.inf
+        if name not in depths:
+            depths[name] = max((1 + depth(header, chain | {name}) for header in included[name]), default=0)
+        return depths[name]
+
+    for name in headers:
+        depth(name, frozenset())
+    return depths
+
+
 def check(root):
     """All violations below `root`, as sentences, and the number of lines of each file."""
     violations, lines_of = [], {}
@@ -221,6 +242,9 @@ def check(root):
         for first, length in function_lengths(text):
             if length > MAX_FUNCTION:
                 violations.append(f"{name}:{first}: a function of {length} lines, at most {MAX_FUNCTION}")
+    for name, depth in depths_of(sources).items():
+        if depth > MAX_DEPTH:
+            violations.append(f"{name}:1: " + ("an include chain leads back to itself" if depth == math.inf else f"includes {depth} headers deep, at most {MAX_DEPTH}"))
     for path in sorted(list(root.glob("test/**/*")) + list(root.glob("benchmark/**/*"))):
         if path.suffix in (".h", ".cc") and (count := len(path.read_text().splitlines())) > MAX_FILE:
             violations.append(f"{path.relative_to(root)}:{count}: {count} lines, at most {MAX_FILE}")

@@ -49,6 +49,15 @@ class PlantedViolations(unittest.TestCase):
         self.plant("include/mechanism_codesign/status.h", '#include "mechanism_codesign/frame.h"\n')
         self.assert_only("include/mechanism_codesign/status.h:1", "text/ includes observation/")
 
+    def test_a_circle_of_includes_and_a_long_chain(self):
+        self.plant("src/math/b.h", '#include "math/b.h"\n')
+        self.assert_only("math/b.h:1", "leads back to itself")
+        self.plant("src/math/b.h", "\n")
+        for k in range(check_layering.MAX_DEPTH + 1):
+            self.plant(f"src/math/c{k + 1}.h", f'#include "math/c{k}.h"\n')
+        self.plant("src/math/c0.h", "\n")
+        self.assert_only(f"math/c{check_layering.MAX_DEPTH + 1}.h:1", f"{check_layering.MAX_DEPTH + 1} headers deep")
+
     def test_a_declaration_of_a_class_above(self):
         self.plant("src/equations/code.h", "class Code {\n};\n")
         self.plant("src/system/b.h", "class Code;\n")

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "description/study.h"
 #include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
 #include "problem/load_problem.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "problem/load_problem.h"
 

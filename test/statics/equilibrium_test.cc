@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "description/study.h"
 #include "problem/load_problem.h"
 #include "statics/statics_cases.h"
 

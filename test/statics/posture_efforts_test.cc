@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "description/study.h"
 #include "problem/load_problem.h"
 #include "statics/statics_cases.h"
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "description/study.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/effort/motion_projection.h"
 #include "math/arrays.h"

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "description/study.h"
 #include "identification/effort/effort_residuals.h"
 #include "math/arrays.h"
 #include "math/dense.h"

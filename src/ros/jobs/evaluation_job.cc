@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 
+#include "description/study.h"
 #include "ensemble/ensemble.h"
 #include "ensemble/parameter_rows.h"
 #include "mechanism_codesign/error.h"

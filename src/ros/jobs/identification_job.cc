@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "description/study.h"
 #include "identification/fit/fit_variables.h"
 #include "identification/identify.h"
 #include "jobs/files.h"

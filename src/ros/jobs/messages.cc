@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "description/study.h"
 #include "jobs/optimization_records.h"
 #include "math/arrays.h"
 #include "optimization/result_report.h"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "description/robot.h"
+#include "description/study.h"
 #include "ensemble/scenario.h"
 #include "jobs/files.h"
 #include "jobs/job_files.h"

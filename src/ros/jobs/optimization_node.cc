@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "description/study.h"
 #include "engine/evaluation_engine.h"
 #include "jobs/job_files.h"
 #include "mechanism_codesign/error.h"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "identification/identify.h"
 #include "math/arrays.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "integration/simulation_of.h"
 #include "mechanism/signal_catalog.h"

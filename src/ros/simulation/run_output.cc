@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "description/study.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
 #include "ros/scene/recorded_run.h"

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <set>
 
+#include "description/study.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"

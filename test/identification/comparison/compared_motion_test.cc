@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "description/study.h"
 #include "identification/identify.h"
 #include "identification/swinging_arm.h"
 #include "problem/load_problem.h"

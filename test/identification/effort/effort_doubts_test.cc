@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/study.h"
 #include "identification/identify.h"
 #include "identification/motion_rig.h"
 #include "identification/swinging_arm.h"

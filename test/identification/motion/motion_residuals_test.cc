@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/study.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/motion_rig.h"
 #include "problem/load_problem.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/study.h"
 #include "identification/motion/segments.h"
 #include "identification/motion_rig.h"
 #include "math/differences.h"

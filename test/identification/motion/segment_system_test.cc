@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "description/study.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/motion_rig.h"
 #include "problem/load_problem.h"

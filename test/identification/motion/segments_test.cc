@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "assembly/assembly.h"
+#include "description/study.h"
 #include "identification/motion/segments.h"
 #include "identification/motion_rig.h"
 #include "paths.h"

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "description/study.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
 #include "ros/pendulum.h"

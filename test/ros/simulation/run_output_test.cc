@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "description/study.h"
 #include "integration/interactive_simulation.h"
 #include "mechanism/signal_catalog.h"
 #include "problem/load_problem.h"
