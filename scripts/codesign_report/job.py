@@ -124,11 +124,8 @@ class Job:
 
 
 def find_job(path):
-    """The job of a folder, or of a bag with its folder beside it, or the efforts of a JSON file; with absolute paths, so that the commands of the page work anywhere."""
+    """The job of a folder, or of a bag with its folder beside it; with absolute paths, so that the commands of the page work anywhere."""
     path = os.path.abspath(path)
-    if path.endswith(".json") and os.path.isfile(path):
-        from .efforts import Efforts  # pylint: disable=import-outside-toplevel  # which imports this module
-        return Efforts(path)
     if os.path.isdir(path):
         folder, bag = path, None
     elif path.endswith(".bag") and os.path.isfile(path):

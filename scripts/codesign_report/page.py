@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 import jinja2
 
 from . import asked, drawing, efforts, geometry, numbers, results, signals, words
-from .job import ReportError, read_text
+from .job import ReportError, find_job, read_text
 from .numbers import Markup
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -108,6 +108,12 @@ def environment():
     env.filters["on_bound"] = words.on_bound
     env.globals["style"] = Markup(read_text(os.path.join(HERE, "style.css")))
     return env
+
+
+def find(path):
+    """What a page can show: the efforts of a JSON file, or a job."""
+    path = os.path.abspath(path)
+    return efforts.Efforts(path) if path.endswith(".json") and os.path.isfile(path) else find_job(path)
 
 
 def render(job):

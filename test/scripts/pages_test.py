@@ -113,7 +113,12 @@ class Pages(unittest.TestCase):
     def test_the_index_has_what_a_user_sees(self):
         index = (ROOT / "doc/messages.md").read_text().splitlines()
         for row in ("| `nothing is uncertain` | `at least one PARAMETER: {uniform: [lower, upper]}` |", "| `more than \N{HORIZONTAL ELLIPSIS} steps (solver.maximum_steps)` | [too_many_steps](statuses.md) |",
-                    "| `the slope is \N{HORIZONTAL ELLIPSIS} of the start's` |"):
+                    "| `the slope is \N{HORIZONTAL ELLIPSIS} of the start's` |",
+                    # of Python: raised, told the parser of arguments, put together before, printed to stderr
+                    "| `identify() with arrays needs their times` |  | python/mechanism_codesign/_problem.py |", "| `--port: out of range` | `0 to 65535` | scripts/panel, scripts/watch |",
+                    "| `\N{HORIZONTAL ELLIPSIS} = \N{HORIZONTAL ELLIPSIS} was not taken; there is no such parameter; the warnings of the run say why` |  | scripts/panel |",
+                    "| `\N{HORIZONTAL ELLIPSIS} cells, the first line has \N{HORIZONTAL ELLIPSIS}; the table is damaged` |  | scripts/watch |",
+                    "| `a file of this job is damaged, or written by another version of this program (\N{HORIZONTAL ELLIPSIS}: \N{HORIZONTAL ELLIPSIS}); run the job again` |  | scripts/report |"):
             self.assertTrue(any(line.startswith(row) for line in index), row)
 
     def test_every_warning_has_a_row(self):

@@ -26,6 +26,11 @@ CONTRASTS = """(() => {
     }).filter(([, , ratio]) => ratio < 4.5);
 })()"""
 
+# Numbers and headings of the result that take more than one line.
+BROKEN = """[...document.querySelectorAll('td, th[scope=col]')].filter(e => {
+  const range = document.createRange(); range.selectNodeContents(e); return new Set([...range.getClientRects()].map(r => r.top)).size > 1;
+}).map(e => e.textContent)"""
+
 
 @unittest.skipUnless(browser.PATH, NO_BROWSER)
 class PageTest(PanelTestCase):
@@ -64,6 +69,7 @@ class PageTest(PanelTestCase):
                 self.assertEqual(self.page.run("document.documentElement.scrollWidth"), width)
                 outside = self.page.run("[...document.querySelectorAll('body *')].filter(e => e.getBoundingClientRect().right > innerWidth + 0.5).map(e => e.tagName)")
                 self.assertEqual(outside, [])
+                self.assertEqual(self.page.run(BROKEN), [], width)
                 self.assertEqual(self.page.run(CONTRASTS), [], scheme)
 
     def test_everything_one_can_operate_has_a_name_and_a_place_in_the_order_of_tab(self):

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The tutorials doc/tutorials/*.md are typed in a folder of their own, and print what stands there. Usage: tutorial_pages_test.py CODESIGN [PAGE...]
+"""The tutorials doc/tutorials/*.md are typed in a folder of their own, and print what stands there. Usage: tutorial_pages_test.py CODESIGN [--ros] [PAGE...]
 
 A block of xml, yaml or python that begins with a comment with a file's name is written to this file. In a block `console` the lines after "$ " are commands, each of which must
 succeed; the lines below are what it prints. Standard output must be there completely; "..." stands for anything in a line, and alone for any lines. Of standard error, only the
-lines that the page shows must be there. Words agree exactly, spaces in any number; numbers agree to 0.2 %.
+lines that the page shows must be there. A block `console ros` is typed only if the program reads bags, as --ros says, a block `console without-ros` only if not. Words agree exactly, spaces in any number; numbers agree to 0.2 %.
 """
 import glob
 import os
@@ -18,14 +18,18 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 FILE = re.compile(r"(?:<\?xml[^\n]*\n)?(?:<!--|#) ([\w.]+\.\w+)(?: -->)?\n")
 TOLERANCE = 2e-3
+OPTIONS = sys.argv[2:]
+NOT_TYPED = "without-ros" if "--ros" in OPTIONS else "ros"
 
 
 def pages():
-    return sys.argv[2:] or sorted(glob.glob(os.path.join(ROOT, "doc/tutorials/*.md")))
+    return [option for option in OPTIONS if option != "--ros"] or sorted(glob.glob(os.path.join(ROOT, "doc/tutorials/*.md")))
 
 
 def blocks(text):
-    return re.findall(r"^```(\w+)\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    """(kind, content) of those that are typed."""
+    found = re.findall(r"^```(\w+)(?: (ros|without-ros))?\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    return [(kind, content) for kind, where, content in found if where != NOT_TYPED]
 
 
 def commands(block):
@@ -82,8 +86,10 @@ class TutorialPages(unittest.TestCase):
         environment = {**os.environ, "PATH": os.path.dirname(sys.argv[1]) + os.pathsep + os.environ["PATH"]}
         for page in pages():
             with open(page, encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
-                found = blocks(file.read())
+                text = file.read()
+                found = blocks(text)
                 self.assertTrue(any(kind == "console" for kind, _ in found))
+                self.assertNotRegex(text, r"(?m)^```\w+ (?!(ros|without-ros)$)")
                 for kind, block in found:
                     name = FILE.match(block)
                     if name:

@@ -50,7 +50,7 @@ double seconds(std::int64_t nanoseconds) {
 
 /// The messages that name the same joints of the model.
 struct Group {
-  std::vector<std::string> joints;
+  std::vector<std::string> joints;    ///< in the order of the model, as those of a table
   std::vector<std::size_t> messages;  ///< indices
 };
 
@@ -62,10 +62,12 @@ class RecordingBag {
                const std::atomic<bool>* cancel)
       : description_(description),
         path_(path),
-        known_(joints.begin(), joints.end()),
+        known_(joints),
         warnings_(warnings),
         cancel_(cancel),
-        bag_(path) {}
+        bag_(path) {
+    for (std::size_t k = 0; k < known_.size(); ++k) place_[known_[k]] = k;
+  }
 
   JointRecording read() {
     find_topic();
@@ -147,25 +149,26 @@ class RecordingBag {
     std::set<std::string> names;
     for (const JointStates& message : messages_)
       names.insert(message.name.begin(), message.name.end());
-    const std::vector<std::string> found(names.begin(), names.end()),
-        known(known_.begin(), known_.end());
+    const std::vector<std::string> found(names.begin(), names.end());
     fail(".topic",
          "the messages name no joint of the model, but " + list_names(found) +
              "; a bag of another robot?",
-         description_.topic, list_names(known));
+         description_.topic, list_names(known_));
   }
 
   /// The group of messages that name the most joints; of several such groups, the first one.
   Group largest_group() {
-    std::map<std::vector<std::string>, Group> groups;
+    std::map<std::vector<std::size_t>, Group> groups;
     for (std::size_t k = 0; k < messages_.size(); ++k) {
-      std::vector<std::string> joints;
+      std::vector<std::size_t> places;
       for (const std::string& name : messages_[k].name)
-        if (known_.count(name) > 0) joints.push_back(name);
-      if (joints.empty()) continue;
-      std::sort(joints.begin(), joints.end());
-      Group& group = groups[joints];
-      group.joints = joints;
+        if (const auto found = place_.find(name); found != place_.end())
+          places.push_back(found->second);
+      if (places.empty()) continue;
+      std::sort(places.begin(), places.end());
+      Group& group = groups[places];
+      if (group.messages.empty())
+        for (const std::size_t place : places) group.joints.push_back(known_[place]);
       group.messages.push_back(k);
     }
     if (groups.empty()) refuse_other_robot();
@@ -274,7 +277,8 @@ class RecordingBag {
 
   const RecordingDescription& description_;
   const std::string& path_;
-  std::set<std::string> known_;
+  std::vector<std::string> known_;            ///< in the order of the model
+  std::map<std::string, std::size_t> place_;  ///< in known_
   Warnings* warnings_;
   const std::atomic<bool>* cancel_;
   BagContents bag_;
