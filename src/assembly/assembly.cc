@@ -380,7 +380,7 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters,
   const Status branch = choose_branch(parameters, equations);
   follow_gears();
   place(parameters, equations, state);
-  return branch;
+  return branch.ok() ? require_rest(*state, equations) : branch;
 }
 
 Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations,
@@ -393,8 +393,8 @@ Status Assembly::solve(const std::vector<double>& parameters, Equations<double>*
                        State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
   if (system_.begins_controllers()) equations->begin_controllers(state);
-  if (Status status = solve_rates(equations, state); !status.ok()) return status;
-  return check_rest(*state);
+  const Status status = hold_stuck(equations, state);
+  return status.ok() ? check_rest(*state) : status;
 }
 
 }  // namespace codesign

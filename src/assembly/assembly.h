@@ -8,6 +8,7 @@
 
 #include "assembly/loop_jacobian.h"
 #include "assembly/singular_start.h"
+#include "assembly/stuck_start.h"
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
@@ -34,7 +35,8 @@ class Equations;
 /// (19b). Where they differ, the continuation counts, so that positions are continuous in the
 /// design and do not depend on the designs solved before. Velocities: the same choice of dependent
 /// coordinates for the rates, with one linear solve. Accelerations and multipliers: Newton's method
-/// on G(z) = 0 from z = 0, where the multipliers, and with them friction, are zero.
+/// on G(z) = 0 from z = 0, where the multipliers, and with them friction, are zero. Joints that
+/// start stuck are held by their bristles, (13h).
 ///
 /// Statuses of the solve functions: kAssemblyFailed (a loop or coupling does not close within
 /// solver.closure_tolerance), kInitialVelocityFailed (given velocities contradict each other),
@@ -50,7 +52,7 @@ class Assembly {
 
   /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t
   /// = 0, or as begin_at() says, and the extra states as set_extra_states() says, except for
-  /// controllers with another begin (Formulas::begin_controllers()).
+  /// controllers with another begin (Formulas::begin_controllers()) and bristles that hold a joint.
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations,
@@ -109,7 +111,7 @@ class Assembly {
   const VectorX<double>& theta() const { return theta_; }
   const TreeLayout& tree() const { return tree_; }
   /// Warnings about the last start: `singular_start`, `branch_continued`, `branch_lost`,
-  /// `guessed_start`, or none.
+  /// `guessed_start`, `start_slides`, or none.
   const Warnings& warnings() const { return warnings_; }
   /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty
   /// unless kInitialVelocityFailed.
@@ -231,6 +233,13 @@ class Assembly {
   bool is_near() const;
   Status choose_branch(const std::vector<double>& parameters, Equations<double>* equations);
   Status check_rest(const State<double>& state);
+  Status require_rest(const State<double>& state, Equations<double>* equations);
+  Status hold_stuck(Equations<double>* equations, State<double>* state);
+  void find_response(const State<double>& state, Equations<double>* equations);
+  void warn_of_slides();
+  template <class T>
+  void extend_stuck(const State<double>& start, Equations<T>* equations,
+                    ExtensionWorkspace<T>* workspace, State<T>* state) const;
   Status contradiction();
   void place(const std::vector<double>& parameters, Equations<double>* equations,
              State<double>* state);
@@ -271,6 +280,7 @@ class Assembly {
   bool all_rows_count_ = true;  ///< whether dropped rows take part in the solution
   double rank_tolerance_;  ///< relative; the tolerance with which the last positions were found
   SingularStart singular_start_;
+  StuckStart stuck_{system_};
   Warnings warnings_;
   std::vector<std::size_t> contradicting_;
   std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others; -1 for

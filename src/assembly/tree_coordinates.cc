@@ -205,6 +205,9 @@ void set_extra_states(const System& system, const std::vector<T>& parameters, Ve
   s->setZero(system.layout().states);
   const std::vector<Quantity>& given = system.study().initial_extra_states;
   for (std::size_t k = 0; k < given.size(); ++k) (*s)[to_signed(k)] = given[k].at(parameters);
+  for (const StuckContact& stuck : system.stuck())
+    if (const BristleContact& contact = system.bristles()[stuck.bristle]; contact.dwells())
+      (*s)[contact.dwell_state()] = T(1.0);
 }
 
 #define CODESIGN_INSTANTIATE(T)                                                                  \

@@ -43,8 +43,8 @@ template <class T>
 void set_given_start(const System& system, const TreeLayout& tree, const std::vector<T>& parameters,
                      double posture, VectorX<T>* theta, VectorX<T>* rate);
 
-/// The extra states at the start, Study::initial_extra_states and then zeros; resized to
-/// Layout::states.
+/// The extra states at the start, Study::initial_extra_states and then zeros, with 1 for the dwell
+/// states of contacts that start stuck; resized to Layout::states.
 template <class T>
 void set_extra_states(const System& system, const std::vector<T>& parameters, VectorX<T>* s);
 

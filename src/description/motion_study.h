@@ -37,6 +37,7 @@ struct InitialJointState {
       rotation;  ///< of the child: fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
   std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
   std::optional<QuantityVector> angular_velocity;  ///< of the child [rad/s]
+  bool stuck = false;  ///< at rest, held by the bristles of its friction, theory (13h)
   SourceLocation where;
 };
 

@@ -66,12 +66,12 @@ struct ContactSlip {
 /// The slip of a pair with isotropic friction. @param i, j motion of its two bodies.
 template <class T>
 ContactSlip<T> contact_slip(const PairConstants<T>& pair, const BodyKinematics<T>& i,
-                            const BodyKinematics<T>& j) {
+                            const BodyKinematics<T>& j,
+                            CoordinateDetail detail = CoordinateDetail::kRate) {
   ContactSlip<T> slip;
   for (std::size_t k = 0; k < pair.slip.coordinates.size(); ++k) {
     const auto e = to_signed(k);
-    slip.motion[k] =
-        coordinate_motion(pair, pair.slip.coordinates[k], i, j, CoordinateDetail::kRate);
+    slip.motion[k] = coordinate_motion(pair, pair.slip.coordinates[k], i, j, detail);
     slip.arm[e] = pair.slip.arm[k];
     slip.u[e] = slip.arm[e] * slip.motion[k].rate;
   }
@@ -93,19 +93,40 @@ const FrictionConstants<T>& bristle_numbers(const StateView<T>& view,
 /// The slip of a contact: the motion of its coordinates and u [m/s], the rate times the arm (the
 /// pin radius for a turn, 1 for a slide and for the flanks of a gear).
 template <class T>
-ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact) {
+ContactSlip<T> bristle_slip(const StateView<T>& view, const BristleContact& contact,
+                            CoordinateDetail detail = CoordinateDetail::kRate) {
   const auto p = to_index(contact.pair);
   const Pair& pair = view.system.topology().pairs[p];
   if (contact.element < 0)
     return contact_slip(view.design.constants.pairs[p], view.body(pair.body_i),
-                        view.body(pair.body_j));
+                        view.body(pair.body_j), detail);
   const bool turning = view.design.constants.pairs[p].coordinates[to_index(contact.element)].kind ==
                        CoordinateConstants<T>::Kind::kTurn;
   ContactSlip<T> slip;
-  slip.motion[0] = view.coordinate(contact.pair, contact.element, CoordinateDetail::kRate);
+  slip.motion[0] = view.coordinate(contact.pair, contact.element, detail);
   slip.arm[0] = turning && !contact.gear ? bristle_numbers(view, contact).pin_radius : T(1.0);
   slip.u[0] = slip.arm[0] * slip.motion[0].rate;
   return slip;
+}
+
+/// Of all contacts that start stuck, one entry per slip coordinate: the slip's acceleration
+/// [m/s^2], and the largest |zeta| of a contact that has rested [-]; theory (13h).
+template <class T>
+void stuck_slips(const StateView<T>& view, VectorX<T>* accelerations, VectorX<T>* limits) {
+  const System& system = view.system;
+  int size = 0;
+  for (const StuckContact& stuck : system.stuck()) size += system.bristles()[stuck.bristle].size;
+  accelerations->resize(size);
+  limits->resize(size);
+  int row = 0;
+  for (const StuckContact& stuck : system.stuck()) {
+    const BristleContact& contact = system.bristles()[stuck.bristle];
+    const ContactSlip<T> slip = bristle_slip(view, contact, CoordinateDetail::kAcceleration);
+    for (int k = 0; k < contact.size; ++k, ++row) {
+      (*accelerations)[row] = slip.arm[k] * slip.motion[to_index(k)].acceleration;
+      (*limits)[row] = bristle_numbers(view, contact).mu_static;
+    }
+  }
 }
 
 /// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are

@@ -74,6 +74,8 @@ class CompiledEquations {
   void place(const VectorX<T>& theta, const VectorX<T>& theta_rate, State<T>* state);
   /// Sets State::turns to the joint positions of the state.
   void track_turns(State<T>* state);
+  /// stuck_slips() at a state. @param accelerations, limits of their sizes.
+  void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
   /// The error of a controller; its output at a sample, which updates its memory in state->s.
   T controller_error(int controller, const State<T>& state);
   T sample(int controller, bool is_first, State<T>* state);

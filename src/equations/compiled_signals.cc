@@ -39,6 +39,12 @@ void CompiledEquations<T>::track_turns(State<T>* state) {
 }
 
 template <class T>
+void CompiledEquations<T>::stuck_slips(const State<T>& state, VectorX<T>* accelerations,
+                                       VectorX<T>* limits) {
+  run(EquationFunction::kStuckSlips, state, {*accelerations, *limits, {}, {}});
+}
+
+template <class T>
 T CompiledEquations<T>::controller_error(int controller, const State<T>& state) {
   return signal(controller_function(controller, ControllerFunction::kError), state);
 }
@@ -87,6 +93,7 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
                                                 VectorX<T>*);                                     \
   template void CompiledEquations<T>::place(const VectorX<T>&, const VectorX<T>&, State<T>*);     \
   template void CompiledEquations<T>::track_turns(State<T>*);                                     \
+  template void CompiledEquations<T>::stuck_slips(const State<T>&, VectorX<T>*, VectorX<T>*);     \
   template T CompiledEquations<T>::controller_error(int, const State<T>&);                        \
   template T CompiledEquations<T>::sample(int, bool, State<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)

@@ -186,17 +186,15 @@ void EquationCode::record_signals(RecordedEquations* equations) {
 void EquationCode::record_start(RecordedEquations* equations) {
   Formulas<Traced>& formulas = equations->formulas;
   const State<Traced>& state = equations->state;
-  record(EquationFunction::kPlacement, [&] {
-    std::vector<VectorX<Traced>> motion(2);
-    equations->record_placement(&motion[0], &motion[1]);
-    return motion;
-  });
+  record(EquationFunction::kPlacement, [&] { return equations->record_placement(); });
   record(EquationFunction::kTurns, [&] {
     State<Traced> turned = state;
     formulas.track_turns(&turned);
     // Without the flags of dropped rows, which no step changes.
     return std::vector<VectorX<Traced>>{vector(turned.turns).head(system_.layout().drop_slot)};
   });
+  if (!system_.stuck().empty())
+    record(EquationFunction::kStuckSlips, [&] { return equations->record_stuck_slips(); });
   for (std::size_t k = 0; k < system_.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);
     formulas.load(state);

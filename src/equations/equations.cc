@@ -85,6 +85,17 @@ void Equations<T>::track_turns(State<T>* state) {
 }
 
 template <class T>
+void Equations<T>::stuck_slips(const State<T>& state, VectorX<T>* accelerations,
+                               VectorX<T>* limits) {
+  if constexpr (kIsReal) {
+    formulas_->load(state);
+    formulas_->stuck_slips(accelerations, limits);
+  } else {
+    start_.stuck_slips(state, accelerations, limits);
+  }
+}
+
+template <class T>
 T Equations<T>::sample(int controller, bool is_first, State<T>* state) {
   if constexpr (kIsReal)
     return formulas_->sample(controller, is_first, &state->s);

@@ -89,6 +89,8 @@ class Equations {
   }
   /// Sets State::turns to the joint positions of the state; integrators call it after each step.
   void track_turns(State<T>* state);
+  /// stuck_slips() at a state. @param accelerations, limits of their sizes, overwritten.
+  void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
   /// Sets the states of controllers to their values at t = 0, theory (50), (51): filters at rest,
   /// first samples taken.
   void begin_controllers(State<T>* state);

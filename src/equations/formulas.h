@@ -78,6 +78,8 @@ class Formulas {
   FrictionState<T> friction(int pair, int element) const;
   /// Isotropic friction of a pair among System::contacts(), theory (13a).
   ContactFriction<T> contact(int pair) const;
+  /// stuck_slips() of the loaded state.
+  void stuck_slips(VectorX<T>* accelerations, VectorX<T>* limits) const;
   /// The force of the k-th spring-damper of RobotDescription::spring_dampers, theory (13b).
   SpringForce<T> spring(std::size_t k) const;
   /// The effort that controllers apply along a coordinate, within the actuator's limit (13c) [N or

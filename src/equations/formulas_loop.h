@@ -147,6 +147,11 @@ ContactFriction<T> Formulas<T>::contact(int pair) const {
 }
 
 template <class T>
+void Formulas<T>::stuck_slips(VectorX<T>* accelerations, VectorX<T>* limits) const {
+  codesign::stuck_slips(view_, accelerations, limits);
+}
+
+template <class T>
 SpringForce<T> Formulas<T>::spring(std::size_t k) const {
   return spring_at(view_, k);
 }

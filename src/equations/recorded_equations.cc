@@ -200,14 +200,23 @@ ResidualRecording::ResidualRecording(const System& system, std::vector<bool> out
   equations.record_residual();
 }
 
-void RecordedEquations::record_placement(VectorX<Traced>* q, VectorX<Traced>* v) {
+std::vector<VectorX<Traced>> RecordedEquations::record_stuck_slips() {
+  std::vector<VectorX<Traced>> slips(2);
+  formulas.load(state);
+  formulas.stuck_slips(&slips[0], &slips[1]);
+  return slips;
+}
+
+std::vector<VectorX<Traced>> RecordedEquations::record_placement() {
+  std::vector<VectorX<Traced>> motion(2);
   const StateView<Traced>& view = formulas.view();
   const TreeLayout tree(view.system.robot());
   VectorX<Traced> theta(tree.size), rate(tree.size);
   make_leaves(Arrays::kQ, recording, &theta), make_leaves(Arrays::kV, recording, &rate);
   state_coordinates(view.system, tree, view.design.constants,
                     link_motions(view.system.robot(), tree, view.design.parameters, theta, rate),
-                    theta, rate, q, v);
+                    theta, rate, &motion[0], &motion[1]);
+  return motion;
 }
 
 std::vector<JacobianEntry> derive_gradients(const System& system, const std::vector<Traced>& values,

@@ -23,7 +23,9 @@ struct RecordedEquations {
 
   /// Records q and v at tree coordinates, TreeLayout, and their rates, which are the leaves of kQ
   /// and kV here.
-  void record_placement(VectorX<Traced>* q, VectorX<Traced>* v);
+  std::vector<VectorX<Traced>> record_placement();
+  /// Records stuck_slips().
+  std::vector<VectorX<Traced>> record_stuck_slips();
   /// Records G and g, theory (14), (21).
   void record_residual() { formulas.residual(state, &G, &g); }
 

@@ -19,7 +19,7 @@ T brown_mcphee_curve(const T& v, const T& mu_static, const T& mu_dynamic,
 }
 
 // name, title, curve, per_speed, bristle, dwells, directional, divides_by_mu_dynamic,
-// has_stribeck_velocity
+// has_stribeck_velocity, only_above_mu_dynamic
 constexpr FrictionLaw kFrictionTable[] = {
     {"brown_mcphee",
      "Brown and McPhee",
@@ -30,7 +30,7 @@ constexpr FrictionLaw kFrictionTable[] = {
      true,
      false},
     {"gonthier", "Gonthier", {}, {}, {gonthier, gonthier}, true, false, false},
-    {"lugre", "LuGre", {}, {}, {lugre, lugre}, false, false, true},
+    {"lugre", "LuGre", {}, {}, {lugre, lugre}, false, false, true, false, true},
     {"stribeck", "Stribeck", {stribeck, stribeck}, {}, {}, false, true, false, true},
 };
 

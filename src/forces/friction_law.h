@@ -10,7 +10,8 @@
 
 namespace codesign {
 
-/// The states of a friction law with bristles; theory (13e), (13f). They start at zero.
+/// The states of a friction law with bristles; theory (13e), (13f). They start at zero, or hold a
+/// joint that starts stuck, (13h).
 template <class T>
 struct BristleState {
   Vector3<T> zeta = Vector3<T>::Zero();  ///< deflection times sigma_0, which is a friction per
@@ -54,6 +55,8 @@ struct FrictionLaw {
                              ///< against the axis, theory (48)
   bool divides_by_mu_dynamic = false;  ///< mu_dynamic must not be zero
   bool has_stribeck_velocity = false;  ///< `curve` reads it
+  bool only_above_mu_dynamic = false;  ///< transition_velocity shapes nothing but the friction
+                                       ///< above mu_d: without mu_s > mu_d it has no effect
 
   /// Whether the law uses a number; other numbers are refused, since they would have no effect.
   bool uses(const FrictionNumberRule& rule) const {

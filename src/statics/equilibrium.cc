@@ -54,6 +54,7 @@ Study study_at_rest(Study study, const std::vector<double>& parameters) {
     initial.velocity.reset();
     initial.linear_velocity.reset();
     initial.angular_velocity.reset();
+    initial.stuck = false;
   }
   study.integral.clear();
   study.terminal.clear();

@@ -51,6 +51,7 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
   collect_link_loads();
   collect_rotors();
   collect_bristles();
+  collect_stuck();
 }
 
 std::vector<double> System::parameters() const { return start_parameters(study()); }

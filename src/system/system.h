@@ -57,6 +57,12 @@ struct ElasticGear {
   CoordinateIndex joint, motor;
 };
 
+/// Friction whose bristles hold its joint at the start; theory (13h).
+struct StuckContact {
+  std::size_t bristle = 0;  ///< index in System::bristles()
+  std::size_t start = 0;    ///< index in MotionStudy::initial_state
+};
+
 /// The rotor of an actuator, theory (9a).
 struct Rotor {
   int pair = -1, element = -1;  ///< coordinate of the joint that it drives
@@ -125,6 +131,9 @@ class System {
   const std::vector<int>& contacts() const { return contacts_; }
   /// The coordinates and contacts whose friction law has states, theory (13e), (13f).
   const std::vector<BristleContact>& bristles() const { return bristles_; }
+  /// Those that start stuck, in the order of MotionStudy::initial_state; of one joint the bearing
+  /// before the gear.
+  const std::vector<StuckContact>& stuck() const { return stuck_; }
   /// The states of the friction law of a joint coordinate, of its gear, or of a contact (element
   /// -1); null if the law has no states.
   const BristleContact* bristle(int pair, int element, bool gear = false) const;
@@ -176,6 +185,7 @@ class System {
   void collect_rotors();
   void collect_bristles();
   void add_bristle(BristleContact contact);
+  void collect_stuck();
   void find_coordinates();
   void refuse_load(int pair, int element) const;
   void check_couplings() const;
@@ -202,6 +212,7 @@ class System {
   std::vector<ElasticGear> elastic_gears_;
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;
+  std::vector<StuckContact> stuck_;
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
   std::vector<Signal> watched_;

@@ -195,6 +195,23 @@ void System::collect_bristles() {
                  topology_.pairs[to_index(contact)].kind->slip_coordinates, false});
 }
 
+void System::collect_stuck() {
+  const auto joint_of = [this](const BristleContact& contact) {
+    const Pair& pair = topology_.pairs[to_index(contact.pair)];
+    const int own =
+        contact.gear ? pair.chain[to_index(contact.element)].joint : pair.friction_joint;
+    for (const JointDescription& joint : robot_.joints)
+      if (joint.motor == own) return joint.name;
+    return robot_.joints[to_index(own)].name;
+  };
+  for (std::size_t start = 0; start < study().initial_state.size(); ++start)
+    for (const bool gear : {false, true})
+      for (std::size_t k = 0; k < bristles_.size(); ++k)
+        if (const InitialJointState& initial = study().initial_state[start];
+            initial.stuck && bristles_[k].gear == gear && joint_of(bristles_[k]) == initial.joint)
+          stuck_.push_back({k, start});
+}
+
 const BristleContact* System::bristle(int pair, int element, bool gear) const {
   for (const BristleContact& contact : bristles_)
     if (contact.pair == pair && contact.element == element && contact.gear == gear) return &contact;

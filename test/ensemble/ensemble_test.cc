@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
 #include <string>
 
 #include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
+#include "integration/mechanisms.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -41,6 +44,63 @@ TEST(Ensemble, TheMeanWeighsTheRuns) {
   EXPECT_LT((all.total.gradient - (0.25 * a.gradient + 0.75 * b.gradient)).norm(),
             1e-14 * b.gradient.norm());
   EXPECT_EQ(all.total.statistics.steps, a.statistics.steps + b.statistics.steps);
+}
+
+/// An arm on an elastic gear that loses torque, turned by a spring-like controller.
+Problem geared_arm(const std::string& ensemble) {
+  const auto parameter = [](const char* name, const char* value) {
+    return std::string("<codesign:parameter name='") + name + "' value='" + value + "'/>";
+  };
+  return load_problem(
+      {"arm.urdf",
+       robot(parameter("eta", "0.8") + parameter("k", "300") + parameter("rub", "0.02") +
+             parameter("mass", "1") +
+             std::regex_replace(bar("bar"), std::regex("<mass value='1'"),
+                                "<mass value='1' codesign:value='${mass}'") +
+             hinge("hinge", "ground", "bar", "0 0 0",
+                   "<codesign:actuator gear_ratio='20' rotor_inertia='1e-3' efficiency='0.8' "
+                   "codesign:efficiency='${eta}' stiffness='300' codesign:stiffness='${k}' "
+                   "coulomb='0.02' codesign:coulomb='${rub}' transition_velocity='0.1'/>"))},
+      {},
+      {"arm.yaml",
+       "duration: 0.5\ninitial_state: {hinge: {position: 0.8}}\nparameters: {p: {initial: 15.0}, "
+       "mass: {tune: true}}\ncontrollers: {hold: {type: pid, input: hinge/position, setpoint: 0.0, "
+       "output: "
+       "hinge, gains: {p: \"${p}\"}}}\nobjective: {integral: [{signal: hinge/velocity}, {signal: "
+       "hinge/gear_loss}]}\n" +
+           ensemble});
+}
+
+TEST(Ensemble, NumbersOfGearsAreUncertainLikeAllOthers) {
+  const Problem problem = geared_arm(
+      "uncertain: {eta: {choice: [0.7, 0.9]}, k: {uniform: [200, 400]}, rub: {normal: [0.02, "
+      "0.002]}}\nrobust: {samples: 4, measure: mean}\n");
+  const Ensemble ensemble(problem);
+  const EnsembleEvaluation all = ensemble.evaluate(problem.start(), true);
+  ASSERT_TRUE(all.total.status.ok()) << all.total.status.cause;
+  ASSERT_EQ(ensemble.scenarios().size(), 4u);
+  Evaluator by_hand(problem);
+  double sum = 0.0;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2);
+  std::vector<std::set<double>> numbers(3);
+  for (const Scenario& scenario : ensemble.scenarios()) {
+    const std::vector<double> design = scenario.parameters(problem.start());
+    for (std::size_t k = 0; k < 3; ++k) numbers[k].insert(design[k]);
+    const Evaluation one = by_hand.evaluate_design(design, true);
+    ASSERT_TRUE(one.status.ok()) << one.status.cause;
+    sum += 0.25 * one.objective;
+    gradient += 0.25 * one.gradient;
+  }
+  EXPECT_EQ(numbers[0].size(), 2u);
+  EXPECT_EQ(numbers[1].size(), 4u);
+  EXPECT_EQ(numbers[2].size(), 4u);
+  EXPECT_NEAR(all.total.objective, sum, 1e-14 * sum);
+  EXPECT_LT((all.total.gradient - gradient).norm(), 1e-13 * gradient.norm());
+  const Evaluation nominal = by_hand.evaluate(problem.start(), false);
+  EXPECT_GT(std::abs(nominal.objective - sum), 1e-6 * sum) << "the numbers count";
+  const GradientCheck check = check_gradient(ensemble, problem.start(), CheckMethod::kComplexStep);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  EXPECT_LT(check.largest_relative_difference, 1e-8);
 }
 
 TEST(Ensemble, GradientsOfAllMeasuresAgreeWithTheComplexStep) {

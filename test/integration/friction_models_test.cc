@@ -100,6 +100,19 @@ TEST(FrictionModels, GonthiersContactMustRestToHold) {
   EXPECT_LT(holds.frames[1][0], 1e-3);
 }
 
+TEST(FrictionModels, AStuckStartDoesNotGiveWay) {
+  for (const char* model : {"gonthier", "lugre"})
+    for (const char* solver : {kLooseRosenbrock, kLooseIdas}) {
+      const Series held =
+          run(with_friction_model(block(0.33), model), 2.0, "{plane: {stuck: true}}",
+              {"plane/sliding_velocity", "block/position/x", "plane/friction"}, solver, 3);
+      ASSERT_TRUE(held.status.ok()) << model << ": " << held.status.cause;
+      EXPECT_LT(std::abs(held.frames[2][0]), 1e-12) << model;
+      EXPECT_LT(std::abs(held.frames[2][1]), 1e-12) << model;
+      EXPECT_NEAR(held.frames[2][2], -2.0 * 9.81 * std::sin(0.33), 1e-8) << model;
+    }
+}
+
 TEST(FrictionModels, BothIntegratorsAgree) {
   for (const char* model : {"gonthier", "lugre"}) {
     for (const auto& [urdf, initial, signal] :

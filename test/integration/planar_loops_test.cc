@@ -173,24 +173,40 @@ TEST(PlanarLoops, FrictionIsThatOfSharedLoopsWhereNothingActsOutOfThePlane) {
               of_block);
 }
 
+/// The block on a loop with three numbers to tune.
+std::string gradient_study(const std::string& coordinates, const std::string& gradient,
+                           const std::string& relative, const std::string& absolute) {
+  return std::string("duration: 0.3\ninitial_state: ") + block_start() +
+         "\nparameters: {mass: {}, crank: {}, pitch: {}}\nobjective: {integral: [{signal: "
+         "slide/friction, weight: 0.01}, {signal: crank_joint/velocity}], terminal: [{signal: "
+         "rod_joint/reaction_force/x, weight: 0.01}]}\nsolver: {coordinates: " +
+         coordinates + ", gradient: " + gradient +
+         ", method: rodas5p, relative_tolerance: " + relative +
+         ", absolute_tolerance: " + absolute + "}\n";
+}
+
 TEST(PlanarLoops, GradientsAreExact) {
   const std::string urdf = held_in_plane(block_on_a_loop(slide_friction()));
   for (const char* coordinates : {"joint", "absolute"})
     for (const char* gradient : {"direct", "adjoint"}) {
-      const auto system = made(
-          urdf,
-          std::string("duration: 0.3\ninitial_state: ") + block_start() +
-              "\nparameters: {mass: {}, crank: {}, pitch: {}}\nobjective: {integral: [{signal: "
-              "slide/friction, weight: 0.01}, {signal: crank_joint/velocity}], terminal: [{signal: "
-              "rod_joint/reaction_force/x, weight: 0.01}]}\nsolver: {coordinates: " +
-              coordinates + ", gradient: " + gradient +
-              ", method: rodas5p, relative_tolerance: 1.0e-7, absolute_tolerance: 1.0e-8}\n");
+      const auto system = made(urdf, gradient_study(coordinates, gradient, "1.0e-7", "1.0e-8"));
       const Eigen::Vector3d rho(1.0, 0.3, 1.3);
       const GradientCheck check = check_gradient(system, rho, CheckMethod::kComplexStep);
       ASSERT_TRUE(check.status.ok()) << check.status.cause;
       EXPECT_LT(check.largest_relative_difference, 1e-8) << coordinates << ' ' << gradient;
       for (int k = 0; k < 3; ++k) EXPECT_GT(std::abs(check.evaluation.gradient[k]), 1e-6) << k;
     }
+}
+
+TEST(PlanarLoops, GradientsAreThoseOfIndependentRuns) {
+  const std::string urdf = held_in_plane(block_on_a_loop(slide_friction()));
+  for (const char* coordinates : {"joint", "absolute"}) {
+    const auto system = made(urdf, gradient_study(coordinates, "direct", "1.0e-12", "1.0e-13"));
+    const GradientCheck check =
+        check_gradient(system, Eigen::Vector3d(1.0, 0.3, 1.3), CheckMethod::kRidders);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_LT(check.largest_relative_difference, 1e-8) << coordinates;
+  }
 }
 
 TEST(PlanarLoops, ADesignThatLeavesThePlaneHasNoValue) {

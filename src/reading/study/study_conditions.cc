@@ -31,13 +31,22 @@ bool has_pose(const JointDescription& joint) {
   return joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
 }
 
+/// Whether friction of a joint has states that can hold it. Behind an elastic gear the flanks do
+/// not: its spring starts undeflected and carries nothing.
+bool can_stick(const JointDescription& joint) {
+  return (joint.friction && joint.friction->model->bristle) ||
+         (joint.actuator && joint.actuator->gear && !joint.actuator->elastic &&
+          joint.actuator->gear->slip.model->bristle);
+}
+
 /// The joint or loop of this name, whose initial state may be given.
 const JointDescription& starting_joint(const std::string& name, const RobotDescription& robot,
                                        const YamlValue& value) {
   Names known;
   for (const JointDescription& joint : robot.joints) {
     const bool free = !joint.is_loop && has_pose(joint);
-    if (joint.name == name && (free || has_one_coordinate(joint.type))) return joint;
+    if (joint.name == name && (free || has_one_coordinate(joint.type) || can_stick(joint)))
+      return joint;
     if (joint.name == name)
       value.fail("this joint has neither a single coordinate nor a pose",
                  "a revolute, continuous, prismatic, planar or floating joint");
@@ -96,11 +105,39 @@ void read_pose_start(const YamlValue& value, const JointDescription& joint,
   if (state->angular_velocity && !state->rotation) state->rotation.emplace();
 }
 
+/// Reads `stuck`: the joint is at rest, held by its bristles.
+void read_stuck(const YamlValue& value, const JointDescription& joint, InitialJointState* state) {
+  const auto stuck = value.find("stuck");
+  if (!stuck || !stuck->boolean()) return;
+  if (!can_stick(joint)) {
+    if (joint.actuator && joint.actuator->elastic && joint.actuator->gear &&
+        joint.actuator->gear->slip.model->bristle)
+      stuck->fail(
+          "the gear of the joint is elastic and starts undeflected, so that friction of its flanks "
+          "does not hold the joint",
+          "friction with states at the joint itself, or a gear without stiffness");
+    stuck->fail("the joint has no friction with states, which alone can hold it at rest",
+                "model=\"lugre\" or \"gonthier\" in its <codesign:friction>, or model=\"lugre\" "
+                "in its <codesign:actuator>");
+  }
+  if (state->velocity || state->linear_velocity || state->angular_velocity)
+    stuck->fail("a joint that starts stuck is at rest, and its velocity is given, too",
+                "either stuck or a velocity");
+  state->stuck = true;
+  if (joint.is_loop) return;
+  if (has_pose(joint))
+    state->linear_velocity.emplace(), state->angular_velocity.emplace();
+  else
+    state->velocity = Quantity(0.0);
+}
+
 InitialJointState read_joint_start(const std::string& name, const YamlValue& value,
                                    const RobotDescription& robot, const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
-  const Names& keys = has_pose(joint) ? pose_keys() : scalar_keys();
-  const Names& others = has_pose(joint) ? scalar_keys() : pose_keys();
+  const bool pose = has_pose(joint) && !joint.is_loop, scalar = has_one_coordinate(joint.type);
+  Names keys = pose ? pose_keys() : scalar ? scalar_keys() : Names();
+  const Names& others = pose ? scalar_keys() : pose_keys();
+  keys.emplace_back("stuck");
   if (value.is_map())
     for (const auto& [key, at] : value.entries())
       if (std::find(others.begin(), others.end(), key) != others.end())
@@ -111,8 +148,9 @@ InitialJointState read_joint_start(const std::string& name, const YamlValue& val
   InitialJointState state;
   state.joint = joint.name;
   state.where = value.where();
-  has_pose(joint) ? read_pose_start(value, joint, table, &state)
-                  : read_scalar_start(value, table, &state);
+  if (pose) read_pose_start(value, joint, table, &state);
+  if (scalar) read_scalar_start(value, table, &state);
+  read_stuck(value, joint, &state);
   return state;
 }
 
@@ -122,8 +160,15 @@ void read_initial_state(const YamlValue& study_value, const RobotDescription& ro
                         const ParameterTable& table, Study* study) {
   const auto initial_state = study_value.find("initial_state");
   if (!initial_state) return;
-  for (const auto& [name, value] : initial_state->entries())
+  for (const auto& [name, value] : initial_state->entries()) {
     study->initial_state.push_back(read_joint_start(name, value, robot, table));
+    if (!study->initial_state.back().stuck) continue;
+    for (const char* key : {"positions", "identify"})
+      if (study_value.find(key))
+        value.at("stuck").fail(
+            std::string("a study with ") + key + " has no start of a run that friction could hold",
+            std::string("either stuck or ") + key);
+  }
 }
 
 namespace {

@@ -92,6 +92,17 @@ void read_number(const XmlElement& element, const FrictionNumberRule& rule,
   if (rule.is_backward && element.has(rule.attribute)) friction->is_directional = true;
 }
 
+/// A transition velocity that shapes only the friction above sliding friction is an error where
+/// there is none.
+void refuse_transition(const XmlElement& element, const FrictionModel& model,
+                       const std::string& reason, const std::string& allowed) {
+  if (model->only_above_mu_dynamic && element.has("transition_velocity"))
+    element.fail_at("transition_velocity",
+                    std::string("transition_velocity has no effect: in the ") + model->title +
+                        " model it shapes the friction at rest above that of sliding, " + reason,
+                    allowed);
+}
+
 std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
   const std::vector<Quantity> given =
       parse_quantities(element, "transverse_axis", 3, ParameterTable());
@@ -117,6 +128,9 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
     read_number(element, rule, context, &friction, &number);
   };
   visit_friction_numbers(read, &friction);
+  if (friction.is_direct && !element.has("static") && !friction.has_exponent)
+    refuse_transition(element, friction.model, "and the friction has no `static`",
+                      "beside static or viscous_exponent");
   const std::string dynamic = friction.is_direct ? "coulomb" : "mu_dynamic",
                     at_rest = friction.is_direct ? "static" : "mu_static";
   require_ordered(element, dynamic, friction.mu_dynamic, at_rest, friction.mu_static);
@@ -151,6 +165,7 @@ FrictionDescription read_slip(const XmlElement& element, const ReadContext& cont
   slip.where = element.where();
   slip.model = read_model(element, false, *context.laws);
   slip.mu_static = slip.mu_dynamic = 1.0;
+  refuse_transition(element, slip.model, "which are the same in gears", "with another model");
   const auto read = [&](const FrictionNumberRule& rule, Quantity& number) {
     if (rule.of_gears) read_number(element, rule, context, &slip, &number);
   };

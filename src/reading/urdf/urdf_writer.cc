@@ -132,11 +132,16 @@ void write_friction_law(XMLElement* robot, const FrictionLaw& law) {
     if (friction == nullptr) continue;
     const bool direct = friction->Attribute("coulomb") != nullptr;
     friction->SetAttribute("model", law.name);
+    const auto remove = [friction](const char* attribute) {
+      friction->DeleteAttribute(attribute);
+      friction->DeleteAttribute((std::string(kPrefix) + attribute).c_str());
+    };
     visit_friction_numbers([&](const FrictionNumberRule& rule) {
-      if (law.uses(rule) && rule.is_in(direct)) return;
-      friction->DeleteAttribute(rule.attribute);
-      friction->DeleteAttribute((std::string(kPrefix) + rule.attribute).c_str());
+      if (!law.uses(rule) || !rule.is_in(direct)) remove(rule.attribute);
     });
+    if (law.only_above_mu_dynamic && direct && friction->Attribute("static") == nullptr &&
+        friction->Attribute("viscous_exponent") == nullptr)
+      remove("transition_velocity");
   }
 }
 

@@ -66,6 +66,68 @@ TEST(StudyInitialState, AnAngularVelocityNeedsARotation) {
   EXPECT_FALSE(read("free", "{linear_velocity: [0, 0, 1]}").rotation.has_value());
 }
 
+/// The robot whose crank, ball joint and loop rub under a law with states.
+RobotDescription rubbing_robot() {
+  RobotDescription robot = flying_robot();
+  for (JointDescription& joint : robot.joints)
+    if (joint.name != "free") joint.friction.emplace().model = FrictionModel::kLuGre;
+  robot.joints.back().friction.emplace();
+  return robot;
+}
+
+TEST(StudyInitialState, AStuckJointIsAtRest) {
+  const auto start = [](const std::string& joint, const std::string& text) {
+    return read_study({"study.yaml", with(joint, text)}, rubbing_robot()).initial_state.at(0);
+  };
+  const InitialJointState crank = start("crank_joint", "{position: 0.3, stuck: true}");
+  EXPECT_TRUE(crank.stuck);
+  EXPECT_EQ(crank.velocity->nominal(), 0.0);
+  const InitialJointState ball = start("ball_joint", "{stuck: true}");
+  EXPECT_TRUE(ball.stuck && ball.linear_velocity && ball.angular_velocity);
+  EXPECT_FALSE(ball.rotation || ball.translation) << "found by the assembly";
+  const InitialJointState moves = start("crank_joint", "{velocity: 2, stuck: false}");
+  EXPECT_FALSE(moves.stuck);
+  EXPECT_EQ(moves.velocity->nominal(), 2.0);
+}
+
+TEST(StudyInitialState, RefusesAStuckJointThatNothingHolds) {
+  const std::string kMotion = "motion: {crank_joint: {position: 0.1}}\n";
+  RobotDescription robot = rubbing_robot();
+  const auto refused = [&](const std::string& joint, const std::string& start,
+                           const std::string& message, const std::string& more = "") {
+    try {
+      read_study({"study.yaml", with(joint, start) + more}, robot);
+      ADD_FAILURE() << joint << " " << start;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_EQ(error.fault().where.line, more == kMotion ? 6 : 5) << error.what();
+    }
+  };
+  refused("free", "{stuck: true}", "no friction with states");
+  refused("crank_joint", "{velocity: 0, stuck: true}", "either stuck or a velocity");
+  refused("crank_joint", "{stuck: 1}", "true or false");
+  refused("crank_joint", "{stuk: true}", "did you mean \"stuck\"");
+  refused("crank_joint", "{stuck: true}", "the motion of the joint is given", kMotion);
+  refused("crank_joint", "{stuck: true}", "either stuck or identify", "identify: {}\n");
+  try {
+    read_study({"study.yaml",
+                "positions: {slider_joint: [0.1, 0.2]}\ninitial_state: {crank_joint: {stuck: "
+                "true}}\nobjective: {sum: [{signal: crank_joint/position}]}\n"},
+               robot);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().allowed, "either stuck or positions") << error.what();
+  }
+  for (JointDescription& joint : robot.joints) joint.friction.reset();
+  ActuatorDescription& actuator = robot.joints[0].actuator.emplace();
+  actuator.gear.emplace().slip.model = FrictionModel::kLuGre;
+  const std::string crank = robot.joints[0].name;
+  EXPECT_TRUE(
+      read_study({"study.yaml", with(crank, "{stuck: true}")}, robot).initial_state.at(0).stuck);
+  actuator.elastic.emplace();
+  refused(crank, "{stuck: true}", "the gear of the joint is elastic");
+}
+
 TEST(StudyInitialState, RefusesWhatTheJointHasNot) {
   expect_refused("free", "{position: 1}", ".position", "no position");
   expect_refused("crank_joint", "{translation: [0, 0, 0]}", ".translation", "no translation");

@@ -209,6 +209,14 @@ TEST(FrictionReader, FaultsInNewtonMetres) {
                {"did you mean \"stribeck_velocity\"?"});
 }
 
+TEST(FrictionReader, ATransitionVelocityThatLuGresModelDoesNotReadIsRefused) {
+  const std::string lugre = "coulomb=\"5\" transition_velocity=\"0.1\" model=\"lugre\" ",
+                    message = "transition_velocity has no effect: in the LuGre model";
+  expect_error(text_with(lugre), {message, "allowed: beside static or viscous_exponent"});
+  EXPECT_EQ(friction(lugre + "static=\"6\"").mu_static.nominal(), 6.0);
+  expect_error(pendulum("\n<codesign:actuator rotor_inertia=\"1\" " + lugre + "/>"), {message});
+}
+
 std::optional<GearDescription> gear(const std::string& attributes) {
   const std::string actuator = "\n<codesign:actuator rotor_inertia=\"1e-5\" " + attributes + "/>";
   return read_urdf(pendulum(actuator)).joints.at(0).actuator->gear;

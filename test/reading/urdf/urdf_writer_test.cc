@@ -140,6 +140,17 @@ TEST(UrdfWriter, AnotherFrictionLawReadsBackWithTheNumbersThatItUses) {
             write_tuned_urdf(pendulum(""), {}, {0.3}));
 }
 
+TEST(UrdfWriter, AnotherFrictionLawInNewtonMetresReadsBack) {
+  for (const char* more : {"", " static=\"3\"", " viscous=\"1\" viscous_exponent=\"0.8\""}) {
+    const SourceText urdf = pendulum(
+        std::string("<codesign:friction coulomb=\"2\" transition_velocity=\"0.2\"") + more + "/>");
+    const std::string text = write_tuned_urdf(urdf, {}, {0.3}, FrictionModel::kLuGre);
+    const FrictionDescription read = *read_urdf({"written.urdf", text}).joints[0].friction;
+    EXPECT_EQ(read.model, FrictionModel::kLuGre);
+    EXPECT_EQ(text.find("transition_velocity") == std::string::npos, *more == '\0') << text;
+  }
+}
+
 TEST(UrdfWriter, TheFrictionLawIsThatOfLoopsToo) {
   const RobotDescription robot = read_urdf(
       {"w", write_tuned_urdf(slider_crank(), {}, {0.08, 0.3, 0.05, 0.025}, FrictionModel::kLuGre)});

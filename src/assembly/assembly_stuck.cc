@@ -1,0 +1,119 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The part of Assembly that holds joints which start stuck, doc/theory.md (13h).
+#include <cmath>
+#include <limits>
+
+#include "assembly/assembly.h"
+#include "equations/formulas.h"
+#include "equations/iteration_matrix.h"
+#include "math/arrays.h"
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// A joint that starts stuck and does not move, as far as its own start says: a loop's joint
+/// follows the others.
+Status Assembly::require_rest(const State<double>& state, Equations<double>* equations) {
+  if (system_.stuck().empty()) return {};
+  constexpr double kNoSlip = 1e-9;
+  const double allowed =
+      kNoSlip * (1.0 + (state.v.size() > 0 ? state.v.cwiseAbs().maxCoeff() : 0.0));
+  equations->formulas().load(state);
+  for (const StuckContact& stuck : system_.stuck()) {
+    const BristleContact& contact = system_.bristles()[stuck.bristle];
+    const ContactSlip<double> slip = bristle_slip(equations->formulas().view(), contact);
+    for (int k = 0; k < contact.size; ++k)
+      if (std::abs(slip.motion[to_index(k)].rate) > allowed) {
+        contradicting_.push_back(stuck.start);
+        return {StatusCode::kInitialVelocityFailed, 0.0,
+                "joint '" + system_.study().initial_state[stuck.start].joint +
+                    "' shall start stuck, but moves with the velocities that are given"};
+      }
+  }
+  return {};
+}
+
+/// Slip accelerations at the solution of solve_rates() and their derivatives by the deflections,
+/// which change the rates by -G_z^-1 G_zeta.
+void Assembly::find_response(const State<double>& state, Equations<double>* equations) {
+  VectorX<double> a, limits, moved_a, unused, change;
+  equations->stuck_slips(state, &a, &limits);
+  equations->linearize(state, &derivatives_);
+  Eigen::MatrixXd response(a.size(), a.size());
+  State<double> moved = state, direction;
+  direction.resize(system_.layout());
+  for (Eigen::Index k = 0; k < a.size(); ++k) {
+    direction.s.setZero();
+    direction.s[stuck_.state(k)] = 1.0;
+    directional_derivative(system_, derivatives_, direction, &change);
+    change.conservativeResize(state.z.size());
+    solve_at_rates(change);
+    moved.z = state.z - change;
+    equations->stuck_slips(moved, &moved_a, &unused);
+    response.col(k) = moved_a - a;
+  }
+  stuck_.take(a, response, limits);
+}
+
+Status Assembly::hold_stuck(Equations<double>* equations, State<double>* state) {
+  if (stuck_.is_empty()) return solve_rates(equations, state);
+  constexpr int kIterations = 50;
+  const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
+  double previous = std::numeric_limits<double>::infinity();
+  stuck_.begin();
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    if (Status status = solve_rates(equations, state); !status.ok()) return status;
+    find_response(*state, equations);
+    const double change = stuck_.improve();
+    if (!std::isfinite(change)) break;
+    for (Eigen::Index k = 0; k < stuck_.size(); ++k)
+      state->s[stuck_.state(k)] = stuck_.deflections()[k];
+    if (change < 1e-15 || (change < converged && change >= 0.5 * previous)) {
+      if (Status status = solve_rates(equations, state); !status.ok()) return status;
+      find_response(*state, equations);
+      warn_of_slides();
+      return {};
+    }
+    previous = change;
+  }
+  return {StatusCode::kInitialReactionsFailed, 0.0,
+          "no deflections of the bristles were found with which the joints that start stuck rest "
+          "or begin to slide"};
+}
+
+void Assembly::warn_of_slides() {
+  for (std::size_t start : stuck_.sliding()) {
+    const InitialJointState& initial = system_.study().initial_state[start];
+    append({warn("start_slides",
+                 {initial.where, "initial_state." + initial.joint + ".stuck",
+                  "friction cannot hold this joint at the start: its bristles start with their "
+                  "largest deflection, and it slides",
+                  "true", "a smaller load, more friction, or no `stuck`"})},
+           &warnings_);
+  }
+}
+
+/// Sets the deflections with their exact first-order parts: those of the slip accelerations at
+/// fixed deflections are taken back by the deflections.
+template <class T>
+void Assembly::extend_stuck(const State<double>& start, Equations<T>* equations,
+                            ExtensionWorkspace<T>* workspace, State<T>* state) const {
+  for (Eigen::Index k = 0; k < stuck_.size(); ++k)
+    state->s[stuck_.state(k)] = T(start.s[stuck_.state(k)]);
+  extend_rates(start.z, equations, workspace, state);
+  VectorX<T> a(stuck_.size()), limits(stuck_.size()), zeta(stuck_.size());
+  equations->stuck_slips(*state, &a, &limits);
+  for (Eigen::Index k = 0; k < stuck_.size(); ++k) zeta[k] = state->s[stuck_.state(k)];
+  add_directions(stuck_.derivatives(directions_of(a), directions_of(limits)), &zeta);
+  for (Eigen::Index k = 0; k < stuck_.size(); ++k) state->s[stuck_.state(k)] = zeta[k];
+}
+
+#define CODESIGN_INSTANTIATE(T)                                                \
+  template void Assembly::extend_stuck<T>(const State<double>&, Equations<T>*, \
+                                          ExtensionWorkspace<T>*, State<T>*) const;
+CODESIGN_INSTANTIATE(std::complex<double>)
+CODESIGN_INSTANTIATE(Lanes<4>)
+CODESIGN_INSTANTIATE(Lanes<8>)
+#undef CODESIGN_INSTANTIATE
+
+}  // namespace codesign
