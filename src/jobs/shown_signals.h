@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "description/motion_study.h"
+#include "description/signal.h"
 #include "jobs/json.h"
 #include "mechanism_codesign/optimization.h"
 #include "problem/load_problem.h"

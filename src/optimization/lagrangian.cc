@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "integration/simulation_of.h"
 #include "math/arrays.h"
