@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "description/study.h"
 #include "math/arrays.h"
 
 namespace codesign {

@@ -156,8 +156,8 @@ inline std::vector<CoordinatesCase> frictions() {
 
 /// Gears that lose in the tree, folded, as a loop, and tied to another joint; friction in N m.
 inline std::vector<CoordinatesCase> gears() {
-  const std::string losses =
-      "transition_velocity='0.05' efficiency='0.8' backdrive_efficiency='0.7'";
+  const std::string losses = "efficiency='0.8' backdrive_efficiency='0.7'",
+                    step = " transition_velocity='0.05'";
   const auto actuator = [](const std::string& more) {
     return "<codesign:actuator gear_ratio='-7' rotor_inertia='0.004' " + more + "/>";
   };
@@ -174,10 +174,10 @@ inline std::vector<CoordinatesCase> gears() {
                        const std::string& more = "") {
     all.push_back({name, on_hinge(content), start + motor + more});
   };
-  const std::string gear = actuator(losses + " coulomb='0.02' viscous='0.001'");
+  const std::string gear = actuator(losses + step + " coulomb='0.02' viscous='0.001'");
   add("revolute", one("revolute", gear));
   add("prismatic", one("prismatic", gear));
-  add("locks_itself", one("revolute", actuator("transition_velocity='0.05' efficiency='0.45'")));
+  add("locks_itself", one("revolute", actuator("efficiency='0.45'" + step)));
   add("sticks", one("revolute", actuator(losses + " model='lugre'")));
   add("loop", joint_cases::free("tip") + joint_cases::loop("revolute", "base", gear));
   add("with_everything",

@@ -82,8 +82,8 @@ TEST(TransitionWatch, NamesATransitionThatTheMotionNeverReaches) {
                 .size(),
             1U);
   EXPECT_TRUE(warnings_of_swing("<codesign:friction coulomb='0.01'/>").empty());
-  EXPECT_TRUE(warnings_of_swing("<codesign:friction coulomb='0.01' model='lugre' "
-                                "transition_velocity='4'/>")
+  EXPECT_TRUE(warnings_of_swing("<codesign:friction coulomb='0.01' static='0.02' "
+                                "model='lugre' transition_velocity='4'/>")
                   .empty())
       << "bristles stick";
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "description/study.h"
+#include "description/tuned_parameters.h"
+#include "integration/watch_layout.h"
 #include "mechanism_codesign/gradient.h"
 #include "sensitivity/gradient_check.h"
 #include "sensitivity/oscillator.h"
