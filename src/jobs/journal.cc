@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "integration/watch_layout.h"
 #include "jobs/files.h"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "description/study.h"
 #include "math/arrays.h"
 #include "optimization/algorithm.h"
 #include "optimization/levenberg_marquardt.h"

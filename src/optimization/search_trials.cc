@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "description/study.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "optimization/algorithm.h"
