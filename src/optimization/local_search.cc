@@ -20,10 +20,9 @@ namespace {
 
 // Violation of a constraint row that NLopt accepts, in the unit of the row.
 constexpr double kRowTolerance = 1e-9;
-constexpr int kMostRestarts = 8;
+constexpr int kMostRestarts = 8, kMostAttempts = 12;
 constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
-constexpr int kMostAttempts = 12;
 constexpr double kLeastTolerance = 1e-15;
 constexpr double kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
 // A failed line search has converged if the scaled gradient fell below this fraction of the first.
