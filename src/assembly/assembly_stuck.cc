@@ -52,7 +52,7 @@ void Assembly::find_response(const State<double>& state, Equations<double>* equa
     equations->stuck_slips(moved, &moved_a, &unused);
     response.col(k) = moved_a - a;
   }
-  stuck_.take(a, response, limits);
+  stuck_.set_slips(a, response, limits);
 }
 
 Status Assembly::hold_stuck(Equations<double>* equations, State<double>* state) {

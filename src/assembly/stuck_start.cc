@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/arrays.h"
 #include "math/dense.h"
 
 namespace codesign {
@@ -32,8 +31,8 @@ void StuckStart::begin() {
   for (Contact& contact : contacts_) contact.slides = false;
 }
 
-void StuckStart::take(const Eigen::VectorXd& a, const Eigen::MatrixXd& response,
-                      const Eigen::VectorXd& limits) {
+void StuckStart::set_slips(const Eigen::VectorXd& a, const Eigen::MatrixXd& response,
+                           const Eigen::VectorXd& limits) {
   a_ = a;
   response_ = response;
   limits_ = limits;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "math/arrays.h"
 #include "system/system.h"
 
 namespace codesign {
@@ -22,20 +23,20 @@ class StuckStart {
 
   bool is_empty() const { return contacts_.empty(); }
   /// Number of deflections, and the place of each among the extra states.
-  Eigen::Index size() const { return static_cast<Eigen::Index>(states_.size()); }
-  int state(Eigen::Index k) const { return states_[static_cast<std::size_t>(k)]; }
+  Eigen::Index size() const { return to_signed(states_.size()); }
+  int state(Eigen::Index k) const { return states_[to_index(k)]; }
 
   /// Begins with unloaded contacts that hold.
   void begin();
-  /// Takes over what the last deflections cause. @param a slip accelerations. @param response
+  /// Sets what the last deflections cause. @param a slip accelerations. @param response
   /// derivatives of `a` by the deflections. @param limits F of each.
-  void take(const Eigen::VectorXd& a, const Eigen::MatrixXd& response,
-            const Eigen::VectorXd& limits);
-  /// One step of Newton's method from what take() got. @return its largest change of a deflection,
-  /// relative to 1 + |zeta|.
+  void set_slips(const Eigen::VectorXd& a, const Eigen::MatrixXd& response,
+                 const Eigen::VectorXd& limits);
+  /// One step of Newton's method from the last set_slips(). @return its largest change of a
+  /// deflection, relative to 1 + |zeta|.
   double improve();
   const Eigen::VectorXd& deflections() const { return zeta_; }
-  /// The derivatives of the deflections. @param a, limits derivatives of take()'s arguments at
+  /// The derivatives of the deflections. @param a, limits derivatives of those of set_slips() at
   /// fixed deflections, one column per direction.
   Eigen::MatrixXd derivatives(const Eigen::MatrixXd& a, const Eigen::MatrixXd& limits) const;
   /// The indices in MotionStudy::initial_state of the joints that slide all the same.

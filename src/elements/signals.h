@@ -87,7 +87,7 @@ T link_orientation(const StateView<T>& view, const SignalReference& of) {
 
 // Loads along a coordinate.
 
-/// The sum of value(load, rate) over the loads of a coordinate.
+/// The sum of value(load) over the loads of a coordinate.
 template <class T, class Value>
 T sum_of_loads(const StateView<T>& view, const CoordinateIndex& at, Value&& value) {
   T sum(0.0);

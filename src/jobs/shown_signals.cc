@@ -98,9 +98,7 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
                     const std::vector<ControllerDescription>& controllers) {
   if (signal.formula) return "";
   const SignalTerm& term = signal.terms.front();
-  if (const SignalFacts* facts = find_quantity(SignalOwner::kMechanism, term.quantity);
-      facts != nullptr && is_of_mechanism(term))
-    return facts->unit;
+  if (is_of_mechanism(term)) return find_quantity(SignalOwner::kMechanism, term.quantity)->unit;
   if (is_of_spring(term)) return find_quantity(SignalOwner::kSpring, term.quantity)->unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
     const SignalFacts* facts = find_quantity(SignalOwner::kController, term.quantity);
