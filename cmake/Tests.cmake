@@ -116,7 +116,7 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 
 if(TARGET codesign_python)
   add_dependencies(tests codesign_python)
-  foreach(part problem jobs notebook tutorial)
+  foreach(part package problem jobs interruption notebook tutorial)
     add_test(NAME python_${part} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/${part}_test.py)
     set_tests_properties(python_${part} PROPERTIES
       ENVIRONMENT "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages;CODESIGN=$<TARGET_FILE:codesign>")
@@ -167,7 +167,7 @@ endforeach()
 # What tools/test --quick leaves out: whole jobs, processes of MPI, builds of other programs; below also what starts a ROS master.
 get_property(codesign_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS codesign_tests)
-  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|gallery|tutorial_pages|report$|python_(jobs|tutorial)|corpus_table|api_page)")
+  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|gallery|tutorial_pages|report$|python_(jobs|interruption|tutorial)|corpus_table|api_page)")
     set_tests_properties(${test} PROPERTIES LABELS slow)
   endif()
 endforeach()

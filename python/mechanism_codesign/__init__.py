@@ -3,7 +3,7 @@
 
     import mechanism_codesign as codesign
 
-    problem = codesign.Problem("slider_crank.urdf", "slider_crank.yaml")
+    problem = codesign.Problem(**codesign.case("slider_crank"))   # or paths, or texts, of model and study
     run = problem.simulate(crank_length=0.07)           # run.time, run["slider_joint/friction"]
     value, gradient = problem.gradient(crank_length=0.07)
     result = problem.optimize(progress=print)
@@ -14,6 +14,7 @@ With ROS the package also holds the generated messages, mechanism_codesign.msg a
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 if _TYPE_CHECKING:
+    from ._cases import case as case
     from ._core import version as version
     from ._errors import ComputationError as ComputationError
     from ._errors import InputError as InputError
@@ -32,7 +33,7 @@ if _TYPE_CHECKING:
 
 # Imported when they are first used: scripts that only read messages need neither numpy nor the library.
 _MODULES = {
-    "version": "_core", "Problem": "_problem", "Parameter": "_problem",
+    "case": "_cases", "version": "_core", "Problem": "_problem", "Parameter": "_problem",
     "ComputationError": "_errors", "InputError": "_errors", "OutputError": "_errors", "Status": "_errors", "Warning": "_errors",
     "Fit": "_results", "FitTrial": "_results", "Number": "_results", "Result": "_results", "Run": "_results", "Stage": "_results", "Trial": "_results",
 }

@@ -6,11 +6,16 @@ from typing import Any, Mapping, NamedTuple
 
 
 class Status(NamedTuple):
-    """How a computation ended."""
+    """How a computation ended.
 
-    code: str  #: "success", "cancelled", "step_size_too_small", ...; doc/statuses.md lists them
-    message: str  #: one sentence; empty on success
-    time: float  #: simulated time at which it ended [s]
+    code: "success", "cancelled", "step_size_too_small", ...; doc/statuses.md lists them.
+    message: one sentence; empty on success.
+    time: simulated time at which it ended [s].
+    """
+
+    code: str
+    message: str
+    time: float
 
     @property
     def ok(self) -> bool:
@@ -26,29 +31,41 @@ class Warning(UserWarning):
 
     Objects with results have a list `warnings` of these. Of what returns plain numbers, and of the
     files of a Problem, they are issued by Python's module warnings.
+
+    code: snake case, stable: "undetermined_friction".
+    message: the sentence, with place and remedy.
+    file: its path or name; empty where no file is the cause.
+    line: in the file, from 1; 0: none.
     """
 
     def __init__(self, code: str, message: str, file: str = "", line: int = 0):
         super().__init__(code, message, file, line)
-        self.code = code  #: snake case, stable: "undetermined_friction"
-        self.message = message  #: the sentence, with place and remedy
-        self.file = file  #: empty where no file is the cause
-        self.line = line  #: from 1; 0: none
+        self.code = code
+        self.message = message
+        self.file = file
+        self.line = line
 
     def __str__(self) -> str:
         return f"{self.message} [{self.code}]"
 
 
 class InputError(ValueError):
-    """Bad input: a file, a text, a name, a value. `str()` names all that is known of it."""
+    """Bad input: a file, a text, a name, a value. `str()` names all that is known of it.
+
+    file: its path, or the name of the text; empty where there is none.
+    line: in the file, from 1; 0: the file as a whole.
+    element: such as `objective.integral[0].signal`.
+    value: as written.
+    allowed: allowed values or range.
+    """
 
     def __init__(self, fault: Mapping[str, Any]):
         super().__init__(fault)
-        self.file: str = fault["file"]  #: path or name of the text; empty where there is none
-        self.line: int = fault["line"]  #: from 1; 0: the file as a whole
-        self.element: str = fault["element"]  #: such as `objective.integral[0].signal`
-        self.value: str = fault["value"]  #: as written
-        self.allowed: str = fault["allowed"]  #: allowed values or range
+        self.file: str = fault["file"]
+        self.line: int = fault["line"]
+        self.element: str = fault["element"]
+        self.value: str = fault["value"]
+        self.allowed: str = fault["allowed"]
 
     def __str__(self) -> str:
         return str(self.args[0]["message"])
@@ -59,12 +76,16 @@ class OutputError(OSError):
 
 
 class ComputationError(RuntimeError):
-    """A run or an evaluation that could not be finished, such as a loop that cannot be closed."""
+    """A run or an evaluation that could not be finished, such as a loop that cannot be closed.
+
+    status: Status of the failure.
+    run: of simulate(): the Run as far as it came; else None.
+    """
 
     def __init__(self, status: Status, run: Any = None):
         super().__init__(status, run)
         self.status = status
-        self.run = run  #: of simulate(): the run as far as it came; else None
+        self.run = run
 
     def __str__(self) -> str:
         return f"{self.status} (at t = {self.status.time:g} s)"

@@ -29,7 +29,7 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
 
 def _style() -> str:
     """The rules of the page for pictures."""
-    from .codesign_report import page  # type: ignore[import-not-found]  # scripts/codesign_report
+    from .codesign_report import page  # type: ignore  # scripts/codesign_report
     with open(os.path.join(page.HERE, "style.css"), encoding="utf-8") as file:
         text = file.read()
     colors = text[:text.index("* {")]

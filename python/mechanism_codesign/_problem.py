@@ -25,14 +25,20 @@ class Event(Protocol):
 
 
 class Parameter(NamedTuple):
-    """A named number on which model or study depend."""
+    """A named number on which model or study depend.
+
+    name: as keyword arguments and `set` name it.
+    value, lower, upper: start and bounds in SI units; -inf or inf: no bound.
+    unit: as the model names it; empty: none is named.
+    tuned: whether the study tunes it.
+    """
 
     name: str
-    value: float  #: start value, in SI units
-    lower: float  #: -inf: no bound
-    upper: float  #: inf: no bound
+    value: float
+    lower: float
+    upper: float
     unit: str
-    tuned: bool  #: whether the study tunes it
+    tuned: bool
 
 
 def _source(value: Source, name: str) -> Tuple[str, Optional[str]]:
@@ -64,7 +70,9 @@ class Problem:
 
     In all methods, keyword arguments are values of parameters by name, within their bounds [SI
     units]; the others keep their start values. `rho` is an array of the p tuned parameters in the
-    order of `names`, which need not lie within bounds.
+    order of `names`, shape (p,), which need not lie within bounds.
+
+    names: of the tuned parameters, the order of rho and of every gradient.
     """
 
     def __init__(self, model: Source, study: Optional[Source] = None, *, overlays: Iterable[Source] = (),
@@ -73,7 +81,6 @@ class Problem:
             _source(model, "model text"), None if study is None else _source(study, "study text"),
             [_source(overlay, f"text of overlay {k}") for k, overlay in enumerate(overlays, 1)], dict(set or {}),
             None if result is None else _source(result, "result text"))
-        #: Names of the tuned parameters, the order of rho and of every gradient.
         self.names: List[str] = [p[0] for p in self._core.parameters if p[5]]
         self._last: Tuple[Any, Any] = (None, None)
         for warning in self.warnings:
@@ -86,12 +93,12 @@ class Problem:
 
     @property
     def start(self) -> Array:
-        """The start of rho, shape (p,)."""
+        """The start of rho, shape (p,), in SI units."""
         return self._core.start
 
     @property
     def bounds(self) -> List[Tuple[float, float]]:
-        """(lower, upper) of each tuned parameter, infinite without a bound: as scipy.optimize takes them."""
+        """(lower, upper) of each tuned parameter in SI units, infinite without a bound: as scipy.optimize takes them."""
         return [(p[2], p[3]) for p in self._core.parameters if p[5]]
 
     @property
@@ -135,14 +142,15 @@ class Problem:
             raise ComputationError(run.status, run)
         return run
 
-    def _evaluate(self, rho: Optional[npt.ArrayLike], parameters: Mapping[str, float], derivatives: int,
+    def _evaluate(self, rho: Optional[npt.ArrayLike], parameters: Dict[str, float], derivatives: int,
                   by_adjoint: bool = False) -> Tuple[float, Array, Array]:
-        failure, value, gradient, root, doubts = self._core.evaluate(rho, parameters, derivatives, by_adjoint)
+        """(psi, gradient, empty); with `derivatives` 2 (psi, residuals, their Jacobian)."""
+        failure, value, first, second, doubts = self._core.evaluate(rho, parameters, derivatives, by_adjoint)
         if failure is not None:
             raise ComputationError(Status(**failure))
         for warning in doubts or ():
             warnings.warn(Warning(**warning), stacklevel=3)
-        return value, gradient, root
+        return value, first, second
 
     def objective(self, rho: Optional[npt.ArrayLike] = None, /, **parameters: float) -> float:
         """psi, the objective of the study over all its runs and samples, in the unit of its terms."""
@@ -178,14 +186,11 @@ class Problem:
         """The Jacobian of residuals(), shape (p + 1, p): the triangular root R of J.T J, and a row of zeros; doc/theory.md (22a)."""
         return self._squares(rho, parameters)[1]
 
-    def _squares(self, rho: Optional[npt.ArrayLike], parameters: Mapping[str, float]) -> Tuple[Array, Array]:
+    def _squares(self, rho: Optional[npt.ArrayLike], parameters: Dict[str, float]) -> Tuple[Array, Array]:
         key = (None if rho is None else np.asarray(rho, float).tobytes(), tuple(parameters.items()))
         known, squares = self._last
         if known != key:  # both are asked for at the same point
-            value, gradient, root = self._evaluate(rho, parameters, 2)
-            inside = np.linalg.lstsq(root.T, 0.5 * gradient, rcond=None)[0]
-            rest = np.sqrt(max(0.0, value - inside @ inside))
-            squares = np.append(inside, rest), np.vstack([root, np.zeros(len(gradient))])
+            squares = self._evaluate(rho, parameters, 2)[1:]
             self._last = key, squares
         return squares[0].copy(), squares[1].copy()
 

@@ -20,14 +20,19 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 
 
-class Run(Mapping):  # type: ignore[type-arg]
-    """A simulated motion: `run.time`, and `run["slider_joint/friction"]` for each recorded signal, numpy arrays of shape (samples,) that
-    share the memory of the run and are read-only. A mapping: dict(run), pandas.DataFrame(dict(run), index=run.time).
+class Run(Mapping[str, Array]):
+    """A simulated motion: `run["slider_joint/friction"]` is an array of shape (samples,) in the unit of the signal.
+
+    A mapping from the recorded signals to their values: dict(run), pandas.DataFrame(dict(run), index=run.time). The arrays share the
+    memory of the run and are read-only.
+
+    time: of each sample, shape (samples,) [s]; in a study of postures their numbers, from 0.
+    status: Status of the run.
     """
 
     def __init__(self, problem: "Problem", design: Tuple[Any, Dict[str, float]], failure: Optional[Dict[str, Any]], table: Array,
                  names: List[str], notes: "_core.RunNotes"):
-        self.time: Array = table[0]  #: [s]
+        self.time: Array = table[0]
         self.status = Status("success", "", float(self.time[-1])) if failure is None else Status(**failure)
         rho, parameters = design
         self._problem, self._notes = problem, notes
@@ -40,7 +45,7 @@ class Run(Mapping):  # type: ignore[type-arg]
 
     @property
     def objective(self) -> Optional[float]:
-        """psi of this run; None if the study has no objective."""
+        """psi of this run, in the unit of its terms; None if the study has no objective."""
         return self._record["objective"]  # type: ignore[no-any-return]
 
     @property
@@ -50,13 +55,13 @@ class Run(Mapping):  # type: ignore[type-arg]
 
     @property
     def statistics(self) -> Dict[str, float]:
-        """steps, rejected_steps, explicit_steps, cpu_seconds, constraint_drift, energy_error."""
+        """steps, rejected_steps, explicit_steps, cpu_seconds [s], constraint_drift [m or rad], energy_error (relative)."""
         return {key: self._record[key] for key in (
             "steps", "rejected_steps", "explicit_steps", "cpu_seconds", "constraint_drift", "energy_error")}
 
     @property
     def limits_exceeded(self) -> List[Dict[str, Any]]:
-        """Limits of the model that the motion exceeds: joint, limit, bound, worst, time."""
+        """Limits of the model that the motion exceeds: joint, limit, bound and worst in the unit of the limit, time [s]."""
         return list(self._record["limits_exceeded"])
 
     @property
@@ -91,8 +96,6 @@ class Run(Mapping):  # type: ignore[type-arg]
 
 
 class _Progress:
-    """`str()` is the line of the command line."""
-
     line: str
 
     def __str__(self) -> str:
@@ -100,44 +103,72 @@ class _Progress:
 
 
 class Trial(_Progress):
-    """One trial point of a search."""
+    """One trial point of a search; `str()` is the line of the command line.
+
+    line: this line.
+    evaluation: number of the trial point, from 1.
+    iteration: how often the best point has improved.
+    start: number of the search among several, from 1; 0: a single one.
+    status: Status of the evaluation; if it is not ok the search turns back from this point.
+    objective: psi, in the unit of its terms; not valid if the status is not ok.
+    gradient_norm: of its gradient by the scaled parameters, in the same unit.
+    best_objective: psi of the best point so far, in the same unit.
+    best_violation: of the constraints at the best point, in the unit of the constraint that is violated most; 0: none.
+    parameters: the tuned ones by name, in SI units.
+    """
 
     def __init__(self, line: str, evaluation: int, iteration: int, start: int, status: Dict[str, Any], objective: float, gradient_norm: float,
                  best_objective: float, best_violation: float, parameters: Dict[str, float]):
         self.line = line
-        self.evaluation = evaluation  #: from 1
-        self.iteration = iteration  #: how often the best point has improved
-        self.start = start  #: number of the search among several, from 1; 0: a single one
-        self.status = Status(**status)  #: not ok: the search turns back from this point
+        self.evaluation = evaluation
+        self.iteration = iteration
+        self.start = start
+        self.status = Status(**status)
         self.objective = objective
-        self.gradient_norm = gradient_norm  #: by scaled parameters
+        self.gradient_norm = gradient_norm
         self.best_objective = best_objective
-        self.best_violation = best_violation  #: of the constraints at the best point; 0: none
-        self.parameters = parameters  #: the tuned ones
+        self.best_violation = best_violation
+        self.parameters = parameters
 
 
 class Stage(_Progress):
-    """The progress of a stage of a search."""
+    """The progress of a stage of a search; `str()` is the line of the command line.
+
+    line: this line.
+    stage: "screening", "searching" or "validating".
+    done, of: points, searches, evaluations or runs that are finished, and how many the stage has at most.
+    runs: simulations so far.
+    seconds_left: until the end of the stage [s]; None: not known.
+    """
 
     def __init__(self, line: str, stage: str, done: int, of: int, runs: int, seconds_left: Optional[float]):
         self.line = line
-        self.stage = stage  #: "screening", "searching" or "validating"
+        self.stage = stage
         self.done, self.of = done, of
-        self.runs = runs  #: simulations so far
-        self.seconds_left = seconds_left  #: None: not known
+        self.runs = runs
+        self.seconds_left = seconds_left
 
 
 class FitTrial(_Progress):
-    """One evaluation of a fit."""
+    """One evaluation of a fit; `str()` is the line of the command line.
+
+    line: this line.
+    evaluation: its number, from 1.
+    iteration: how often the best point has improved.
+    profile: 0: of the fit; 1, 2, ...: of the profile of this number.
+    status: Status of the evaluation; if it is not ok the fit turns back from this point.
+    cost: the loss of all residuals over their spreads, without unit; infinite if the status is not ok.
+    rms: root mean squares of the residuals by output, in its unit.
+    """
 
     def __init__(self, line: str, evaluation: int, iteration: int, profile: int, status: Dict[str, Any], cost: float, rms: Dict[str, float]):
         self.line = line
-        self.evaluation = evaluation  #: from 1
+        self.evaluation = evaluation
         self.iteration = iteration
-        self.profile = profile  #: 0: of the fit; 1, 2, ...: of the profile of this number
+        self.profile = profile
         self.status = Status(**status)
         self.cost = cost
-        self.rms = rms  #: root mean squares of the residuals by output, in its unit
+        self.rms = rms
 
 
 class _Job:
@@ -146,10 +177,24 @@ class _Job:
     def __init__(self, core: Any):
         self._core = core
         self._folder: Optional[str] = None
-        #: The whole record, as `--json` prints it and doc/results.md describes it.
-        self.record: Dict[str, Any] = core.record
-        self.status = Status(**core.status)  #: doc/statuses.md lists the codes
-        self.warnings = [Warning(**w) for w in core.warnings]
+        self._record: Dict[str, Any] = core.record
+        self._status = Status(**core.status)
+        self._warnings = [Warning(**w) for w in core.warnings]
+
+    @property
+    def record(self) -> Dict[str, Any]:
+        """All of the job, as `--json` prints it; doc/json.md lists its keys with their units."""
+        return self._record
+
+    @property
+    def status(self) -> Status:
+        """How the job ended; doc/statuses.md lists the codes."""
+        return self._status
+
+    @property
+    def warnings(self) -> List[Warning]:
+        """About the job and what it found."""
+        return self._warnings
 
     @property
     def termination(self) -> str:
@@ -168,7 +213,7 @@ class _Job:
 
     def report(self, path: "str | os.PathLike[str] | None" = None) -> str:
         """The page of `codesign report` as HTML; also written to `path` if it is given. write() first, and its commands name that folder."""
-        from .codesign_report import job, page  # type: ignore[import-not-found]  # scripts/codesign_report
+        from .codesign_report import job, page  # type: ignore  # scripts/codesign_report
         if self._folder is not None:
             html = page.render(job.find_job(self._folder))
         else:
@@ -186,18 +231,25 @@ class _Job:
 
 
 class Result(_Job):
-    """The best design of an optimization and how the search ended."""
+    """The best design of an optimization and how the search ended. `str()` is the result in words.
+
+    rho, initial_rho: the best design and the start, shape (p,), in SI units and the order of Problem.names; empty if the start could not
+        be evaluated.
+    gradient: d psi / d rho at the best design, shape (p,) [unit of psi per unit of the parameter].
+    objective, initial_objective: psi at the best design and at the start, in the unit of its terms; None: not known.
+    best_objectives: psi of the best point after each trial point, shape (trial points,), in the same unit.
+    parameters: every named parameter at the best design, in SI units.
+    """
 
     def __init__(self, core: "_core.Optimized", problem: "Problem"):
         super().__init__(core)
         self._problem = problem
-        self.best_objectives: Array = core.best_objectives  #: the best objective after each trial point
-        self.rho: Array = core.rho  #: the best design, shape (p,); empty if the start could not be evaluated
+        self.best_objectives: Array = core.best_objectives
+        self.rho: Array = core.rho
         self.initial_rho: Array = core.initial_rho
-        self.gradient: Array = core.gradient  #: there, shape (p,)
-        self.objective: Optional[float] = self.record.get("objective")  #: there; None: not known
+        self.gradient: Array = core.gradient
+        self.objective: Optional[float] = self.record.get("objective")
         self.initial_objective: Optional[float] = self.record.get("initial_objective")
-        #: Every named parameter at the best design, in SI units.
         self.parameters: Dict[str, float] = self.record.get("parameters", {})
 
     def __str__(self) -> str:
@@ -212,33 +264,48 @@ class Result(_Job):
 
 
 class Number(NamedTuple):
-    """A number that a fit has found."""
+    """A number that a fit has found.
 
-    value: float  #: in `unit`
+    value, start: in the fit and before it, in `unit`.
+    unit: of the number; empty: none is named.
+    deviation: its standard deviation, in `unit`; None: on its bound.
+    interval: (lower, upper) in `unit`, at the level of `identify.intervals`, by default 95 %; None: on its bound.
+    determined: whether the data determine it.
+    on_bound: whether it lies on one of its bounds.
+    """
+
+    value: float
     start: float
     unit: str
-    deviation: Optional[float]  #: standard deviation; None: on its bound
-    interval: Optional[Tuple[float, float]]  #: at the level of `identify.intervals`, by default 95 %; None: on its bound
-    determined: bool  #: whether the data determine it
+    deviation: Optional[float]
+    interval: Optional[Tuple[float, float]]
+    determined: bool
     on_bound: bool
 
 
 class Fit(_Job):
-    """The numbers that were identified, and how well they are known."""
+    """The numbers that were identified, and how well they are known.
+
+    numbers: Number by name, k of them, in the order of `covariance`.
+    parameters: every named parameter with its value in the fit, in SI units.
+    covariance: of the numbers, shape (k, k) [product of their units].
+    time: of the n fitted samples, shape (n,) [s].
+    recorded: by output, shape (n,) [N m or N; with `residual: motion` the unit of the measured quantity], filtered as the residuals.
+    computed: what the fit computes there, by output, shape (n,), in the same unit.
+    """
 
     def __init__(self, core: "_core.Identified"):
         super().__init__(core)
-        #: By name, in the order of `covariance`.
         self.numbers: Dict[str, Number] = {
             name: Number(entry["value"], entry["start"], entry["unit"], entry["deviation"],
-                         None if entry["interval"] is None else tuple(entry["interval"]), entry["determined"], entry["on_bound"])
+                         None if entry["interval"] is None else (entry["interval"][0], entry["interval"][1]), entry["determined"], entry["on_bound"])
             for name, entry in self.record.get("identified", {}).items()}
-        self.parameters: Dict[str, float] = self.record.get("parameters", {})  #: every named one with its value in the fit
-        self.covariance: Array = core.covariance  #: shape (len(numbers), len(numbers))
-        self.time: Array = core.time  #: of the fitted samples, shape (n,) [s]
+        self.parameters: Dict[str, float] = self.record.get("parameters", {})
+        self.covariance: Array = core.covariance
+        self.time: Array = core.time
         outputs = list(self.record.get("data", {}).get("joints", {}))
-        self.recorded: Dict[str, Array] = dict(zip(outputs, core.recorded.T))  #: by output, shape (n,), filtered as the residuals
-        self.computed: Dict[str, Array] = dict(zip(outputs, core.computed.T))  #: what the fit computes there
+        self.recorded: Dict[str, Array] = dict(zip(outputs, core.recorded.T))
+        self.computed: Dict[str, Array] = dict(zip(outputs, core.computed.T))
 
     def __repr__(self) -> str:
         return f"<Fit: {self.status.code}, {', '.join(f'{name} = {n.value:.6g}' for name, n in self.numbers.items())}>"

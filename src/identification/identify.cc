@@ -20,10 +20,12 @@
 namespace codesign {
 namespace {
 
+/// Null once `cancel` is set.
 std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
                                                     const FitVariables& variables,
                                                     const std::vector<MeasuredJoint>& joints,
                                                     const std::vector<JointRecording>& recordings,
+                                                    const std::atomic<bool>* cancel,
                                                     Warnings* warnings) {
   const IdentificationDescription& options = *study_of(problem).identification;
   const int threads = worker_threads(study_of(problem).ensemble.engine);
@@ -35,22 +37,24 @@ std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
   std::vector<MeasuredMotion> motions;
   motions.reserve(recordings.size());
   for (const JointRecording& recording : recordings)
-    motions.push_back(measured_motion(recording, filter, warnings));
+    if (!is_set(cancel)) motions.push_back(measured_motion(recording, filter, warnings));
+  if (is_set(cancel)) return nullptr;
   return std::make_unique<EffortResiduals>(*system_of(problem), variables, joints,
                                            std::move(motions), filter, threads);
 }
 
-/// Recordings with the same values of parameters have one model.
+/// Recordings with the same values of parameters have one model. Null once `cancel` is set.
 std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
                                                    const FitVariables& variables,
                                                    const std::vector<MeasuredJoint>& joints,
                                                    const std::vector<JointRecording>& recordings,
+                                                   const std::atomic<bool>* cancel,
                                                    Warnings* warnings) {
   const auto has_settings = [](const JointRecording& recording) {
     return !recording.settings.empty();
   };
   if (std::none_of(recordings.begin(), recordings.end(), has_settings))
-    return residuals_alike(problem, variables, joints, recordings, warnings);
+    return residuals_alike(problem, variables, joints, recordings, cancel, warnings);
   std::vector<StackedResiduals::Part> parts;
   for (auto begin = recordings.begin(); begin != recordings.end();) {
     const auto end = std::find_if(begin, recordings.end(), [&](const JointRecording& other) {
@@ -58,11 +62,39 @@ std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
     });
     auto variables_of =
         std::make_unique<FitVariables>(study_of(problem), &robot_of(problem), begin->settings);
-    auto residuals = residuals_alike(problem, *variables_of, joints, {begin, end}, warnings);
+    auto residuals =
+        residuals_alike(problem, *variables_of, joints, {begin, end}, cancel, warnings);
+    if (!residuals) return nullptr;
     parts.push_back({std::move(variables_of), std::move(residuals)});
     begin = end;
   }
   return std::make_unique<StackedResiduals>(std::move(parts));
+}
+
+/// The residuals to fit and, if there is a holdout, its residuals; null once `cancel` is set.
+struct Sources {
+  std::unique_ptr<RecordingResiduals> data, holdout;
+};
+
+Sources make_sources(const Problem& problem, const FitVariables& variables,
+                     const StudyRecordings& recordings, const std::atomic<bool>* cancel,
+                     Warnings* warnings) {
+  std::vector<JointRecording> all = recordings.data;
+  all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
+  const std::vector<MeasuredJoint> joints = require_same_joints(all);
+  Sources sources;
+  sources.data = make_residuals(problem, variables, joints, recordings.data, cancel, warnings);
+  if (!recordings.holdout.empty())
+    sources.holdout =
+        make_residuals(problem, variables, joints, recordings.holdout, cancel, warnings);
+  return sources;
+}
+
+IdentificationResult cancelled() {
+  IdentificationResult result;
+  result.status = {StatusCode::kCancelled, 0.0, "cancelled"};
+  result.termination = "cancelled";
+  return result;
 }
 
 FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
@@ -178,20 +210,16 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& giv
                               const FitObserver& observer, const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *study_of(problem).identification;
+  if (is_set(cancel)) return cancelled();  // perhaps already in load_recordings()
   require_data(options, given);
   const std::optional<StudyRecordings> completed = with_given_motions(problem, given);
   const StudyRecordings& recordings = completed ? *completed : given;
   const FitVariables variables(study_of(problem), &robot_of(problem));
   IdentificationResult result;
-  std::vector<JointRecording> all = recordings.data;
-  all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
-  const std::vector<MeasuredJoint> joints = require_same_joints(all);
-  const std::unique_ptr<RecordingResiduals> data =
-      make_residuals(problem, variables, joints, recordings.data, &result.warnings);
+  const auto [data, holdout] =
+      make_sources(problem, variables, recordings, cancel, &result.warnings);
+  if (is_set(cancel)) return cancelled();
   RecordingResiduals& residuals = *data;
-  std::unique_ptr<RecordingResiduals> holdout;
-  if (!recordings.holdout.empty())
-    holdout = make_residuals(problem, variables, joints, recordings.holdout, &result.warnings);
   residuals.obey(cancel);  // The holdout does not: it is judged after a cancel, too, which takes
                            // two evaluations.
 

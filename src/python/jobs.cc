@@ -69,12 +69,13 @@ void write_file(const std::string& folder, const std::string& name,
 
 /// The arrays as the one recording of a study.
 StudyRecordings recordings_of(const Problem& problem, const std::optional<RecordedArrays>& arrays,
-                              Warnings* warnings) {
+                              Warnings* warnings, const std::atomic<bool>* cancel) {
   const IdentificationDescription& identification = *study_of(problem).identification;
   if (!arrays) {
     const std::string folder =
         std::filesystem::absolute(problem.study_text().name).parent_path().string();
-    return load_recordings(identification, robot_of(problem), folder, bag_files().read, warnings);
+    return load_recordings(identification, robot_of(problem), folder, bag_files().read, warnings,
+                           cancel);
   }
   IdentificationDescription given = identification;
   RecordingDescription description;
@@ -97,7 +98,7 @@ StudyRecordings recordings_of(const Problem& problem, const std::optional<Record
     recording.where = of.where;
     return recording;
   };
-  return load_recordings(given, robot_of(problem), "/", reader, warnings);
+  return load_recordings(given, robot_of(problem), "/", reader, warnings, cancel);
 }
 
 /// A study without `identify:` has its defaults.
@@ -159,7 +160,7 @@ Identified identify(const Problem& problem, const std::optional<RecordedArrays>&
   Identified identified{identifiable(problem, arrays.has_value()), {}, {}};
   require_identification(identified.problem);
   Warnings warnings;
-  const StudyRecordings recordings = recordings_of(identified.problem, arrays, &warnings);
+  const StudyRecordings recordings = recordings_of(identified.problem, arrays, &warnings, cancel);
   FitLines lines(problem.optimizer_options().max_evaluations);
   const auto observer = [&](const FitTrial& trial) {
     if (!tell) return true;

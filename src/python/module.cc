@@ -74,7 +74,8 @@ std::vector<std::string> strings_of(const py::list& list) {
   return strings;
 }
 
-/// (failure or None, objective, gradient, R, [warning])
+/// (failure or None, objective, gradient, empty, [warning]); for kGaussNewton residuals and their
+/// Jacobian in place of the third and fourth.
 py::tuple evaluate(Session* session, const py::object& rho, const py::dict& settings,
                    int derivatives, bool by_adjoint) {
   if (by_adjoint) session = &session->adjoint();
@@ -85,8 +86,11 @@ py::tuple evaluate(Session* session, const py::object& rho, const py::dict& sett
   const auto failure = evaluation.status.ok() ? py::none() : to_python(to_json(evaluation.status));
   const auto warnings =
       evaluation.warnings.empty() ? py::none() : to_python(to_json(evaluation.warnings));
-  return py::make_tuple(failure, evaluation.objective, to_array(evaluation.gradient),
-                        to_array(evaluation.jacobian_root), warnings);
+  const Squares squares = derivatives == static_cast<int>(Derivatives::kGaussNewton)
+                              ? squares_of(evaluation)
+                              : Squares{evaluation.gradient, {}};
+  return py::make_tuple(failure, evaluation.objective, to_array(squares.residuals),
+                        to_array(squares.jacobian), warnings);
 }
 
 Json methods_json(const RunSummary& summary) {
@@ -277,6 +281,7 @@ void add_session(py::module_* module) {
 PYBIND11_MODULE(_core, module) {
   codesign::python::translate_exceptions();
   module.def("version", &codesign::version);
-  codesign::python::add_session(&module);
+  // Before the sessions that return them, whose signatures name them.
   codesign::python::add_jobs(&module);
+  codesign::python::add_session(&module);
 }

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "python/session.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -63,6 +64,20 @@ void require_adjoint(const Problem& problem) {
 }
 
 }  // namespace
+
+Squares squares_of(const Evaluation& evaluation) {
+  if (!evaluation.status.ok()) return {};
+  const Eigen::MatrixXd& R = evaluation.jacobian_root;
+  const Eigen::Index p = R.cols();
+  Squares squares{Eigen::VectorXd(p + 1), Eigen::MatrixXd::Zero(p + 1, p)};
+  // R is singular if parameters have no effect, or the same: the least norm then.
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> root(R.transpose());
+  squares.residuals.head(p) = root.solve(0.5 * evaluation.gradient);
+  squares.residuals[p] =
+      std::sqrt(std::max(0.0, evaluation.objective - squares.residuals.head(p).squaredNorm()));
+  squares.jacobian.topRows(p) = R;
+  return squares;
+}
 
 Session::Session(Problem problem)
     : problem_(std::move(problem)),

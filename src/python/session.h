@@ -24,6 +24,16 @@ struct RunTable {
   std::vector<double> values;      ///< column after column
 };
 
+/// psi as a sum of squares in p + 1 coordinates, doc/theory.md (22a): r, whose square is psi, and
+/// J, (p + 1) x p, with 2 J^T r = psi_rho and J^T J the Gauss-Newton matrix.
+struct Squares {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+};
+
+/// @param evaluation with Derivatives::kGaussNewton. Empty if it failed.
+Squares squares_of(const Evaluation& evaluation);
+
 /// A problem with the workspaces of its evaluations. Thread-safe: evaluations of several threads
 /// run side by side.
 class Session {

@@ -12,6 +12,7 @@
 #include "recordings/measured_motion.h"
 #include "recordings/number_table.h"
 #include "recordings/recording_check.h"
+#include "text/cancel.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -25,6 +26,7 @@ struct Context {
   const std::string& folder;
   const BagReader& reader;
   Warnings* warnings;
+  const std::atomic<bool>* cancel;
   std::vector<std::string> joints;
 };
 
@@ -126,24 +128,35 @@ std::vector<JointRecording> long_enough(std::vector<JointRecording> pieces,
   return pieces;
 }
 
+/// Looks for mistakes, one check after the other until it is cancelled, and mends turns and stamps.
+void check_part(JointRecording* part, const Context& context) {
+  check_spikes(*part, context.warnings, context.cancel);
+  if (is_set(context.cancel)) return;
+  unwrap_turns(context.robot, part, context.warnings);
+  check_units(context.robot, *part, context.warnings);
+  if (is_set(context.cancel)) return;
+  // Before gaps are looked for, since late stamps look like missing samples; and again behind it,
+  // since a clock may go on differently after a gap.
+  even_stamps(part, context.warnings);
+}
+
 std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions,
                                  const Context& context) {
   std::vector<JointRecording> recordings;
   for (const RecordingDescription& description : descriptions) {
+    if (is_set(context.cancel)) break;
     JointRecording whole = read(description, context);
+    if (is_set(context.cancel)) break;
     whole.settings = description.settings;
     require_calibrated_joints(whole, context.identification);
     JointRecording part = checked_part(whole, description.from, description.to);
     add_starts(description, &part);
-    check_spikes(part, context.warnings);
-    unwrap_turns(context.robot, &part, context.warnings);
-    check_units(context.robot, part, context.warnings);
-    // Before gaps are looked for, since late stamps look like missing samples; and again, since a
-    // clock may go on differently behind a gap.
-    even_stamps(&part, context.warnings);
+    check_part(&part, context);
+    if (is_set(context.cancel)) break;
     std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
     require_one_piece(description, pieces);
-    for (JointRecording& piece : pieces) even_stamps(&piece, context.warnings);
+    for (JointRecording& piece : pieces)
+      if (!is_set(context.cancel)) even_stamps(&piece, context.warnings);
     for (JointRecording& piece : long_enough(std::move(pieces), context))
       recordings.push_back(std::move(piece));
   }
@@ -341,8 +354,9 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
 
 StudyRecordings load_recordings(const IdentificationDescription& identification,
                                 const RobotDescription& robot, const std::string& folder,
-                                const BagReader& reader, Warnings* warnings) {
-  Context context{identification, robot, folder, reader, warnings, {}};
+                                const BagReader& reader, Warnings* warnings,
+                                const std::atomic<bool>* cancel) {
+  Context context{identification, robot, folder, reader, warnings, cancel, {}};
   for (const JointDescription& joint : robot.joints)
     if (has_one_coordinate(joint.type)) context.joints.push_back(joint.name);
   StudyRecordings recordings{load(identification.data, context),

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -81,10 +82,13 @@ struct StudyRecordings {
 /// `identify.joints`.
 /// @param folder base of relative paths; empty: only absolute paths are accepted.
 /// @param reader reads bags; if it is empty, a study that names a bag is refused.
+/// @param cancel soon after this is set, from any thread, it returns; recordings may then be
+/// missing and unchecked, and are for nothing but identify(), which ends as cancelled. null: never
 /// @throws InputError with the place in the study or in the file.
 StudyRecordings load_recordings(const IdentificationDescription& identification,
                                 const RobotDescription& robot, const std::string& folder,
-                                const BagReader& reader, Warnings* warnings);
+                                const BagReader& reader, Warnings* warnings,
+                                const std::atomic<bool>* cancel = nullptr);
 
 /// Puts the times of a recording on equal steps if its motion says that the samples were taken
 /// there and only their stamps jitter; doc/theory.md (30a). Missing samples stay missing. Warning

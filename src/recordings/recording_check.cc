@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/arrays.h"
+#include "text/cancel.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -343,10 +344,12 @@ void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warn
   }
 }
 
-void check_spikes(const JointRecording& recording, Warnings* warnings) {
+void check_spikes(const JointRecording& recording, Warnings* warnings,
+                  const std::atomic<bool>* cancel) {
   for (const JointSamples& samples : recording.joints)
     for (std::size_t q = 0; q < kMeasuredQuantityNames.size(); ++q) {
       const std::vector<double>& column = samples.of(static_cast<MeasuredQuantity>(q));
+      if (is_set(cancel)) return;
       const std::vector<std::size_t> spikes = spikes_of(column);
       if (spikes.empty()) continue;
       const std::size_t first = spikes.front();

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "description/robot.h"
@@ -29,8 +30,10 @@ std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRul
                                          Warnings* warnings);
 
 /// Warns of single samples, three in a row at most, far outside the range of all others:
-/// `recording_spike`, with the first one's place.
-void check_spikes(const JointRecording& recording, Warnings* warnings);
+/// `recording_spike`, with the first one's place. @param cancel ends it before the next column;
+/// null: never
+void check_spikes(const JointRecording& recording, Warnings* warnings,
+                  const std::atomic<bool>* cancel = nullptr);
 
 /// Adds whole turns to the positions of turning joints where they jump by more than half a turn
 /// between two samples, as encoders that count from -pi to pi do; warning `recording_unwrapped`.

@@ -260,6 +260,19 @@ TEST(Identify, ACancelledFitStillJudgesItsHoldout) {
   EXPECT_GT(result.holdout[0].rms, 0.0);
 }
 
+TEST(Identify, ACancelBeforeItLeavesNothingToJudge) {
+  const std::atomic<bool> cancel{true};
+  int evaluations = 0;
+  const auto count = [&evaluations](const FitTrial&) { return ++evaluations > 0; };
+  // As load_recordings() leaves them when it is cancelled.
+  const IdentificationResult result =
+      identify(problem_of("inertia: {}, viscous: {}"), {}, count, &cancel);
+  EXPECT_EQ(result.status.code, StatusCode::kCancelled);
+  EXPECT_EQ(result.termination, "cancelled");
+  EXPECT_TRUE(result.numbers.empty());
+  EXPECT_EQ(evaluations, 0);
+}
+
 TEST(Identify, AFitThatMeetsItsLimitIsUsableAndSaysSo) {
   std::string study = study_of("inertia: {}, viscous: {}");
   study.replace(study.find("relative_tolerance"), 0, "max_evaluations: 1, ");

@@ -1,9 +1,12 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""A small problem, the shipped cases, and the command line, for the tests of the Python package."""
+"""Small problems, the shipped cases, and the command line, for the tests of the Python package."""
 import json
 import os
+import re
 import subprocess
 import sys
+
+import numpy as np
 
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -27,6 +30,22 @@ parameters: {length: {}}
 optimizer: {algorithm: lbfgs}
 objective: {terminal: [{signal: pivot/position, reference: 0.0}, {signal: pivot/velocity, reference: 0.0, weight: 0.1}]}
 """
+# A mass with viscous and dry friction and a torque on its joint, to be identified from its motion.
+ARM = """<robot name="arm" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="mass" value="1" lower="0.1" upper="10" unit="kg"/>
+  <codesign:parameter name="viscous" value="0.1" lower="0" upper="5"/>
+  <link name="ground"/>
+  <link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1" codesign:value="${mass}"/>
+    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="shoulder" type="continuous"><parent link="ground"/><child link="rod"/><axis xyz="0 1 0"/>
+    <dynamics damping="0.1" codesign:damping="${viscous}"/></joint>
+</robot>
+"""
+FIT = "duration: 4.0\nparameters: {mass: {}, viscous: {}}\n"
+# A pendulum that turns without friction for some minutes of computing.
+FREE = re.sub("<codesign:friction[^>]*>", "", PENDULUM)
+LONG = SWING.replace("duration: 2.0", "duration: 1.0e+6").replace("position: 1.0", "velocity: 20.0") + (
+    "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11, maximum_steps: 1000000000}\n")
 
 
 def case(name):
@@ -39,3 +58,10 @@ def command_line(*words, code=0):
     done = subprocess.run([CODESIGN, *map(str, words), "--json", "--quiet"], capture_output=True, text=True, check=False)
     assert done.returncode == code, done.stderr
     return json.loads(done.stdout)
+
+
+def recorded():
+    """A motion of the arm, with the torque that its equation needs: (time, position, effort), for a mass of 2 kg and a damping of 0.7."""
+    t = np.linspace(0.0, 4.0, 401)
+    q, v, a = np.sin(2.0 * t) + 0.3 * np.sin(5.0 * t), 2.0 * np.cos(2.0 * t) + 1.5 * np.cos(5.0 * t), -4.0 * np.sin(2.0 * t) - 7.5 * np.sin(5.0 * t)
+    return t, q, (0.01 + 2.0 * 0.25) * a + 2.0 * 9.81 * 0.5 * np.sin(q) + 0.7 * v

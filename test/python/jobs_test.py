@@ -3,10 +3,6 @@
 """Optimizations and identifications from Python: the results of the command line, progress, cancelling, threads, files."""
 import concurrent.futures
 import os
-import re
-import signal
-import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -14,33 +10,9 @@ import unittest
 
 import numpy as np
 
-from fixture import PENDULUM, SWING, command_line
+from fixture import ARM, FIT, FREE, LONG, PENDULUM, SWING, command_line, recorded
 
 import mechanism_codesign as codesign
-
-# A mass with viscous and dry friction and a torque on its joint, to be identified from its motion.
-ARM = """<robot name="arm" xmlns:codesign="urn:mechanism_codesign">
-  <codesign:parameter name="mass" value="1" lower="0.1" upper="10" unit="kg"/>
-  <codesign:parameter name="viscous" value="0.1" lower="0" upper="5"/>
-  <link name="ground"/>
-  <link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1" codesign:value="${mass}"/>
-    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
-  <joint name="shoulder" type="continuous"><parent link="ground"/><child link="rod"/><axis xyz="0 1 0"/>
-    <dynamics damping="0.1" codesign:damping="${viscous}"/></joint>
-</robot>
-"""
-FIT = "duration: 4.0\nparameters: {mass: {}, viscous: {}}\n"
-# A pendulum that turns without friction for some minutes of computing.
-FREE = re.sub("<codesign:friction[^>]*>", "", PENDULUM)
-LONG = SWING.replace("duration: 2.0", "duration: 1.0e+6").replace("position: 1.0", "velocity: 20.0") + (
-    "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11, maximum_steps: 1000000000}\n")
-
-
-def recorded():
-    """A motion of the arm, with the torque that its equation needs: (time, position, effort), for a mass of 2 kg and a damping of 0.7."""
-    t = np.linspace(0.0, 4.0, 401)
-    q, v, a = np.sin(2.0 * t) + 0.3 * np.sin(5.0 * t), 2.0 * np.cos(2.0 * t) + 1.5 * np.cos(5.0 * t), -4.0 * np.sin(2.0 * t) - 7.5 * np.sin(5.0 * t)
-    return t, q, (0.01 + 2.0 * 0.25) * a + 2.0 * 9.81 * 0.5 * np.sin(q) + 0.7 * v
 
 
 class Files(unittest.TestCase):
@@ -150,55 +122,6 @@ class Optimization(Files):
     def test_nothing_to_tune(self):
         with self.assertRaisesRegex(codesign.InputError, "tune"):
             codesign.Problem(PENDULUM, SWING.replace("parameters: {length: {}}\n", "")).optimize()
-
-
-class Interrupts(unittest.TestCase):
-    """Ctrl-C while the library computes."""
-
-    CALLS = {
-        "simulate": "problem.simulate()",
-        "gradient": "problem.gradient()",
-        "adjoint": "problem.adjoint()",
-        "optimize": "problem.optimize()",
-        "optimize with progress": "problem.optimize(progress=print, cancel=threading.Event())",
-        "in a thread": "thread = threading.Thread(target=problem.gradient, daemon=True); thread.start(); thread.join()",
-    }
-    PROGRAM = """
-import os, sys, threading
-import mechanism_codesign as codesign
-problem = codesign.Problem({model!r}, {study!r})
-print("ready", flush=True)
-try:
-    {call}
-except KeyboardInterrupt:
-    print("interrupted", flush=True)
-    os._exit(0)
-print("ended", flush=True)
-"""
-
-    def test_each_call_ends(self):
-        for name, call in self.CALLS.items():
-            with self.subTest(name):
-                program = self.PROGRAM.format(model=FREE, study=LONG, call=call)
-                with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
-                    self.assertEqual(child.stdout.readline(), "ready\n")
-                    time.sleep(0.5)
-                    child.send_signal(signal.SIGINT)
-                    self.assertIn("interrupted\n", child.communicate(timeout=60)[0])
-
-    def test_a_handler_that_raises_nothing_ends_the_call_as_cancelled(self):
-        seen = []
-        before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
-        self.addCleanup(signal.signal, signal.SIGINT, before)
-        problem = codesign.Problem(FREE, LONG)
-        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
-        self.assertEqual(problem.optimize().status.code, "cancelled")
-        timer.join()
-        self.assertEqual(seen, [signal.SIGINT])
-        self.assertIsNotNone(codesign.Problem(PENDULUM, SWING).gradient(), "the next call begins anew")
-        os.kill(os.getpid(), signal.SIGINT)
-        self.assertEqual(len(seen), 2, "Python's own handler is back")
 
 
 class Threads(unittest.TestCase):

@@ -7,8 +7,7 @@ import unittest
 import warnings
 import xml.etree.ElementTree as ElementTree
 
-from fixture import PENDULUM, SWING, case
-from jobs_test import ARM, FIT, recorded
+from fixture import ARM, FIT, PENDULUM, SWING, case, recorded
 
 import mechanism_codesign as codesign
 

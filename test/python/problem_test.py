@@ -6,8 +6,6 @@ import math
 import os
 import pathlib
 import pickle
-import subprocess
-import sys
 import tempfile
 import unittest
 import warnings
@@ -15,7 +13,7 @@ import warnings
 import numpy as np
 import scipy.optimize
 
-from fixture import PENDULUM, ROOT, SWING, case, command_line
+from fixture import PENDULUM, SWING, case, command_line
 
 import mechanism_codesign as codesign
 
@@ -46,39 +44,6 @@ class Postures(unittest.TestCase):
     def test_there_is_no_adjoint(self):
         with self.assertRaises(codesign.InputError):
             shipped("four_bar_path").adjoint()
-
-
-class Package(unittest.TestCase):
-    def test_its_names_are_there(self):
-        self.assertEqual(codesign.version(), command_line("gradient", *case("inverted_pendulum"))["version"])
-        self.assertLessEqual(set(codesign.__all__), set(dir(codesign)))
-        for name in codesign.__all__:
-            self.assertTrue(getattr(codesign, name).__doc__, name)
-        with self.assertRaises(AttributeError):
-            codesign.problem
-
-    def test_it_loads_nothing_before_it_is_used(self):
-        """Scripts that read messages import the same package."""
-        code = "import mechanism_codesign, sys; assert not {'numpy', 'mechanism_codesign._core'} & set(sys.modules)"
-        subprocess.run([sys.executable, "-c", code], check=True)
-
-    def test_a_python_without_the_extension_is_told_so(self):
-        code = "import mechanism_codesign as m; m.__path__[:] = [p for p in m.__path__ if not p.endswith('build/python')]; m.Problem"
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-        self.assertIn("ImportError: mechanism_codesign has no extension for Python 3", done.stderr)
-        self.assertIn("pybind11-dev", done.stderr)
-
-    def test_the_stub_of_the_extension_has_what_is_there(self):
-        import ast
-        from mechanism_codesign import _core
-        with open(os.path.join(ROOT, "python/mechanism_codesign/_core.pyi"), encoding="utf-8") as file:
-            stub = {node.name: node for node in ast.parse(file.read()).body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-        self.assertEqual(set(stub), {name for name in dir(_core) if not name.startswith("_")})
-        for name, node in stub.items():
-            if isinstance(node, ast.ClassDef):
-                members = {part.name if isinstance(part, ast.FunctionDef) else part.target.id for part in node.body}
-                there = {member for member in vars(getattr(_core, name)) if not member.startswith("_") or member == "__init__"}
-                self.assertEqual(members | {"__init__"}, there | {"__init__"}, name)
 
 
 class Bits(unittest.TestCase):
@@ -207,6 +172,17 @@ class Derivatives(unittest.TestCase):
             self.assertEqual((r.shape, jacobian.shape), ((count + 1,), (count + 1, count)))
             self.assertAlmostEqual(r @ r, value, delta=1e-9 * value)
             np.testing.assert_allclose(2.0 * jacobian.T @ r, gradient, rtol=1e-3, atol=1e-6 * np.abs(gradient).max())
+
+    def test_residuals_with_a_parameter_without_effect(self):
+        model = PENDULUM.replace('<link name="ground"/>', '<codesign:parameter name="idle" value="1" lower="0" upper="2"/><link name="ground"/>')
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", codesign.Warning)
+            problem = codesign.Problem(model, SWING.replace("{length: {}}", "{idle: {}, length: {}}"))
+        r, jacobian = problem.residuals(), problem.jacobian()
+        alone = pendulum()
+        self.assertEqual((r.shape, jacobian.shape), ((3,), (3, 2)))
+        self.assertAlmostEqual(r @ r, alone.objective(), delta=1e-9)
+        np.testing.assert_allclose(2.0 * jacobian.T @ r, [0.0, alone.gradient()[1][0]], rtol=1e-6, atol=1e-9)
 
     def test_residuals_need_a_sum_of_squares(self):
         with self.assertRaisesRegex(codesign.InputError, "sum of squares"):

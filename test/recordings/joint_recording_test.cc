@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <atomic>
 #include <fstream>
 
 #include "recordings/joint_recording.h"
@@ -141,6 +142,27 @@ TEST_F(LoadRecordings, BagsAreReadByTheCaller) {
   };
   EXPECT_EQ(load("/logs", reader).data[0].times.size(), 50U);
   EXPECT_EQ(asked, "/logs/swing.bag 3");
+}
+
+TEST_F(LoadRecordings, ACancelEndsItBehindTheFileThatIsRead) {
+  RecordingDescription bag = entry("swing.bag", "identify.data[0]");
+  bag.is_bag = true;
+  identification_.data = {bag, bag};
+  identification_.holdout = {bag};
+  std::atomic<bool> cancel{false};
+  int read = 0;
+  const BagReader reader = [&](const RecordingDescription&, const std::string&,
+                               const std::vector<std::string>&, Warnings*) {
+    ++read;
+    cancel = true;
+    return swing(3);  // as far as it came; too short to be used
+  };
+  const StudyRecordings recordings =
+      load_recordings(identification_, recorded_robot(), "/", reader, &warnings_, &cancel);
+  EXPECT_EQ(read, 1);
+  EXPECT_TRUE(recordings.data.empty());
+  EXPECT_TRUE(recordings.holdout.empty());
+  expect_word(refusal_of([&] { load("/", reader); }).message, "3 samples");
 }
 
 class RecordedSpeed : public LoadRecordings {

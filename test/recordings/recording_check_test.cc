@@ -141,6 +141,15 @@ TEST(SpikeCheck, ASpikeIsNamedByFileRowAndJoint) {
   expect_word(spikes_in(recording).at(0).message, "one of 2 such samples");
 }
 
+TEST(SpikeCheck, ACancelEndsItBeforeTheNextColumn) {
+  JointRecording recording = swing(300);
+  recording.joints[0].effort[77] = 5000.0;
+  Warnings warnings;
+  const std::atomic<bool> cancel{true};
+  check_spikes(recording, &warnings, &cancel);
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(SpikeCheck, JumpsNoiseRestAndStepsOfAnEncoderAreNone) {
   JointRecording recording = swing(300);
   EXPECT_TRUE(spikes_in(recording).empty());

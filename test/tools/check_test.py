@@ -80,6 +80,13 @@ class CheckTest(unittest.TestCase):
             self.assertEqual((status, results), (1, {"scripts": "FAILED"}), output)
             self.assertIn("scripts/bad", output)
             os.remove(path)
+        for name in ("python/package/_part.py", "python/package/_core.pyi", "scripts/report/page.py"):  # modules have no first line
+            path = self.plant(name, "def f(:\n    pass\n")
+            status, results, output = self.check("scripts")
+            self.assertEqual((status, results), (1, {"scripts": "FAILED"}), output)
+            self.assertIn(name, output)
+            os.remove(path)
+        shutil.rmtree(os.path.join(self.root, "scripts/report"))
         self.program("shellcheck", "exit 1\n")
         self.assertEqual(self.check("scripts")[0], 1)
         self.assertEqual([name for name in os.listdir(os.path.join(self.root, "scripts")) if name != "good"], [])

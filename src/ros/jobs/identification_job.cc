@@ -39,7 +39,7 @@ class IdentificationJob {
   void fit(const std::string& folder, const std::atomic<bool>& cancel) {
     feedback_.begin("reading");
     recordings_ = load_recordings(*study_of(problem_).identification, robot_of(problem_), folder,
-                                  cancellable_bag_reader(cancel), &warnings_);
+                                  cancellable_bag_reader(cancel), &warnings_, &cancel);
     FitLines lines(problem_.optimizer_options().max_evaluations);
     const auto observe = [&](const FitTrial& trial) {
       const std::string line = lines.line(trial);
