@@ -89,8 +89,10 @@ struct LiveDescription {
 
 /// start + the integral of `rate` from 0 to t, for a motion whose velocity is given; theory (C2b).
 struct IntegralDescription {
-  std::shared_ptr<const ReferenceDescription> rate;  ///< not null; constant, sine or way-points
-  Quantity start;                                    ///< value at t = 0
+  /// Not null; a constant, a sine, way-points or an expression.
+  std::shared_ptr<const ReferenceDescription> rate;
+  Quantity start;         ///< value at t = 0
+  double duration = 0.0;  ///< of the study [s]: panels of an expression are prepared up to here
 };
 
 /// An expression of the time and of parameters; theory (C2c).

@@ -7,6 +7,7 @@
 
 #include "description/study.h"
 #include "engine/thread_engine.h"
+#include "identification/fit/given_motion.h"
 #include "identification/fit/residual_source.h"
 #include "identification/judgement.h"
 #include "identification/motion/motion_residuals.h"
@@ -166,14 +167,16 @@ void require_identification(const Problem& problem) {
                       "a block identify"});
 }
 
-IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings,
+IdentificationResult identify(const Problem& problem, const StudyRecordings& given,
                               const FitObserver& observer, const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *study_of(problem).identification;
-  if (recordings.data.empty())
+  if (given.data.empty())
     throw InputError({options.where, "identify.data",
                       "the study has no recordings to identify from", "",
                       "at least one recording"});
+  const std::optional<StudyRecordings> completed = with_given_motions(problem, given);
+  const StudyRecordings& recordings = completed ? *completed : given;
   const FitVariables variables(study_of(problem), &robot_of(problem));
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;
