@@ -124,11 +124,13 @@ struct ReferenceDescription {
 /// The time t itself as a function of time.
 const ReferenceDescription& clock_function();
 
-/// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag.
+/// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag, or of
+/// a column of a table.
 struct TrajectoryAddress {
   std::string bag, topic, joint;
   SourceLocation where;  ///< the place in the study that names it, for messages
   std::string element;   ///< likewise
+  std::string csv{}, column{}, time{};  ///< of a table: the file, and names of columns
 };
 
 /// The way-points of one joint of a recorded trajectory: times [s], then one value per time in the

@@ -41,7 +41,7 @@ TEST(Reference, AnIntegralIsExactForEveryRate) {
   }
 }
 
-ReferenceDescription expression_of(const std::string& text, const std::vector<std::string>& names) {
+ReferenceDescription rate_of_text(const std::string& text, const std::vector<std::string>& names) {
   ReferenceDescription description;
   description.kind = ReferenceDescription::Kind::kExpression;
   description.expression = {std::make_shared<const Expression>(text, names),
@@ -54,7 +54,7 @@ TEST(Reference, AnExpressionIsIntegratedToRounding) {
   ReferenceDescription description;
   description.kind = ReferenceDescription::Kind::kIntegral;
   description.integral.rate = std::make_shared<const ReferenceDescription>(
-      expression_of("A*cos(40*t) + max(t - A, 0)", {"A", "t"}));
+      rate_of_text("A*cos(40*t) + max(t - A, 0)", {"A", "t"}));
   description.integral.start = 0.3;
   description.integral.duration = 2.0;
   const double A = 0.7;

@@ -125,8 +125,9 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
                          "excite",      "hardware",   "positions",     "hold",        "efforts"});
   require_purpose_of_excite(root);
   refuse_motion_of_excitation(root);
+  const TrajectoryLoader trajectories = trajectories_of(loader, files);
   const auto read_run = [&](const YamlValue& study_value) {
-    return read_single_run(study_value, yaml.name, robot, loader);
+    return read_single_run(study_value, yaml.name, robot, trajectories);
   };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
