@@ -50,7 +50,7 @@ Assembly::Assembly(const CompiledSystem& system)
     followers_.push_back(in_tree ? tree_.offset[to_index(first.joint)] : -1);
     if (in_tree) follows_[to_index(followers_.back())] = true;
   }
-  const GivenStart given(system, tree_);
+  const GivenStart given(system, &tree_);
   position_given_ = given.position;
   guess_given_ = given.guess;
   velocity_given_ = given.velocity;

@@ -208,13 +208,12 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   const bool reached = walk(
       work_.free,
       [&](double part) -> const std::vector<double>& {
-        posture_ = from + part;
+        time_ = posture_ = from + part;
         furthest = part;
         return parameters;
       },
       equations);
-  posture_ = from + 1.0;
-  state->t = posture_;
+  state->t = time_ = posture_ = from + 1.0;
   if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
   if (!reached)
     return {StatusCode::kAssemblyFailed, state->t,

@@ -157,7 +157,8 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
   return {};
 }
 
-GivenStart::GivenStart(const System& system, const TreeLayout& tree) {
+GivenStart::GivenStart(const System& system, TreeLayout* layout) {
+  TreeLayout& tree = *layout;
   const auto size = to_index(tree.size);
   for (std::vector<bool>* flags : {&position, &guess, &velocity}) flags->assign(size, false);
   for (const InitialJointState& initial : system.study().initial_state) {
@@ -174,6 +175,11 @@ GivenStart::GivenStart(const System& system, const TreeLayout& tree) {
     mark(&velocity, c, slides, initial.linear_velocity.has_value());
     mark(&velocity, c + slides, turns, initial.angular_velocity.has_value());
   }
+  const auto is_given = [this](const std::pair<int, int>& motor) {
+    return position[to_index(motor.first)];
+  };
+  tree.motors.erase(std::remove_if(tree.motors.begin(), tree.motors.end(), is_given),
+                    tree.motors.end());
 }
 
 template <class T>

@@ -31,7 +31,9 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
 struct GivenStart {
   std::vector<bool> position, guess, velocity;
 
-  GivenStart(const System& system, const TreeLayout& tree);
+  /// @param tree a motor behind an elastic gear whose position is given does not follow its joint
+  /// any more: it is taken out of TreeLayout::motors.
+  GivenStart(const System& system, TreeLayout* tree);
 };
 
 /// Sets the tree coordinates [rad or m] and rates that the study gives (guesses excepted) to their

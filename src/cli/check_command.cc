@@ -59,13 +59,15 @@ void print_table(const Counts& counts, std::ostream& out) {
   print_redundancy(counts, out);
 }
 
-/// The limits that the start exceeds.
+/// The limits that the start exceeds. @param warnings those of the start are appended.
 std::vector<LimitCrossing> crossings_at_start(const Problem& problem,
-                                              const std::vector<double>& parameters) {
+                                              const std::vector<double>& parameters,
+                                              Warnings* warnings) {
   Simulation simulation = simulation_of(system_of(problem), parameters);
   LimitWatch watch(problem, parameters, simulation.names());
   Frame frame;
   if (!simulation.start().ok()) return {};
+  append(simulation.warnings(), warnings);
   simulation.sample(0.0, &frame);
   watch.observe(frame);
   return watch.crossings();
@@ -78,10 +80,9 @@ int check(const Arguments& arguments, const Console& console) {
   const std::vector<double> parameters = problem.parameters();
   Status status;
   const Counts counts = count_equations(*system_of(problem), parameters, &status);
-  const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters);
-  Warnings of_recordings;
-  const std::vector<RecordingSummary> recordings =
-      check_recordings(problem, console, &of_recordings);
+  Warnings warnings;
+  const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters, &warnings);
+  const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &warnings);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
@@ -93,7 +94,7 @@ int check(const Arguments& arguments, const Console& console) {
   if (status.ok()) object["counts"] = to_json(counts);
   object["limits_exceeded"] = to_json(crossings);
   if (study_of(problem).identification) object["recordings"] = to_json(recordings);
-  add_warnings(arguments, problem, of_recordings, &object, console);
+  add_warnings(arguments, problem, warnings, &object, console);
   return finish(arguments, status, std::move(object), console);
 }
 

@@ -41,7 +41,8 @@ class Resolver {
 
   Signal readable(const SignalDescription& description, std::size_t k,
                   const std::string& key) const {
-    Signal signal = resolve_signal(description, robot_, topology_, study_.controllers, {});
+    Signal signal =
+        resolve_signal(description, robot_, topology_, study_.controllers, study_.parameters);
     for (const SignalReference& term : signal)
       if (term.controller >= static_cast<int>(k) || reads_effort(term, k))
         throw InputError({study_.controllers[k].where, element(k) + key,

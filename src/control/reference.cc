@@ -8,7 +8,7 @@
 #include "codegen/number_types.h"
 #include "description/formula.h"
 #include "math/arrays.h"
-#include "math/taylor.h"
+#include "math/taylor_quadrature.h"
 
 namespace codesign {
 namespace {
@@ -78,24 +78,6 @@ void limit_accelerations(const std::vector<double>& times, std::vector<Knot<T>>*
   });
 }
 
-struct CourseEnd {
-  double time;
-  Knot<double> knot;
-  bool has_velocity, has_acceleration;
-};
-
-CourseEnd end_at(const CoursePoint& point) {
-  return {point.time,
-          {point.position, point.velocity.value_or(0.0), point.acceleration.value_or(0.0)},
-          point.velocity.has_value(),
-          point.velocity.has_value() && point.acceleration.has_value()};
-}
-
-Interpolation degree(const CourseEnd& from, const CourseEnd& to) {
-  if (from.has_acceleration && to.has_acceleration) return Interpolation::kQuintic;
-  return from.has_velocity && to.has_velocity ? Interpolation::kCubic : Interpolation::kLinear;
-}
-
 }  // namespace
 
 template <class T>
@@ -130,7 +112,7 @@ void Reference<T>::set(const ReferenceDescription& description, const std::vecto
     case ReferenceDescription::Kind::kIntegral:
       rate_.resize(1);
       rate_[0].set(*description.integral.rate, parameters);
-      rate_[0].sum_areas();
+      rate_[0].sum_areas(description.integral.duration);
       offset_ = description.integral.start.at(parameters);
       break;
     case ReferenceDescription::Kind::kExpression:
@@ -227,7 +209,8 @@ T Reference<T>::area(const Piece& piece, double duration) {
 
 // The first piece is a constant without a start; it counts from the first way-point backward.
 template <class T>
-void Reference<T>::sum_areas() {
+void Reference<T>::sum_areas(double duration) {
+  if (kind_ == ReferenceDescription::Kind::kExpression) return set_panels(duration);
   areas_.assign(pieces_.size(), T(0.0));
   for (std::size_t k = 2; k < pieces_.size(); ++k)
     areas_[k] = areas_[k - 1] + area(pieces_[k - 1], pieces_[k].start - pieces_[k - 1].start);
@@ -243,21 +226,61 @@ T Reference<T>::integral_at(double t) const {
   if (kind_ == ReferenceDescription::Kind::kSine)
     return offset_ * t + amplitude_ / angular_frequency_ *
                              (cos(phase_) - cos(angular_frequency_ * T(t) + phase_));
+  if (kind_ == ReferenceDescription::Kind::kExpression) return integral_by_panels(t);
   const std::size_t k = piece_at(t);
   if (k == 0) return areas_[0] + pieces_[0].c[0] * (t - pieces_[1].start);
   return areas_[k] + area(pieces_[k], t - pieces_[k].start);
 }
 
+// Panels are chosen by the values alone, so that all number types have the same ones.
 template <class T>
-ReferenceMotion<T> Reference<T>::expression_at(double t) const {
+void Reference<T>::set_panels(double duration) {
+  const auto values = [this](double t) {
+    const Taylor<T> series = series_at(t);
+    Taylor<double> plain;
+    for (std::size_t k = 0; k < series.c.size(); ++k) plain.c[k] = value_of(series.c[k]);
+    return plain;
+  };
+  panels_.clear();
+  for (const double begin : integration_panels(values, duration)) {
+    const Taylor<T> series = series_at(begin);
+    T area(0.0);
+    if (!panels_.empty()) {
+      const Panel& last = panels_.back();
+      area = last.area + panel_integral(last.series, series, begin - last.begin);
+    }
+    panels_.push_back({begin, series, area});
+  }
+}
+
+// Outside the prepared panels, as in a run that goes on, further ones of their mean width follow.
+template <class T>
+T Reference<T>::integral_by_panels(double t) const {
+  const auto next =
+      std::upper_bound(panels_.begin(), panels_.end(), t,
+                       [](double time, const Panel& panel) { return time < panel.begin; });
+  Panel panel = next == panels_.begin() ? *next : *(next - 1);
+  const double width = panels_.back().begin / static_cast<double>(panels_.size() - 1);
+  while (panel.begin != t) {
+    const double step = std::clamp(t - panel.begin, -width, width),
+                 end = std::abs(t - panel.begin) <= width ? t : panel.begin + step;
+    const Taylor<T> series = series_at(end);
+    panel.area += panel_integral(panel.series, series, end - panel.begin);
+    panel.begin = end;
+    panel.series = series;
+  }
+  return panel.area;
+}
+
+template <class T>
+Taylor<T> Reference<T>::series_at(double t) const {
   const Expression& formula = *expression_->formula;
   std::vector<Taylor<T>> variables;
   variables.reserve(used_.size());
   for (std::size_t k = 0; k < used_.size(); ++k)
     variables.push_back(formula.dependencies()[k] == expression_->time ? Taylor<T>::time(t)
                                                                        : Taylor<T>(used_[k]));
-  const Taylor<T> f = evaluate_formula<Taylor<T>>(formula.steps(), variables);
-  return {f.c[0], f.c[1], T(2.0) * f.c[2], T(6.0) * f.c[3]};
+  return evaluate_formula<Taylor<T>>(formula.steps(), variables);
 }
 
 template <class T>
@@ -270,7 +293,10 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return motion;
   }
   if (kind_ == ReferenceDescription::Kind::kSampled) return sampled_at(t);
-  if (kind_ == ReferenceDescription::Kind::kExpression) return expression_at(t);
+  if (kind_ == ReferenceDescription::Kind::kExpression) {
+    const Taylor<T> f = series_at(t);
+    return {f.c[0], f.c[1], T(2.0) * f.c[2], T(6.0) * f.c[3]};
+  }
   if (kind_ == ReferenceDescription::Kind::kLive)
     return live_->commanded ? commanded_at(*live_, t) : planned_->at(t);
   if (kind_ == ReferenceDescription::Kind::kSine) {
@@ -339,37 +365,5 @@ void ShapedInput<Traced>::set(const BasisDescription& basis,
 #define CODESIGN_INSTANTIATE(T) template class ShapedInput<T>;
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
-
-Course held(double value, double start) {
-  LiveFunction piece{true, start, {}};
-  piece.c[0] = value;
-  return {piece};
-}
-
-Course trajectory_course(const std::vector<CoursePoint>& points, double now,
-                         const Knot<double>& from) {
-  Course course;
-  CourseEnd before{now, from, true, true};
-  for (const CoursePoint& point : points) {
-    const CourseEnd next = end_at(point);
-    const double duration = next.time - before.time;
-    if (next.time > now && duration > 0.0)
-      course.push_back(
-          {true, before.time,
-           waypoint_polynomial(degree(before, next), before.knot, next.knot, duration)});
-    before = next;
-  }
-  course.push_back(held(points.back().position, points.back().time).front());
-  return course;
-}
-
-Course rate_of(Course course) {
-  for (LiveFunction& piece : course) {
-    for (std::size_t k = 0; k + 1 < piece.c.size(); ++k)
-      piece.c[k] = static_cast<double>(k + 1) * piece.c[k + 1];
-    piece.c.back() = 0.0;
-  }
-  return course;
-}
 
 }  // namespace codesign

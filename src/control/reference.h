@@ -3,12 +3,12 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "codegen/traced.h"
 #include "description/reference.h"
 #include "math/scalar.h"
+#include "math/taylor.h"
 
 namespace codesign {
 
@@ -79,13 +79,21 @@ class Reference {
     double start;
     std::array<T, 6> c;
   };
+  /// An instant up to which an expression is integrated, and its Taylor polynomial there.
+  struct Panel {
+    double begin;
+    Taylor<T> series;
+    T area;  ///< from 0 to `begin`
+  };
   static ReferenceMotion<T> along(const Piece& piece, double t);
   ReferenceMotion<T> sampled_at(double t) const;
-  /// The integral from 0 to t of a constant, a sine or way-points, theory (C2b); for way-points
-  /// after sum_areas().
+  /// The integral from 0 to t, theory (C2b); of way-points and expressions after sum_areas().
   T integral_at(double t) const;
-  void sum_areas();
-  ReferenceMotion<T> expression_at(double t) const;
+  /// @param duration panels of an expression are prepared up to here [s].
+  void sum_areas(double duration);
+  void set_panels(double duration);
+  T integral_by_panels(double t) const;
+  Taylor<T> series_at(double t) const;
   std::size_t piece_at(double t) const;
   static T area(const Piece& piece, double duration);
   void set_waypoints(const WaypointsDescription& description, const std::vector<T>& parameters);
@@ -100,6 +108,7 @@ class Reference {
   std::vector<Knot<T>> knots_;                   ///< workspace of set()
   std::vector<Piece>
       pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
+  std::vector<Panel> panels_;       ///< kExpression that is integrated: by ascending begin, from 0
   std::vector<T> areas_;            ///< per piece but the first: the integral from 0 to its start
   std::vector<Reference<T>> rate_;  ///< kIntegral: one entry, the rate
   const TimeExpression* expression_ = nullptr;
@@ -160,29 +169,5 @@ class ShapedInput<Traced> {
  private:
   ReferenceMotion<Traced> motion_;
 };
-
-/// A point of a commanded trajectory.
-struct CoursePoint {
-  double time = 0.0, position = 0.0;  ///< [s] of the run, [rad or m]
-  std::optional<double> velocity, acceleration;
-};
-
-/// The pieces of a commanded function of time, by ascending start: each is in effect until the next
-/// one begins, the last one has no end.
-using Course = std::vector<LiveFunction>;
-
-/// A course that holds a value from `start` [s] on.
-Course held(double value, double start);
-
-/// The course through points, theory (C2): of fifth degree between points with accelerations, cubic
-/// between points with velocities, else linear. After the last point its position holds.
-/// @param points by ascending time, at least one. @param now [s]: pieces that end before it are
-/// left out. @param from the motion in effect at `now`, from which the first piece begins if all
-/// points are later.
-Course trajectory_course(const std::vector<CoursePoint>& points, double now,
-                         const Knot<double>& from);
-
-/// The rate of a course, as a course.
-Course rate_of(Course course);
 
 }  // namespace codesign

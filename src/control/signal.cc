@@ -156,12 +156,15 @@ bool reads_time(const Signal& signal) {
 }
 
 std::optional<Signal> differentiate(const Signal& resolved) {
-  if (resolved.formula) return std::nullopt;
+  if (resolved.is_rate) return std::nullopt;
   Signal derivative = resolved;
   for (SignalReference& reference : derivative) {
     reference.kind = facts_of(reference.kind).rate;
     if (reference.kind == SignalKind::kNone) return std::nullopt;
   }
+  if (!resolved.formula) return derivative;
+  derivative.insert(derivative.begin(), resolved.begin(), resolved.end());
+  derivative.is_rate = true;
   return derivative;
 }
 
@@ -170,7 +173,8 @@ Signal differentiate(const Signal& resolved, const SignalDescription& signal,
   std::optional<Signal> derivative = differentiate(resolved);
   if (!derivative)
     throw InputError({signal.where, element, "the time derivative of this signal is not available",
-                      signal.text, "sums of joint or link positions and velocities"});
+                      signal.text,
+                      "sums and expressions of joint or link positions and velocities"});
   return std::move(*derivative);
 }
 

@@ -42,6 +42,8 @@ struct ResolvedFormula {
 struct Signal : std::vector<SignalReference> {
   using std::vector<SignalReference>::vector;
   std::shared_ptr<const ResolvedFormula> formula;  ///< null: the sum
+  /// The time derivative of the formula; the terms are followed by as many, their derivatives.
+  bool is_rate = false;
 };
 
 /// Whether a signal contains the time t.

@@ -89,8 +89,10 @@ struct LiveDescription {
 
 /// start + the integral of `rate` from 0 to t, for a motion whose velocity is given; theory (C2b).
 struct IntegralDescription {
-  std::shared_ptr<const ReferenceDescription> rate;  ///< not null; constant, sine or way-points
-  Quantity start;                                    ///< value at t = 0
+  /// Not null; a constant, a sine, way-points or an expression.
+  std::shared_ptr<const ReferenceDescription> rate;
+  Quantity start;         ///< value at t = 0
+  double duration = 0.0;  ///< of the study [s]: panels of an expression are prepared up to here
 };
 
 /// An expression of the time and of parameters; theory (C2c).
@@ -122,11 +124,13 @@ struct ReferenceDescription {
 /// The time t itself as a function of time.
 const ReferenceDescription& clock_function();
 
-/// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag.
+/// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag, or of
+/// a column of a table.
 struct TrajectoryAddress {
   std::string bag, topic, joint;
   SourceLocation where;  ///< the place in the study that names it, for messages
   std::string element;   ///< likewise
+  std::string csv{}, column{}, time{};  ///< of a table: the file, and names of columns
 };
 
 /// The way-points of one joint of a recorded trajectory: times [s], then one value per time in the

@@ -35,6 +35,12 @@ struct SignalDescription {
   std::vector<SignalTerm> terms;  ///< summed up, or the signals that the formula reads
   SourceLocation where;
   std::shared_ptr<const SignalFormula> formula{};  ///< null: the sum of the terms
+
+  /// The term that the signal consists of, if it is one with the factor 1 and no expression; else
+  /// null.
+  const SignalTerm* only_term() const {
+    return !formula && terms.size() == 1 && terms[0].factor == 1.0 ? &terms[0] : nullptr;
+  }
 };
 
 /// Splits `a/position/x - b/position/x` into terms, or parses `${...}`. Names are not checked here;

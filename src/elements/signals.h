@@ -11,6 +11,7 @@
 #include "elements/state_view.h"
 #include "math/arrays.h"
 #include "math/euler_parameters.h"
+#include "math/taylor.h"
 
 namespace codesign {
 
@@ -177,10 +178,30 @@ T formula_value(const StateView<T>& view, const Signal& signal) {
   return evaluate_formula<T>(signal.formula->steps, variables);
 }
 
+/// Its time derivative, from the derivatives of the signals.
+template <class T>
+T formula_rate(const StateView<T>& view, const Signal& signal) {
+  std::vector<Taylor<T>> variables;
+  variables.reserve(signal.formula->variables.size());
+  for (const ResolvedFormula::Variable& variable : signal.formula->variables) {
+    const std::size_t term = variable.term >= 0 ? to_index(variable.term) : 0;
+    if (variable.term >= 0) {
+      Taylor<T>& x = variables.emplace_back(term_value(view, signal[term]));
+      x.c[1] = term_value(view, signal[signal.size() / 2 + term]);
+    } else if (variable.parameter) {
+      variables.emplace_back(value_at(*variable.parameter, view.design.parameters));
+    } else {
+      variables.emplace_back(view.design.clock.at(view.state->t).value).c[1] = T(1.0);
+    }
+  }
+  return evaluate_formula<Taylor<T>>(signal.formula->steps, variables).c[1];
+}
+
 /// A signal, the sum of its terms times their factors, or an expression of them.
 template <class T>
 T signal_value(const StateView<T>& view, const Signal& signal) {
-  if (signal.formula) return formula_value(view, signal);
+  if (signal.formula)
+    return signal.is_rate ? formula_rate(view, signal) : formula_value(view, signal);
   T sum(0.0);
   for (const SignalReference& term : signal) sum += T(term.factor) * term_value(view, term);
   return sum;

@@ -32,6 +32,7 @@ Status cancelled() { return {StatusCode::kCancelled, 0.0, "cancelled"}; }
 /// Calls make_driven_system() with messages for this use: they name the study, where
 /// make_driven_system() names recordings.
 DrivenSystem driven_by(const CompiledSystem& system, const std::vector<MeasuredJoint>& joints) {
+  refuse_loads_of_time(system, "a motion is planned without loads that depend on the time");
   try {
     return make_driven_system(system, joints);
   } catch (const InputError& error) {

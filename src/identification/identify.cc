@@ -7,6 +7,7 @@
 
 #include "description/study.h"
 #include "engine/thread_engine.h"
+#include "identification/fit/given_motion.h"
 #include "identification/fit/residual_source.h"
 #include "identification/judgement.h"
 #include "identification/motion/motion_residuals.h"
@@ -140,6 +141,13 @@ Warnings unmet_constraints(const Study& study, const std::vector<double>& parame
   return warnings;
 }
 
+void require_data(const IdentificationDescription& options, const StudyRecordings& recordings) {
+  if (recordings.data.empty())
+    throw InputError({options.where, "identify.data",
+                      "the study has no recordings to identify from", "",
+                      "at least one recording"});
+}
+
 /// Adds the warnings of a finished fit, and the status of one that explains nothing or does not
 /// determine its numbers.
 void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
@@ -166,14 +174,13 @@ void require_identification(const Problem& problem) {
                       "a block identify"});
 }
 
-IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings,
+IdentificationResult identify(const Problem& problem, const StudyRecordings& given,
                               const FitObserver& observer, const std::atomic<bool>* cancel) {
   const CpuTimer timer(CpuTimer::Of::kProcess);
   const IdentificationDescription& options = *study_of(problem).identification;
-  if (recordings.data.empty())
-    throw InputError({options.where, "identify.data",
-                      "the study has no recordings to identify from", "",
-                      "at least one recording"});
+  require_data(options, given);
+  const std::optional<StudyRecordings> completed = with_given_motions(problem, given);
+  const StudyRecordings& recordings = completed ? *completed : given;
   const FitVariables variables(study_of(problem), &robot_of(problem));
   IdentificationResult result;
   std::vector<JointRecording> all = recordings.data;

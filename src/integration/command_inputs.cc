@@ -148,9 +148,8 @@ std::optional<TrajectoryFollower> follower_of(const CommandInputs& inputs,
       const ControllerDescription& controller =
           inputs.study.controllers[inputs.joints.size() + inputs.indices[k]];
       if (!controller.output.empty() && controller.output != joint) continue;
-      const std::vector<SignalTerm>& terms = controller.input.terms;
-      if (terms.size() == 1 && terms[0].factor == 1.0 && terms[0].object == joint &&
-          terms[0].quantity == quantity)
+      const SignalTerm* input = controller.input.only_term();
+      if (input && input->object == joint && input->quantity == quantity)
         return TrajectoryFollower{k, quantity[0] == 'v'};
     }
   }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "control/reference.h"
+#include "control/course.h"
 #include "integration/command_inputs.h"
 #include "mechanism_codesign/simulation.h"
 

@@ -32,10 +32,11 @@ DrivenReplay replay_of(const Problem& problem, const SetpointMotion& motion,
   } catch (const InputError& error) {
     throw InputError(in_words_of_study(
         error.fault(), "controllers",
-        "its motion is not determined: no controller controls its position, and the joints whose "
-        "positions are controlled do not determine it through the loops",
-        "controllers of the positions of as many independent joints as there are degrees of "
-        "freedom"));
+        "its motion is not determined: neither `motion` nor the set-point of a controller gives "
+        "it, "
+        "and the joints whose motion they give do not determine it through the loops",
+        "motions or set-points of the positions of as many independent joints as there are degrees "
+        "of freedom"));
   }
 }
 
@@ -94,13 +95,12 @@ EffortSummary record_motion(const Problem& problem, const std::vector<double>& p
   Eigen::VectorXd given[3];
   Frame frame;
   for (int k = 0; k < samples && summary.status.ok(); ++k) {
-    frame.time = duration * k / (samples - 1);
-    motion.at(frame.time, &given);
-    const double time = frame.time;
+    const double time = duration * k / (samples - 1);
+    motion.at(time, &given);
     if (is_set(cancel)) summary.status = {StatusCode::kCancelled, time, "cancelled"};
     if (summary.status.ok() && k == 0) summary.status = replay.begin(given[0]);
-    if (summary.status.ok()) summary.status = replay.show(given, &frame);
-    summary.status.time = frame.time = time;
+    if (summary.status.ok()) summary.status = replay.show(time, given, &frame);
+    summary.status.time = time;
     if (!summary.status.ok()) break;
     limits.observe(frame);
     needs.observe(frame, duration / (samples - 1));

@@ -83,9 +83,9 @@ void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watch
   Json whole = Json::object(), friction = Json::object();
   const std::string power = "_power";
   for (std::size_t k = 0; k < shown.size(); ++k) {
-    if (shown[k].unit != "W" || shown[k].signal.terms.size() != 1 || shown[k].signal.formula)
-      continue;
-    const SignalTerm& term = shown[k].signal.terms[0];
+    const SignalTerm* only = shown[k].unit == "W" ? shown[k].signal.only_term() : nullptr;
+    if (!only) continue;
+    const SignalTerm& term = *only;
     const double energy = watched[k].integral(duration);
     if (is_of_mechanism(term))
       whole[term.quantity.substr(0, term.quantity.size() - power.size())] = energy;

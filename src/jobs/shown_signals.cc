@@ -38,10 +38,9 @@ std::string unit_of(const SignalFacts& facts, const JointDescription* joint,
 /// Adds the limits of a joint that apply to one of its signals.
 void add_limits(const RobotDescription& robot, const std::vector<double>& parameters,
                 ShownSignal* shown) {
-  if (shown->signal.formula || shown->signal.terms.size() != 1 ||
-      shown->signal.terms[0].factor < 0.0)
-    return;
-  const SignalTerm& term = shown->signal.terms[0];
+  const SignalTerm* only = shown->signal.only_term();
+  if (!only) return;
+  const SignalTerm& term = *only;
   const JointDescription* joint = find_named(robot.joints, term.object);
   if (joint == nullptr || !joint->limit) return;
   const LimitDescription& limit = *joint->limit;

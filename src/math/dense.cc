@@ -120,17 +120,19 @@ struct PivotedLeastSquares::Implementation {
 
 PivotedLeastSquares::PivotedLeastSquares(const Eigen::MatrixXd& A)
     : implementation_(std::make_unique<Implementation>()) {
-  implementation_->qr.compute(A);
+  if (A.cols() > 0) implementation_->qr.compute(A);
 }
 PivotedLeastSquares::~PivotedLeastSquares() = default;
 PivotedLeastSquares::PivotedLeastSquares(PivotedLeastSquares&&) noexcept = default;
 
 Eigen::MatrixXd PivotedLeastSquares::solve(const Eigen::MatrixXd& b) const {
+  if (implementation_->qr.cols() == 0) return Eigen::MatrixXd::Zero(0, b.cols());
   return implementation_->qr.solve(b);
 }
 
 double PivotedLeastSquares::explained(const Eigen::VectorXd& b) const {
   const Qr& qr = implementation_->qr;
+  if (qr.cols() == 0) return 0.0;
   return (qr.householderQ().transpose() * b).head(qr.rank()).squaredNorm();
 }
 

@@ -58,6 +58,7 @@ class PivotedQr {
 /// Least squares A x = b by the same decomposition, with Eigen's default threshold.
 class PivotedLeastSquares {
  public:
+  /// @param A may have no columns.
   explicit PivotedLeastSquares(const Eigen::MatrixXd& A);
   ~PivotedLeastSquares();
   PivotedLeastSquares(PivotedLeastSquares&&) noexcept;

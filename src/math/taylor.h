@@ -11,7 +11,8 @@ namespace codesign {
 
 /// A function of time near one instant as its Taylor polynomial sum c_k tau^k to the third degree.
 /// The operations are those of power series (Griewank and Walther, Evaluating Derivatives, 2008,
-/// section 13.2). T: double, std::complex<double> or Lanes<N>.
+/// section 13.2). T: double, std::complex<double>, Lanes<N> or
+/// Traced.
 template <class T>
 struct Taylor {
   static constexpr std::size_t kTerms = 4;
@@ -105,6 +106,11 @@ struct Taylor {
     return along(y, value.c[0], x / square) - along(x, T(0.0), y / square);
   }
   friend double value_of(const Taylor& x) { return value_of(x.c[0]); }
+  friend Taylor nearest_integer(const Taylor& x) { return Taylor(nearest_integer(x.c[0])); }
+  friend bool is_less(const Taylor& x, const Taylor& y, bool likely,
+                      unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
+    return is_less(x.c[0], y.c[0], likely, place);
+  }
 
  private:
   /// sin x and cos x, each the slope of the other.

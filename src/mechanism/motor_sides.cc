@@ -14,7 +14,7 @@ bool moves_apart(const JointDescription& joint, const MotionStudy& study) {
 
 JointDescription motor_side(const JointDescription& joint, int link) {
   JointDescription motor;
-  motor.name = joint.name + "/motor";
+  motor.name = joint.name + kMotorSuffix;
   motor.type = is_turn(joint.type) ? JointType::kContinuous : JointType::kPrismatic;
   motor.parent = joint.parent;
   motor.child = link;

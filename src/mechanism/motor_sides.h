@@ -1,10 +1,22 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "description/motion_study.h"
 #include "description/robot.h"
 
 namespace codesign {
+
+/// The motor's side of a gear is the joint `JOINT/motor`.
+constexpr const char* kMotorSuffix = "/motor";
+/// The joint to which a motor's side belongs; of another joint its own name.
+inline std::string joint_of_motor(const std::string& name) {
+  const std::string suffix = kMotorSuffix;
+  const bool is_motor = name.size() > suffix.size() &&
+                        name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+  return is_motor ? name.substr(0, name.size() - suffix.size()) : name;
+}
 
 /// The model in which the motors behind elastic gears move by themselves, theory (9c): after the
 /// joints of the files each of them has a joint of its own, NAME/motor with JointDescription::

@@ -19,7 +19,8 @@ struct JointSamples {
   std::string joint;
   std::vector<double> position, velocity, effort;
   std::optional<FittedNumber> start =
-      std::nullopt;  ///< position at the first time, if velocities are to be integrated
+      std::nullopt;            ///< position at the first time, if velocities are to be integrated
+  bool is_prescribed = false;  ///< not recorded, but computed from the study's `motion`
 
   std::vector<double>& of(MeasuredQuantity quantity) {
     return quantity == MeasuredQuantity::kPosition   ? position

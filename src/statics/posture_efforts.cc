@@ -48,6 +48,7 @@ Eigen::MatrixXd some_postures(const PostureGrid& grid) {
 DrivenReplay held(const CompiledSystem& system, const PostureGrid& grid,
                   const std::vector<double>& parameters,
                   const std::vector<SignalDescription>& signals) {
+  refuse_loads_of_time(system, "postures at rest have no time");
   try {
     return DrivenReplay(system, driven_joints(grid), some_postures(grid), parameters, signals);
   } catch (const InputError& error) {
@@ -88,7 +89,7 @@ double PostureStatics::slipping(const Eigen::VectorXd& positions, std::size_t dr
   Eigen::VectorXd given[] = {positions, Eigen::VectorXd::Zero(positions.size()),
                              Eigen::VectorXd::Zero(positions.size())};
   given[1][to_signed(drive)] = direction * kSlip;
-  if (!replay_.show(given, &frame_).ok())
+  if (!replay_.show(0.0, given, &frame_).ok())
     return direction * std::numeric_limits<double>::infinity();
   return frame_.joints[drives()[drive]].effort;
 }
@@ -97,7 +98,7 @@ Status PostureStatics::show(const Eigen::VectorXd& positions, Frame* frame,
                             std::vector<PostureEffort>* efforts) {
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(positions.size());
   const Eigen::VectorXd given[] = {positions, still, still};
-  if (Status status = replay_.show(given, frame); !status.ok()) return status;
+  if (Status status = replay_.show(0.0, given, frame); !status.ok()) return status;
   efforts->assign(drives().size(), {});
   for (std::size_t k = 0; k < efforts->size(); ++k) {
     PostureEffort& effort = (*efforts)[k];

@@ -11,41 +11,46 @@ namespace {
 
 /// The joint whose position a controller controls; empty if it controls something else.
 std::string controlled_joint(const ControllerDescription& controller) {
-  if (!controller.kind->has_error() || controller.input.terms.size() != 1) return "";
-  const SignalTerm& input = controller.input.terms.front();
-  return input.factor == 1.0 && input.quantity == "position" && input.component.empty()
-             ? input.object
-             : "";
+  if (!controller.kind->has_error()) return "";
+  const SignalTerm* input = controller.input.only_term();
+  return input && input->quantity == "position" && input->component.empty() ? input->object : "";
 }
 
 }  // namespace
 
 SetpointMotion::SetpointMotion(const MotionStudy& study, const std::vector<double>& parameters) {
+  for (const GivenMotion& motion : study.motion) {
+    joints_.push_back({motion.joint, true, 1.0, motion.where});
+    motions_.emplace_back(motion.position, parameters);
+  }
   for (const ControllerDescription& controller : study.controllers) {
     const std::string joint = controlled_joint(controller);
     if (joint.empty()) continue;
     if (std::any_of(joints_.begin(), joints_.end(),
                     [&](const MeasuredJoint& other) { return other.name == joint; }))
       throw InputError({controller.where, "controllers." + controller.name,
-                        "two controllers give the position of one joint", joint,
-                        "one controller with " + joint + "/position as its input"});
+                        "two controllers, or a motion and a controller, give the position of one "
+                        "joint",
+                        joint, "one controller with " + joint + "/position as its input"});
     joints_.push_back({joint, true, 1.0, controller.where});
-    setpoints_.emplace_back(controller.setpoint, parameters);
+    motions_.emplace_back(controller.setpoint, parameters);
   }
   if (joints_.empty())
-    throw InputError({{study.file, 1},
-                      "controllers",
-                      "the study gives no motion: no controller controls the position of a joint",
-                      "",
-                      "a controller with the input JOINT/position, or of the type computed_torque "
-                      "or pd_gravity; or postures in efforts.grid. Motions that are given by "
-                      "`motion` are simulated, and their efforts are signals"});
+    throw InputError(
+        {{study.file, 1},
+         "controllers",
+         "the study gives no motion: it has no `motion`, and no controller controls the "
+         "position of a joint",
+         "",
+         "motion: {JOINT: {position: FUNCTION}}, or a controller with the input "
+         "JOINT/position, or of the type computed_torque or pd_gravity; or postures in "
+         "efforts.grid"});
 }
 
 void SetpointMotion::at(double time, Eigen::VectorXd (*given)[3]) const {
   for (Eigen::VectorXd& order : *given) order.resize(to_signed(joints_.size()));
   for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const ReferenceMotion<double> motion = setpoints_[k].at(time);
+    const ReferenceMotion<double> motion = motions_[k].at(time);
     const auto row = to_signed(k);
     (*given)[0][row] = motion.value;
     (*given)[1][row] = motion.rate;

@@ -11,13 +11,13 @@ namespace codesign {
 
 struct MotionStudy;
 
-/// The motion that a study asks of its joints: each joint whose position a controller controls has
-/// the position, rate and acceleration of the set-point, without an error.
+/// The motion that a study asks of its joints: those of its `motion`, and each joint whose position
+/// a controller controls has the position, rate and acceleration of the set-point, without an
+/// error.
 class SetpointMotion {
  public:
   /// @param parameters all named parameters.
-  /// @throws InputError if no controller controls the position of a joint, or two control one
-  /// joint.
+  /// @throws InputError if no joint has a motion, or two controllers control one joint.
   SetpointMotion(const MotionStudy& study, const std::vector<double>& parameters);
 
   const std::vector<MeasuredJoint>& joints() const { return joints_; }
@@ -28,7 +28,7 @@ class SetpointMotion {
 
  private:
   std::vector<MeasuredJoint> joints_;
-  std::vector<Reference<double>> setpoints_;
+  std::vector<Reference<double>> motions_;
 };
 
 }  // namespace codesign

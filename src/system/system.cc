@@ -193,6 +193,11 @@ void System::resolve_controllers() {
   observed.insert(observed.end(), watched_.begin(), watched_.end());
   controllers_ =
       codesign::resolve_controllers(study(), robot_, topology_, observed, &layout_.states);
+  for (const Controller& controller : controllers_) {
+    const std::vector<Signal>& read = controller.feedback;
+    reads_time_ = reads_time_ || codesign::reads_time(controller.input) ||
+                  std::any_of(read.begin(), read.end(), codesign::reads_time);
+  }
 }
 
 void System::check_signals() const {

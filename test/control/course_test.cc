@@ -1,7 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "control/reference.h"
+#include "control/course.h"
 
 namespace codesign {
 namespace {

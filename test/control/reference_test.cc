@@ -323,44 +323,17 @@ TEST(ShapedInput, DerivativesByCoefficientsAreTheWeights) {
               1e-15);
 }
 
-/// start + the integral of a rate.
-Reference<double> integral_of(const ReferenceDescription& rate, double start) {
+ReferenceDescription expression_of(const std::string& text, const std::vector<std::string>& names) {
   ReferenceDescription description;
-  description.kind = ReferenceDescription::Kind::kIntegral;
-  description.integral = {std::make_shared<const ReferenceDescription>(rate), start};
-  return Reference<double>(description, {});
-}
-
-TEST(Reference, AnIntegralIsExactForEveryRate) {
-  const Reference<double> constant = integral_of(-10.0, 0.3);
-  EXPECT_NEAR(constant.at(2.0).value, -19.7, 1e-14);
-  EXPECT_EQ(constant.at(2.0).rate, -10.0);
-
-  ReferenceDescription sine;
-  sine.kind = ReferenceDescription::Kind::kSine;
-  sine.sine = {2.0, 0.4, 0.5, 0.25, false};
-  ReferenceDescription points;
-  points.kind = ReferenceDescription::Kind::kWaypoints;
-  points.waypoints.times = {0.4, 1.0, 1.7};
-  points.waypoints.positions = {1.0, -2.0, 0.5};
-  for (const ReferenceDescription& rate : {sine, points}) {
-    const Reference<double> integral = integral_of(rate, 0.3);
-    EXPECT_NEAR(integral.at(0.0).value, 0.3, 1e-15);
-    for (double t : {0.2, 0.7, 1.3, 2.5}) {
-      const double difference =
-          ridders_derivative([&](double x) { return integral.at(x).value; }, t, 1e-2).value;
-      EXPECT_NEAR(difference, Reference<double>(rate, {}).at(t).value, 1e-9) << t;
-      expect_derivatives(integral, t);
-    }
-  }
+  description.kind = ReferenceDescription::Kind::kExpression;
+  description.expression = {std::make_shared<const Expression>(text, names),
+                            static_cast<int>(names.size()) - 1};
+  return description;
 }
 
 TEST(Reference, AnExpressionHasThreeDerivatives) {
-  ReferenceDescription description;
-  description.kind = ReferenceDescription::Kind::kExpression;
-  const std::vector<std::string> names{"A", "t"};
-  description.expression = {
-      std::make_shared<const Expression>("A*sin(3*t)*exp(-t) + (t < 1 ? t^2 : 2*t - 1)", names), 1};
+  const ReferenceDescription description =
+      expression_of("A*sin(3*t)*exp(-t) + (t < 1 ? t^2 : 2*t - 1)", {"A", "t"});
   const Reference<double> reference(description, {0.7});
   for (double t : {0.4, 1.6}) {
     expect_derivatives(reference, t);

@@ -137,7 +137,14 @@ TEST(ResolveSignal, AnExpressionHasItsSignalsInOrderParametersAndTheTime) {
   EXPECT_EQ(signal.formula->variables[3].term, 1);
   EXPECT_TRUE(reads_time(signal));
   EXPECT_FALSE(reads_time(fixture.resolve("${yaw/position^2}")));
-  EXPECT_FALSE(differentiate(signal));
+  const std::optional<Signal> rate = differentiate(signal);
+  ASSERT_TRUE(rate);
+  EXPECT_TRUE(rate->is_rate);
+  ASSERT_EQ(rate->size(), 4U);
+  EXPECT_EQ((*rate)[2].kind, SignalKind::kJointAcceleration);
+  EXPECT_EQ((*rate)[3].kind, SignalKind::kJointVelocity);
+  EXPECT_FALSE(differentiate(*rate));
+  EXPECT_FALSE(differentiate(fixture.resolve("${yaw/acceleration^2}")));
   EXPECT_NE(fixture.refusal("${b*pitch/velocity}").find("unknown parameter"), std::string::npos);
   EXPECT_NE(fixture.refusal("${pich/velocity^2}").find("did you mean"), std::string::npos);
 }

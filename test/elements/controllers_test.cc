@@ -38,6 +38,39 @@ TEST(EquationsControllers, APidThatFollowsAMovingSetpointHasExactDerivatives) {
                                             "}, {signal: b/error + b/output}"));
 }
 
+// The rate of the expression is exact, with the time in it, branches and another controller.
+TEST(EquationsControllers, APidOfAnExpressionHasExactDerivatives) {
+  for (const char* input :
+       {"${cos(shoulder/position)*sin(elbow/position + 3*t) + elbow/position^2}",
+        "${max(shoulder/position, 0.1*elbow/position)/(2 + shoulder/velocity^2)}",
+        "${abs(shoulder/position) + sqrt(2 + elbow/position)*exp(-t)}"})
+    expect_exact(
+        double_pendulum(),
+        study(std::string("  a: {type: pid, input: \"") + input +
+                  "\", output: shoulder, gains: {p: 3.0, i: 2.0, d: 0.5}, setpoint: " + kSine +
+                  "}\n  b: {type: state_feedback, output: elbow, feedback: "
+                  "[{signal: \"${a/error*elbow/velocity}\", gain: 0.4}]}\n",
+              "{signal: a/output + b/output}"));
+}
+
+// What an expression says in another way gives the same controller.
+TEST(EquationsControllers, AnExpressionIsTheSignalThatItMeans) {
+  const auto output = [](const std::string& input) {
+    Compiled c(double_pendulum(),
+               study("  a: {type: pid, input: \"" + input +
+                         "\", output: shoulder, gains: {p: 3.0, d: 0.5}, setpoint: 0.3}\n",
+                     "{signal: a/output}") +
+                   "initial_state: {shoulder: {position: 0.4, velocity: 1.5}, elbow: {position: "
+                   "-0.2, velocity: 0.7}}\n");
+    EXPECT_TRUE(c.start().ok());
+    c.equations.formulas().load(c.state);
+    return c.equations.formulas().controller_output(0);
+  };
+  EXPECT_NEAR(output("${(shoulder/position^2 - elbow/position^2)/(shoulder/position + "
+                     "elbow/position)}"),
+              output("shoulder/position - elbow/position"), 1e-14);
+}
+
 TEST(EquationsControllers, GravityCompensationHasExactDerivatives) {
   for (const char* joint : {"travel", "turn", "reach", "wrist"})
     expect_exact(crane(), study(std::string("  servo: {type: pd_gravity, output: ") + joint +

@@ -117,5 +117,61 @@ TEST(PostureSequence, StaysAtItsEndAndCanGoOnWithOtherValues) {
   EXPECT_NEAR(opening(0.55464, 1.3, 0.72463, 2.0, frame.signals[0]), 0.0, 1e-13);
 }
 
+/// Two links of 2 and 1 kg that hang from hinges about y, with their centres 0.3 m below these.
+const std::string kHangingLinks = [] {
+  const auto link = [](const std::string& name, const std::string& mass) {
+    return "<link name='" + name + "'><inertial><origin xyz='0 0 -0.3'/><mass value='" + mass +
+           "'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial></link>";
+  };
+  return "<robot name='links'><link name='base'/>" + link("upper", "2") + link("lower", "1") +
+         "<joint name='shoulder' type='continuous'><parent link='base'/><child link='upper'/><axis "
+         "xyz='0 1 0'/></joint><joint name='elbow' type='continuous'><parent link='upper'/><child "
+         "link='lower'/><origin xyz='0 0 -0.6'/><axis xyz='0 1 0'/></joint></robot>";
+}();
+
+Problem hanging_links(const std::string& hold) {
+  return load_problem(
+      {"links.urdf", kHangingLinks}, {},
+      {"links.yaml",
+       "positions: {shoulder: [0.2, 0.9, 1.4], elbow: [0.0, -0.5, 1.0]}\nhold: " + hold + "\n"});
+}
+
+TEST(PostureSequence, DrivesHoldPosturesWithTheTorqueOfGravity) {
+  const double upper[] = {0.2, 0.9, 1.4}, lower[] = {0.0, -0.5, 1.0}, g = 9.81;
+  const Recorded run = record(hanging_links("true"), {"shoulder/effort", "elbow/effort",
+                                                      "shoulder/position", "elbow/acceleration"});
+  ASSERT_TRUE(run.status.ok()) << run.status.cause;
+  ASSERT_EQ(run.signals.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double elbow = 0.3 * g * std::sin(upper[k] + lower[k]),
+                 shoulder = (2.0 * 0.3 + 0.6) * g * std::sin(upper[k]) + elbow;
+    EXPECT_NEAR(run.signals[k][0], shoulder, 1e-12);
+    EXPECT_NEAR(run.signals[k][1], elbow, 1e-12);
+    EXPECT_NEAR(run.signals[k][2], upper[k], 1e-15);
+    EXPECT_NEAR(run.signals[k][3], 0.0, 1e-12);
+  }
+}
+
+// The forearm falls, and its weight counts only as far as its inertia holds against it.
+TEST(PostureSequence, JointsThatNoDriveHoldAreLetGo) {
+  const Recorded held = record(hanging_links("true"), {"shoulder/effort"}),
+                 run = record(hanging_links("[shoulder]"),
+                              {"shoulder/effort", "elbow/effort", "elbow/acceleration"});
+  ASSERT_TRUE(run.status.ok()) << run.status.cause;
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_EQ(run.signals[k][1], 0.0);
+    const double angle = k == 1 ? 0.4 : 2.4;
+    EXPECT_NEAR(run.signals[k][2], -0.3 * 9.81 * std::sin(angle) / (0.1 + 0.09), 1e-10);
+    EXPECT_GT(std::abs(run.signals[k][0] - held.signals[k][0]), 0.1);
+  }
+}
+
+TEST(PostureSequence, RefusesToHoldWhatHasNoPostures) {
+  for (const char* hold : {"[wrist]", "7"}) EXPECT_THROW(hanging_links(hold), InputError) << hold;
+  EXPECT_THROW(
+      load_problem({"links.urdf", kHangingLinks}, {}, {"links.yaml", "duration: 1\nhold: true\n"}),
+      InputError);
+}
+
 }  // namespace
 }  // namespace codesign

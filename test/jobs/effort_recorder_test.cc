@@ -161,6 +161,22 @@ TEST(EffortRecorder, PosturesOutOfReachHaveNoEffort) {
   EXPECT_NEAR(rows[2][1], 0.0, 1e-9);
 }
 
+// The same motion given in place of controlled, with a torque that the time drives on the elbow.
+TEST(EffortRecorder, FollowsMotionsThatAreGivenUnderLoadsOfTheTime) {
+  Rows controlled, given;
+  record(loaded(arm_urdf(), kSwings), {}, 11, &controlled);
+  record(loaded(arm_urdf(),
+                "duration: 2\nmotion: {shoulder: {position: \"${0.3 + 0.4*sin(3*t)}\"}, elbow: "
+                "{position: -0.2}}\nloads: [{joint: elbow, effort: \"${1.5*t}\"}]\n"),
+         {}, 11, &given);
+  ASSERT_EQ(given.size(), 11U);
+  for (std::size_t k = 0; k < given.size(); ++k)
+    for (std::size_t column = 0; column < 9; ++column) {
+      const double load = column == 8 ? 1.5 * given[k][0] : 0.0;
+      EXPECT_NEAR(given[k][column], controlled[k][column] - load, 1e-10) << k << ' ' << column;
+    }
+}
+
 TEST(EffortRecorder, NamesJointsThatNoControllerMoves) {
   const Problem problem =
       loaded(arm_urdf(),
@@ -168,7 +184,7 @@ TEST(EffortRecorder, NamesJointsThatNoControllerMoves) {
              "shoulder, setpoint: 0, gains: {p: 1}}}\n");
   Rows rows;
   const std::string message = refused([&] { record(problem, {}, 2, &rows); });
-  EXPECT_NE(message.find("<joint name=\"elbow\">: its motion is not determined: no controller"),
+  EXPECT_NE(message.find("<joint name=\"elbow\">: its motion is not determined: neither"),
             std::string::npos)
       << message;
 }

@@ -46,6 +46,24 @@ TEST(PostureGradient, MeetsDifferences) {
   }
 }
 
+// The crank is held: what its drive takes, and the reactions, are those of statics, and with a
+// velocity those of a motion without acceleration.
+TEST(PostureGradient, OfHeldPosturesMeetsDifferences) {
+  for (const char* const begin :
+       {"\nhold: true\n", "\nhold: [crank_joint]\ngravity: [0, 3, 0]\n"}) {
+    const Problem problem =
+        path_generator(std::string("objective: {sum: [{signal: crank_joint/effort}, {signal: "
+                                   "rocker/reaction_force/x, weight: 1.0e-2}]}\n") +
+                       begin);
+    const GradientCheck check = check_gradient(problem, problem.start(), CheckMethod::kComplexStep);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    const double largest = check.reference.cwiseAbs().maxCoeff();
+    EXPECT_GT(largest, 0.0);
+    EXPECT_LT((check.evaluation.gradient - check.reference).cwiseAbs().maxCoeff(), 1e-9 * largest)
+        << begin;
+  }
+}
+
 TEST(PostureGradient, OfWatchedSignalsMeetsDifferences) {
   const Problem problem = path_generator(
       "path: [{signal: pen/position/y, at_most: 9}, {signal: pen/velocity/x, at_most: 9, after: "

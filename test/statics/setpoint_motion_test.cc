@@ -48,9 +48,26 @@ TEST(SetpointMotion, RefusesAStudyWithoutOne) {
         "{a: {type: pid, input: elbow/position, setpoint: 0, gains: {p: 1}, output: elbow}, "
         "b: {type: pid, input: elbow/position, setpoint: 1, gains: {p: 1}, output: elbow}}");
   });
-  EXPECT_NE(twice.find("controllers.b: two controllers give the position of one joint"),
+  EXPECT_NE(twice.find("controllers.b: two controllers, or a motion and a controller, give the "
+                       "position of one joint"),
             std::string::npos)
       << twice;
+}
+
+TEST(SetpointMotion, HasTheMotionsThatTheStudyGives) {
+  const Problem problem =
+      loaded(arm_urdf(),
+             "duration: 2\nmotion: {shoulder: {velocity: 0.5}}\ncontrollers: {swing: {type: pid, "
+             "input: elbow/position, output: elbow, setpoint: 0.3, gains: {p: 1}}}\n");
+  const SetpointMotion motion(study_of(problem), problem.parameters());
+  ASSERT_EQ(motion.joints().size(), 2U);
+  EXPECT_EQ(motion.joints()[0].name, "shoulder");
+  Eigen::VectorXd given[3];
+  motion.at(0.8, &given);
+  EXPECT_NEAR(given[0][0], 0.4, 1e-15);
+  EXPECT_EQ(given[1][0], 0.5);
+  EXPECT_EQ(given[2][0], 0.0);
+  EXPECT_EQ(given[0][1], 0.3);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "description/study.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/effort/motion_projection.h"
+#include "identification/fit/given_motion.h"
 #include "math/arrays.h"
 #include "observation/observer.h"
 #include "problem/load_problem.h"
@@ -221,22 +222,21 @@ class MotionComparison {
     const bool is_first = compared->model.empty();
     Frame model, measured;
     Status& status = compared->status;
-    status = show(simulated, is_first, &model_, &model);
-    if (status.ok() && measured_) status = show(given, is_first, &*measured_, &measured);
+    const double time = instant.time;
+    status = show(time, simulated, is_first, &model_, &model);
+    if (status.ok() && measured_) status = show(time, given, is_first, &*measured_, &measured);
     if (!status.ok()) return;
-    model.time = instant.time;
-    if (measured_) measured.time = instant.time;
     compared->measured.push_back(
         measured_frame(measured_ ? measured : model, joints, instant.sample, instant.time));
     if (is_simulated_) set_efforts(joints, instant, series, &model);
     compared->model.push_back(std::move(model));
   }
 
-  static Status show(const Eigen::VectorXd (&given)[3], bool is_first, DrivenReplay* replay,
-                     Frame* frame) {
+  static Status show(double time, const Eigen::VectorXd (&given)[3], bool is_first,
+                     DrivenReplay* replay, Frame* frame) {
     if (is_first)
       if (Status status = replay->begin(given[0]); !status.ok()) return status;
-    return replay->show(given, frame);
+    return replay->show(time, given, frame);
   }
 
   /// The efforts of a simulated motion: computed by its controllers, or recorded and applied to the
@@ -318,7 +318,8 @@ ComparedMotion compare_motion(const Problem& problem, const StudyRecordings& rec
     for (const JointRecording& recording : *list)
       compared.recordings.push_back({recording.element, {}, {}, {}});
   try {
-    compare_all(problem, recordings, result, rate, stop, &compared);
+    const std::optional<StudyRecordings> completed = with_given_motions(problem, recordings);
+    compare_all(problem, completed ? *completed : recordings, result, rate, stop, &compared);
   } catch (const InputError& error) {
     for (ComparedRecording& recording : compared.recordings)
       recording.status = {StatusCode::kAssemblyFailed, 0.0,

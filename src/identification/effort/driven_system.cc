@@ -5,7 +5,9 @@
 #include <string>
 
 #include "assembly/assembly.h"
+#include "control/reference.h"
 #include "description/study.h"
+#include "identification/fit/given_motion.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"
 
@@ -46,9 +48,8 @@ std::vector<int> find_joints(const RobotDescription& robot,
   return joints;
 }
 
-/// The study without everything that depends on time or drives joints. A driven motion needs
-/// derivatives by positions and velocities only along directions: with this method their matrices
-/// are not recorded.
+/// The study without everything that drives joints. A driven motion needs derivatives by positions
+/// and velocities only along directions: with this method their matrices are not recorded.
 Study without_control(Study study) {
   study.solver.integrator = IntegratorKind::kRosenbrock;
   study.solver.method = RosenbrockMethod::kAuto;
@@ -76,27 +77,61 @@ void refuse_friction_states(const CompiledSystem& system) {
        "brown_mcphee for residuals in effort; residuals in motion for laws with states"});
 }
 
-/// Efforts are computed instant by instant, without a time.
-void refuse_loads_of_time(const CompiledSystem& system) {
-  const auto varies = [](const LoadFunction& function, const Signal& signal) {
-    const bool reads_setpoint = std::any_of(
-        signal.begin(), signal.end(),
-        [](const SignalReference& term) { return term.kind == SignalKind::kControllerSetpoint; });
-    return reads_time(signal) || reads_setpoint ||
-           (!signal.formula && function.of_time.kind != ReferenceDescription::Kind::kConstant);
-  };
+bool reads_setpoint(const LoadFunction&, const Signal& signal) {
+  return std::any_of(signal.begin(), signal.end(), [](const SignalReference& term) {
+    return term.kind == SignalKind::kControllerSetpoint;
+  });
+}
+
+bool reads_clock(const LoadFunction& function, const Signal& signal) {
+  return reads_time(signal) ||
+         (!signal.formula && function.of_time.kind != ReferenceDescription::Kind::kConstant);
+}
+
+/// @throws InputError for a load with a component for which `is_refused` holds.
+void refuse_loads(const CompiledSystem& system,
+                  bool (*is_refused)(const LoadFunction&, const Signal&), const std::string& reason,
+                  const std::string& allowed) {
   const std::vector<LoadDescription>& loads = system.study().loads;
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const LoadSignals& signals = system.load_signals()[k];
-    bool any = varies(loads[k].effort, signals.effort);
+    bool any = is_refused(loads[k].effort, signals.effort);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      any = any || varies(loads[k].force[axis], signals.force[axis]) ||
-            varies(loads[k].torque[axis], signals.torque[axis]);
+      any = any || is_refused(loads[k].force[axis], signals.force[axis]) ||
+            is_refused(loads[k].torque[axis], signals.torque[axis]);
     if (any)
-      throw InputError({loads[k].where, "loads[" + std::to_string(k) + "]",
-                        "the efforts of a recorded motion are computed without the time", "",
-                        "loads that are constant or depend on the motion"});
+      throw InputError({loads[k].where, "loads[" + std::to_string(k) + "]", reason, "", allowed});
   }
+}
+
+/// Inverse dynamics drive joints of the tree.
+void refuse_motions_of_loops(const CompiledSystem& of) {
+  for (const GivenMotion& motion : of.whole_study().motion)
+    for (const JointDescription& joint : of.robot().joints)
+      if (joint.is_loop && joint.name == motion.joint)
+        throw InputError({motion.where, "motion." + motion.joint,
+                          "inverse dynamics need the motion of joints of the tree, and this is the "
+                          "joint of a loop",
+                          motion.joint,
+                          "the motion of a joint of the tree instead; identify has residual: "
+                          "motion for it, and simulations"});
+}
+
+/// The mechanism without the motions that its study gives. Their joints are where they begin.
+CompiledSystem without_motions(const CompiledSystem& of) {
+  Study study = of.whole_study();
+  for (const GivenMotion& motion : study.motion) {
+    std::vector<InitialJointState>& starts = study.initial_state;
+    starts.erase(
+        std::remove_if(starts.begin(), starts.end(),
+                       [&](const InitialJointState& start) { return start.joint == motion.joint; }),
+        starts.end());
+    InitialJointState& start = starts.emplace_back();
+    start.joint = motion.joint;
+    start.position = Quantity(Reference<double>(motion.position, of.parameters()).at(0.0).value);
+  }
+  study.motion.clear();
+  return {of.robot(), std::move(study), of.sharing()};
 }
 
 /// The study with a start near measured positions: the joints of `held` (indices in `joints`) have
@@ -197,7 +232,8 @@ class DependentCoordinates {
   void require_determined(const TreeLayout& tree, int joint) const {
     const JointDescription& description = system_.robot().joints[to_index(joint)];
     if (description.is_loop || system_.topology().joint_pair[to_index(joint)] < 0)
-      return;  // such a joint moves no mass
+      return;                          // such a joint moves no mass
+    if (description.is_motor) return;  // gears are rigid where the motion is given
     if (std::find(joints_.begin(), joints_.end(), joint) != joints_.end()) return;
     const int first = tree.offset[to_index(joint)];
     for (int c = first; c < first + coordinates_of(description.type); ++c)
@@ -225,7 +261,7 @@ DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJ
     return DependentCoordinates(of, measured, joints).sort_out();
   } catch (const InputError&) {
     StartWorkspace usual(of, of.parameters());
-    if (!usual.solve_positions().ok()) throw;
+    if (!of.whole_study().motion.empty() || !usual.solve_positions().ok()) throw;
     std::vector<int> held;  // joints that are probably driven: they keep the linkage from returning
                             // to its former position
     for (std::size_t k = 0; k < measured.size(); ++k)
@@ -247,10 +283,14 @@ DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJ
 DrivenSystem make_driven_system(const CompiledSystem& of,
                                 const std::vector<MeasuredJoint>& measured,
                                 const Eigen::MatrixXd& positions) {
+  refuse_motions_of_loops(of);
   const std::vector<int> joints = find_joints(of.robot(), measured);
   refuse_friction_states(of);
-  refuse_loads_of_time(of);
-  DrivenSystem driven = choose_drives(of, measured, joints, positions);
+  refuse_loads(of, reads_setpoint, "controllers have no part in a recorded motion",
+               "loads that do not read a set-point");
+  DrivenSystem driven = of.whole_study().motion.empty()
+                            ? choose_drives(of, measured, joints, positions)
+                            : choose_drives(without_motions(of), measured, joints, positions);
   std::vector<int> drives;
   for (int k : driven.drives) drives.push_back(joints[to_index(k)]);
   driven.system = std::make_shared<const CompiledSystem>(
@@ -268,12 +308,20 @@ InputFault in_words_of_study(InputFault fault, const std::string& element,
   return fault;
 }
 
+void refuse_loads_of_time(const CompiledSystem& system, const std::string& reason) {
+  refuse_loads(system, reads_clock, reason, "loads that are constant or depend on the motion");
+}
+
 std::vector<std::string> independent_joints(const CompiledSystem& of,
-                                            const std::vector<MeasuredJoint>& measured,
+                                            std::vector<MeasuredJoint> measured,
                                             const Eigen::MatrixXd& positions) {
   std::vector<std::string> names;
+  for (MeasuredJoint& joint : measured)
+    joint.with_effort = joint.with_effort && !has_given_motion(of.whole_study(), joint.name);
   for (int k : choose_drives(of, measured, find_joints(of.robot(), measured), positions).drives)
     names.push_back(measured[to_index(k)].name);
+  for (const JointDescription& joint : of.robot().joints)
+    if (joint.is_motor) names.push_back(joint.name);
   return names;
 }
 

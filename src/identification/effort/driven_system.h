@@ -24,8 +24,9 @@ struct MeasuredJoint {
 };
 
 /// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine
-/// the motion are driven. Each drive adds a constraint row whose multiplier is minus the effort.
-/// The study of the system has neither controllers nor an objective.
+/// the motion are driven, those whose motion the study gives among them. Each drive adds a
+/// constraint row whose multiplier is minus the effort. The study of the system has neither
+/// controllers nor given motions nor an objective.
 struct DrivenSystem {
   std::shared_ptr<const CompiledSystem> system;
   std::vector<int> drives;   ///< the driven joints as indices in the list of measured joints,
@@ -41,7 +42,7 @@ struct DrivenSystem {
 /// have no columns.
 /// @throws InputError for unknown or repeated joints and joints without one coordinate, for a joint
 /// whose motion the measured joints do not determine, for more joints with an effort than degrees
-/// of freedom, and for friction laws with states.
+/// of freedom, for friction laws with states, and for loads that read a set-point.
 DrivenSystem make_driven_system(const CompiledSystem& of,
                                 const std::vector<MeasuredJoint>& measured,
                                 const Eigen::MatrixXd& positions = {});
@@ -52,11 +53,15 @@ DrivenSystem make_driven_system(const CompiledSystem& of,
 InputFault in_words_of_study(InputFault fault, const std::string& element,
                              const std::string& undetermined, const std::string& allowed);
 
+/// @throws InputError for loads that depend on the time; `reason` says why there is none.
+void refuse_loads_of_time(const CompiledSystem& system, const std::string& reason);
+
 /// The measured joints that determine the motion of the mechanism, as make_driven_system() chooses
-/// drives; friction laws with states are allowed. @throws InputError as make_driven_system()
-/// otherwise does
+/// drives, but for joints whose motion the study gives; then the motors behind elastic gears, which
+/// move by themselves. Friction laws with states are allowed. @throws InputError as
+/// make_driven_system() otherwise does
 std::vector<std::string> independent_joints(const CompiledSystem& of,
-                                            const std::vector<MeasuredJoint>& measured,
+                                            std::vector<MeasuredJoint> measured,
                                             const Eigen::MatrixXd& positions = {});
 
 /// A position of the mechanism from which the first instant of a recording is assembled: all

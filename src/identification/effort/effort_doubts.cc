@@ -8,6 +8,7 @@
 
 #include "description/study.h"
 #include "identification/effort/effort_residuals.h"
+#include "identification/fit/given_motion.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "problem/load_problem.h"
@@ -220,6 +221,9 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
 std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
                                             const std::vector<JointRecording>& recordings) {
   if (recordings.empty()) return {};
+  if (!study_of(problem).motion.empty())
+    if (const auto completed = with_given_motions(problem, {recordings, {}}))
+      return find_effort_doubts(problem, completed->data);
   const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
   if (std::none_of(joints.begin(), joints.end(),
                    [](const MeasuredJoint& joint) { return joint.with_effort; }))

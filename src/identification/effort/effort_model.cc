@@ -33,6 +33,8 @@ void require_shape(const MotionSamples& motion, std::size_t joints) {
     if (part->rows() != to_signed(joints) || part->cols() != motion.position.cols())
       throw std::invalid_argument(
           "a measured motion needs one row per joint and one column per sample");
+  if (!motion.times.empty() && to_signed(motion.times.size()) != motion.position.cols())
+    throw std::invalid_argument("a measured motion needs one time per sample");
   if (motion.begins.empty() || motion.begins.front() != 0 ||
       !std::is_sorted(motion.begins.begin(), motion.begins.end()))
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");
@@ -123,6 +125,7 @@ Status EffortModel::prepare(const std::vector<double>& parameters, EffortWorker*
 }
 
 Status EffortModel::follow(const MotionProjection& projection, int sample, EffortWorker* worker) {
+  worker->state.t = time(sample);
   if (projection.empty()) return worker->motion.follow(given(sample), &worker->state);
   const Eigen::VectorXd measured[] = {motion_.position.col(sample), motion_.velocity.col(sample),
                                       motion_.acceleration.col(sample)};

@@ -23,8 +23,9 @@ struct MotionSamples {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
   std::vector<int>
       shifted{};  ///< joints with positions known up to a constant in each recording, ascending
-  std::vector<int> begins{0};  ///< the first sample of each recording, ascending; joints move
-                               ///< little between samples of one recording
+  std::vector<int> begins{0};   ///< the first sample of each recording, ascending; joints move
+                                ///< little between samples of one recording
+  std::vector<double> times{};  ///< of each sample [s], for loads that depend on the time; none: 0
 };
 
 /// The efforts that a mechanism needs for a measured motion, and their exact derivatives by the
@@ -95,6 +96,9 @@ class EffortModel {
     Status status;
   };
   DriveMotion given(int sample) const;
+  double time(int sample) const {
+    return motion_.times.empty() ? 0.0 : motion_.times[to_index(sample)];
+  }
   Status follow(const MotionProjection& projection, int sample, EffortWorker* worker);
   Status prepare(const std::vector<double>& parameters, EffortWorker* worker) const;
   Failure evaluate_block(int block, EffortWorker* worker, Eigen::MatrixXd* efforts,

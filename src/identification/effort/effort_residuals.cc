@@ -144,6 +144,8 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
         samples.acceleration(row, k) = motion.acceleration[at];
       }
     }
+    for (Eigen::Index k = begins_[r]; k < begins_[r + 1]; ++k)
+      samples.times.push_back(time(r, k - begins_[r]));
   }
   return samples;
 }

@@ -138,7 +138,8 @@ Status DrivenReplay::begin(const Eigen::VectorXd& positions) {
   return assemble_driven(system_, joints_, driven_, parameters_, positions, &state_);
 }
 
-Status DrivenReplay::show(const Eigen::VectorXd (&measured)[3], Frame* frame) {
+Status DrivenReplay::show(double time, const Eigen::VectorXd (&measured)[3], Frame* frame) {
+  state_.t = time;
   Eigen::VectorXd drives[3];
   for (int order = 0; order < 3; ++order) {
     drives[order].resize(to_signed(driven_.drives.size()));

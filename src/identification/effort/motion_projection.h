@@ -62,10 +62,11 @@ class DrivenReplay {
   /// before the first instant of each recording.
   Status begin(const Eigen::VectorXd& positions);
 
+  /// @param time of the motion [s], for loads that depend on it.
   /// @param measured positions, velocities and accelerations of the measured joints, near the
   /// motion of the previous call.
-  /// @param frame its time is not set. It has the efforts of the drives; other efforts are zero.
-  Status show(const Eigen::VectorXd (&measured)[3], Frame* frame);
+  /// @param frame It has the efforts of the drives; other efforts are zero.
+  Status show(double time, const Eigen::VectorXd (&measured)[3], Frame* frame);
 
  private:
   const CompiledSystem& system_;

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "description/study.h"
+#include "identification/fit/given_motion.h"
 #include "math/arrays.h"
+#include "mechanism/motor_sides.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -62,7 +64,8 @@ class SegmentStudy {
     for (const std::string& joint : independent) {
       InitialJointState& initial = study_.initial_state.emplace_back();
       initial.joint = joint;
-      initial.position = start_number(joint + "/position", recording.find(joint)->position.front());
+      initial.position = start_number(joint + "/position",
+                                      recording.find(joint_of_motor(joint))->position.front());
     }
     for (InitialJointState& initial : study_.initial_state)
       initial.velocity = start_number(initial.joint + "/velocity", 0.0);
@@ -111,9 +114,10 @@ class SegmentStudy {
 };
 
 bool is_driven(const Study& study, const std::string& joint) {
-  return std::any_of(
-      study.controllers.begin(), study.controllers.end(),
-      [&](const ControllerDescription& controller) { return controller.output == joint; });
+  return has_given_motion(study, joint) ||
+         std::any_of(
+             study.controllers.begin(), study.controllers.end(),
+             [&](const ControllerDescription& controller) { return controller.output == joint; });
 }
 
 bool has_velocities(const JointRecording& recording, const std::string& joint) {
@@ -147,17 +151,6 @@ void refuse_sampled(const Study& study) {
                         "no sample_time, or residuals in effort"});
 }
 
-/// Where the motor behind an elastic gear is at the begin of a segment is not recorded.
-void refuse_elastic(const RobotDescription& robot) {
-  for (const JointDescription& joint : robot.joints)
-    if (joint.motor >= 0)
-      throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
-                        "residuals in motion are simulated with rigid gears only, since recordings "
-                        "do not hold the deflection at the begin of a segment",
-                        "stiffness",
-                        "no stiffness, or residuals in effort, which take gears as rigid"});
-}
-
 }  // namespace
 
 std::vector<double> SegmentSystem::parameters(const FitVariables& variables,
@@ -178,6 +171,10 @@ std::vector<MotionOutput> motion_outputs(const CompiledSystem& of,
   std::vector<MotionOutput> outputs;
   for (const MeasuredJoint& joint : joints) {
     if (!moves_mass(of, joint.name)) continue;  // for example the frame of a tool
+    if (std::any_of(recordings.begin(), recordings.end(), [&](const JointRecording& each) {
+          return each.find(joint.name)->is_prescribed;
+        }))
+      continue;
     outputs.push_back({joint.name, MeasuredQuantity::kPosition});
     if (std::all_of(recordings.begin(), recordings.end(),
                     [&](const JointRecording& each) { return has_velocities(each, joint.name); }))
@@ -195,12 +192,13 @@ SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& 
                                   const JointRecording& recording) {
   refuse_idas(of.whole_study());
   refuse_sampled(of.whole_study());
-  refuse_elastic(of.robot());
   SegmentSystem result;
   result.outputs = outputs;
-  // Controllers may read functions of time, which use the clock of the recording. Without
-  // controllers the times begin at zero, where they are more exact.
-  if (of.whole_study().controllers.empty()) result.epoch = recording.times.front();
+  // Functions of time use the clock of the recording. Where there are none, the times begin at
+  // zero, where they are more exact.
+  const Study& study = of.whole_study();
+  if (study.controllers.empty() && study.motion.empty() && study.loads.empty())
+    result.epoch = recording.times.front();
   SegmentStudy segment(of, variables);
   segment.study().duration = recording.times.back() - result.epoch;
   std::vector<double> times = recording.times;

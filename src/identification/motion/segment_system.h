@@ -23,7 +23,8 @@ struct MotionOutput {
 };
 
 /// A mechanism for simulating one recording in segments, doc/theory.md (40): recorded efforts drive
-/// the joints that no controller of the study drives, and each segment has its own start.
+/// the joints that neither a controller nor a given motion of the study drives, and each segment
+/// has its own start.
 ///
 /// Its study extends the given study: after the parameters of the given study it has scale, delay
 /// and offset of each input, then the numbers of a start. Its tuned parameters are the tuned
@@ -45,7 +46,8 @@ struct SegmentSystem {
 };
 
 /// The outputs to compare with recordings that all have `joints`: positions, velocities that all
-/// recordings have, and recorded efforts of joints that a controller of the study drives.
+/// recordings have, and recorded efforts of joints that a controller or a given motion of the study
+/// drives.
 std::vector<MotionOutput> motion_outputs(const CompiledSystem& of,
                                          const std::vector<MeasuredJoint>& joints,
                                          const std::vector<JointRecording>& recordings);

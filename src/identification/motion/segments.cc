@@ -10,6 +10,7 @@
 #include "identification/fit/residual_fit.h"
 #include "math/arrays.h"
 #include "math/dense.h"
+#include "mechanism/motor_sides.h"
 #include "optimization/levenberg_marquardt.h"
 #include "recordings/measured_motion.h"
 #include "text/cancel.h"
@@ -33,12 +34,10 @@ class StartColumns {
       : lengths_(lengths_of(columns)), scaled_(columns * lengths_.cwiseInverse().asDiagonal()) {}
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
-    if (lengths_.size() == 0) return Eigen::MatrixXd::Zero(0, right.cols());
     return lengths_.cwiseInverse().asDiagonal() * scaled_.solve(right);
   }
   /// Decrease of the sum of squares by the best start, to first order.
   double predicted_decrease(const Eigen::VectorXd& residuals) const {
-    if (lengths_.size() == 0) return 0.0;
     return scaled_.explained(residuals);
   }
 
@@ -199,7 +198,7 @@ Eigen::VectorXd measured_start(const MeasuredMotion& motion,
   Eigen::VectorXd start = Eigen::VectorXd::Zero(starts);
   for (std::size_t k = 0; k < independent.size(); ++k)
     for (const JointMotion& joint : motion.joints)
-      if (joint.joint == independent[k]) {
+      if (joint.joint == joint_of_motor(independent[k])) {
         start[to_signed(k)] = joint.position[at];
         start[to_signed(independent.size() + k)] = joint.velocity[at];
       }
@@ -234,15 +233,18 @@ class Follower {
     equations_.set_design(parameters_);
   }
 
-  Status move_to(const Eigen::VectorXd& positions) {
+  /// @param time of the system [s], for motions that are given
+  Status move_to(const Eigen::VectorXd& positions, double time) {
     const Eigen::VectorXd from = position_;
+    const double begin = time_;
     const double way = from.size() > 0 ? (positions - from).cwiseAbs().maxCoeff() : 0.0;
     const int moves = static_cast<int>(std::clamp(std::ceil(way / kSmallMove), 1.0, kMostMoves));
     for (int move = 1; move <= moves; ++move) {
       position_ =
           from.size() > 0 ? Eigen::VectorXd(from + (positions - from) * move / moves) : positions;
       std::copy(position_.begin(), position_.end(), parameters_.begin() + to_signed(first_));
-      assembly_.begin_at(0.0, theta_);
+      time_ = begin + (time - begin) * move / moves;
+      assembly_.begin_at(time_, theta_);
       if (Status status = assembly_.solve_positions(parameters_, &equations_, &state_);
           !status.ok())
         return status;
@@ -257,6 +259,7 @@ class Follower {
   std::size_t first_;
   std::vector<double> parameters_;
   VectorX<double> theta_;
+  double time_ = 0.0;
   Eigen::VectorXd position_;
   Equations<double> equations_;
   Assembly assembly_;
@@ -267,7 +270,7 @@ Eigen::VectorXd positions_at(const JointRecording& recording,
                              const std::vector<std::string>& independent, std::size_t sample) {
   Eigen::VectorXd positions(to_signed(independent.size()));
   for (std::size_t k = 0; k < independent.size(); ++k)
-    positions[to_signed(k)] = recording.find(independent[k])->position[sample];
+    positions[to_signed(k)] = recording.find(joint_of_motor(independent[k]))->position[sample];
   return positions;
 }
 
@@ -300,7 +303,8 @@ SegmentSolution fit_segment(const SegmentProblem& problem,
                    run, &best);
     Eigen::VectorXd start = guess;
     LeastSquaresPoint point;
-    if (work == SegmentWork::kElimination)
+    // Where motions are given for all joints, no start is left to seek.
+    if (work == SegmentWork::kElimination || problem.of.starts == 0)
       cost.evaluate(start, &point);
     else
       minimize_squares(options, -open, open, &cost, &start, &point);
@@ -352,7 +356,8 @@ Status set_branches(const JointRecording& recording, const SegmentSystem& of,
            recording.times[sample] - of.epoch <= segment.begin.time;
          ++sample) {
       if (is_set(cancel)) return {StatusCode::kCancelled, 0.0, "cancelled"};
-      Status status = follower.move_to(positions_at(recording, independent, sample));
+      const double time = recording.times[sample] - of.epoch;
+      Status status = follower.move_to(positions_at(recording, independent, sample), time);
       status.time = recording.times[sample];
       if (!status.ok()) return status;
     }

@@ -72,9 +72,13 @@ void read_positions(const YamlValue& study_value, const RobotDescription& robot,
 void read_loads(const YamlValue& study_value, const RobotDescription& robot,
                 const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
+/// The loader of trajectories in bags, and in tables that `files` reads; each may be empty. Both
+/// must outlive it.
+TrajectoryLoader trajectories_of(const TrajectoryLoader& bags, const FileLoader& files);
+
 /// Reads a function of time: a quantity, an expression of the time t, or a map whose `type` is
 /// sine, waypoints or trajectory.
-/// @param loader for trajectories; may be empty. @throws InputError
+/// @param loader for trajectories, trajectories_of(). @throws InputError
 ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table,
                                     const TrajectoryLoader& loader);
 

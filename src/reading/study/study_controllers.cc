@@ -45,9 +45,7 @@ void refuse_taken_name(const std::string& name, const YamlValue& value,
 // A signal may use the controllers before this one, which allows cascades and excludes cycles.
 SignalDescription read_signal(const YamlValue& value, const Context& context) {
   SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
-  if (signal.formula)
-    value.fail("a controller cannot read an expression of signals",
-               "a sum or difference of signals");
+  use_parameters(signal, context.table);
   check_signal(signal, context.robot, context.study.controllers, value.path());
   return signal;
 }

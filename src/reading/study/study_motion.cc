@@ -1,6 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+#include <vector>
+
+#include "description/formula.h"
+#include "description/tuned_parameters.h"
+#include "math/arrays.h"
+#include "math/taylor_quadrature.h"
 #include "reading/study/study_blocks.h"
 #include "reading/study/study_values.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -28,13 +36,30 @@ void refuse_jumps(const ReferenceDescription& function, double duration, const Y
         "way-points from 0 to the duration of the study, or zero as the first and last velocity");
 }
 
+/// A velocity that jumps asks for an infinite effort, too.
+void refuse_jumping_velocity(const ReferenceDescription& velocity, const Study& study,
+                             const YamlValue& value) {
+  if (velocity.kind != Kind::kExpression) return;
+  const TimeExpression& expression = velocity.expression;
+  const std::vector<double> parameters = start_parameters(study);
+  const auto series = [&](double t) {
+    std::vector<Taylor<double>> variables;
+    for (const int used : expression.formula->dependencies())
+      variables.push_back(used == expression.time ? Taylor<double>::time(t)
+                                                  : Taylor<double>(parameters.at(to_index(used))));
+    return evaluate_formula<Taylor<double>>(expression.formula->steps(), variables);
+  };
+  if (const std::optional<double> jump = find_jump(series, study.duration))
+    value.fail("the velocity jumps at " + readable(*jump, 6) + " s, which takes an infinite effort",
+               "a velocity without jumps, such as way-points with interpolation: linear");
+}
+
 /// The position with this velocity, from the start that `initial_state` gives, else from zero.
 ReferenceDescription integral_of(ReferenceDescription velocity, const std::string& joint,
                                  const Study& study, const YamlValue& value) {
-  if (velocity.kind == Kind::kExpression)
-    value.fail("the integral of an expression of t is not known",
-               "position: an expression; or the velocity as a number, a sine or way-points");
+  refuse_jumping_velocity(velocity, study, value);
   ReferenceDescription position;
+  position.integral.duration = study.duration;
   position.kind = Kind::kIntegral;
   position.integral.rate = std::make_shared<const ReferenceDescription>(std::move(velocity));
   for (const InitialJointState& initial : study.initial_state)

@@ -54,6 +54,45 @@ std::vector<Quantity> read_values(const YamlValue& value, const ParameterTable& 
   return values;
 }
 
+/// Whether a drive holds this joint: `hold` is true or a list of joints with positions.
+bool is_held(const std::string& joint, const YamlValue& hold) {
+  if (!hold.is_list()) return hold.boolean();
+  const std::vector<YamlValue> items = hold.items();
+  return std::any_of(items.begin(), items.end(),
+                     [&](const YamlValue& item) { return item.text() == joint; });
+}
+
+/// The motion that holds a joint in posture k at the time k, with the velocity that the start
+/// gives.
+GivenMotion holding_motion(const InitialJointState& state) {
+  GivenMotion motion;
+  motion.joint = state.joint;
+  motion.where = state.where;
+  motion.position.kind = ReferenceDescription::Kind::kWaypoints;
+  WaypointsDescription& points = motion.position.waypoints;
+  points.positions = state.positions;
+  for (std::size_t k = 0; k < state.positions.size(); ++k)
+    points.times.push_back(static_cast<double>(k));
+  points.velocities.assign(points.times.size(), state.velocity.value_or(Quantity(0.0)));
+  points.accelerations.assign(points.times.size(), Quantity(0.0));
+  return motion;
+}
+
+/// Makes the positions of joints that are held motions that are given.
+void hold_joints(const YamlValue& hold, const YamlValue& positions, Study* study) {
+  if (hold.is_list())
+    for (const YamlValue& item : hold.items())
+      if (!positions.find(item.text()))
+        item.fail("no positions of this joint", "true, or a list of joints of `positions`");
+  std::vector<InitialJointState> free;
+  for (InitialJointState& state : study->initial_state)
+    if (state.positions.empty() || !is_held(state.joint, hold))
+      free.push_back(std::move(state));
+    else
+      study->motion.push_back(holding_motion(state));
+  study->initial_state = std::move(free);
+}
+
 }  // namespace
 
 int count_postures(const YamlValue& study_value) {
@@ -77,6 +116,9 @@ int count_postures(const YamlValue& study_value) {
 void read_positions(const YamlValue& study_value, const RobotDescription& robot,
                     const ParameterTable& table, Study* study) {
   const auto positions = study_value.find("positions");
+  const auto hold = study_value.find("hold");
+  if (hold && !positions)
+    hold->fail("a drive holds joints in postures, and the study has none", "positions");
   if (!positions) return;
   for (const auto& [name, value] : positions->entries()) {
     const JointDescription& joint = scalar_joint(name, robot, value);
@@ -96,6 +138,7 @@ void read_positions(const YamlValue& study_value, const RobotDescription& robot,
     state->positions = read_values(value, table);
     state->position = state->positions.front();
   }
+  if (hold) hold_joints(*hold, *positions, study);
 }
 
 ReferenceDescription read_target(const YamlValue& value, const ParameterTable& table,

@@ -18,11 +18,11 @@ void require_purpose_of_excite(const YamlValue& root) {
                  "a block identify; without data it may be {}");
 }
 
-/// An identification takes the motion from its recordings.
-void refuse_motion_of_recordings(const YamlValue& root) {
-  if (const auto motion = root.find("motion"); motion && root.find("identify"))
-    motion->fail("the recordings of `identify` give the motion of the joints",
-                 "no motion in a study that identifies");
+/// An excitation plans the motion of all joints.
+void refuse_motion_of_excitation(const YamlValue& root) {
+  if (const auto motion = root.find("motion"); motion && root.find("excite"))
+    motion->fail("the motion that `excite` seeks is that of all joints that determine it",
+                 "no motion in a study that excites");
 }
 
 /// A study that only identifies has no run of its own that could have a duration.
@@ -104,7 +104,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   // Step control tests the errors of motions; the effort of a given motion may change within a step
   // that these allow.
   constexpr double kFewestSteps = 500.0;
-  if (!study.motion.empty() && study.solver.maximum_step == 0.0)
+  if (!study.motion.empty() && study.postures == 0 && study.solver.maximum_step == 0.0)
     study.solver.maximum_step = study.duration / kFewestSteps;
   if (const auto optimizer = root.find("optimizer"))
     study.optimizer = read_optimizer_options(*optimizer);
@@ -118,15 +118,16 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys(
-      {}, {"duration",   "gravity",   "initial_state", "controllers", "loads",       "motion",
-           "parameters", "objective", "path",          "final",       "constraints", "limits",
-           "solver",     "optimizer", "runs",          "uncertain",   "robust",      "multistart",
-           "engine",     "identify",  "excite",        "hardware",    "positions",   "efforts"});
+  root.require_keys({}, {"duration",    "gravity",    "initial_state", "controllers", "loads",
+                         "motion",      "parameters", "objective",     "path",        "final",
+                         "constraints", "limits",     "solver",        "optimizer",   "runs",
+                         "uncertain",   "robust",     "multistart",    "engine",      "identify",
+                         "excite",      "hardware",   "positions",     "hold",        "efforts"});
   require_purpose_of_excite(root);
-  refuse_motion_of_recordings(root);
+  refuse_motion_of_excitation(root);
+  const TrajectoryLoader trajectories = trajectories_of(loader, files);
   const auto read_run = [&](const YamlValue& study_value) {
-    return read_single_run(study_value, yaml.name, robot, loader);
+    return read_single_run(study_value, yaml.name, robot, trajectories);
   };
   Study study = read_run(root);
   study.ensemble = read_ensemble(root, robot, read_run, files, study);

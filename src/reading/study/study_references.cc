@@ -7,6 +7,9 @@
 #include <stdexcept>
 
 #include "reading/study/study_values.h"
+#include "recordings/number_table.h"
+#include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -94,16 +97,52 @@ ReferenceDescription read_waypoints(const YamlValue& value, const ParameterTable
   return reference;
 }
 
+TrajectoryAddress read_address(const YamlValue& value) {
+  TrajectoryAddress address{"", "", "", value.where(), value.path()};
+  if (!value.find("csv")) {
+    value.require_keys({"type", "bag", "topic", "joint"}, {"interpolation"});
+    address.bag = value.at("bag").text();
+    address.topic = value.at("topic").text();
+    address.joint = value.at("joint").text();
+    return address;
+  }
+  value.require_keys({"type", "csv", "column"}, {"time", "interpolation"});
+  address.csv = value.at("csv").text();
+  address.column = value.at("column").text();
+  const auto time = value.find("time");
+  address.time = time ? time->text() : "time";
+  return address;
+}
+
+/// A column of a table over its column of times.
+RecordedTrajectory read_column(const TrajectoryAddress& address, const FileLoader& files) {
+  if (!files)
+    throw InputError({address.where, address.element, "no file can be read here", address.csv,
+                      "{type: waypoints, ...}"});
+  const SourceText source = files({address.csv, address.where, address.element});
+  const NumberTable table(source.name, source.text, CellDelimiter::kAuto);
+  std::vector<int> columns;
+  for (const std::string& name : {address.time, address.column}) {
+    const auto found = std::find(table.names().begin(), table.names().end(), name);
+    if (found == table.names().end())
+      throw unknown_name({source.name, table.first_line()}, address.element, "column", name,
+                         table.names());
+    columns.push_back(static_cast<int>(found - table.names().begin()));
+  }
+  NumberTable::Columns cells = table.read(columns);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t row = 0; row < cells.lines.size(); ++row)
+      if (!std::isfinite(cells.values[k][row]))
+        throw InputError({{source.name, static_cast<int>(cells.lines[row])},
+                          "column \"" + (k == 0 ? address.time : address.column) + "\"",
+                          "not finite",
+                          to_decimal(cells.values[k][row]),
+                          "finite numbers"});
+  return {std::move(cells.values[0]), std::move(cells.values[1]), {}, {}};
+}
+
 ReferenceDescription read_trajectory(const YamlValue& value, const TrajectoryLoader& loader) {
-  value.require_keys({"type", "bag", "topic", "joint"}, {"interpolation"});
-  const std::string bag = value.at("bag").text(), topic = value.at("topic").text(),
-                    joint = value.at("joint").text();
-  if (!loader)
-    value.fail(
-        "a bag is read by the ROS nodes only; `rosrun mechanism_codesign trajectory_from_bag " +
-            bag + " " + topic + " " + joint + "` prints the same trajectory as way-points",
-        "{type: waypoints, ...}");
-  const RecordedTrajectory recorded = loader({bag, topic, joint, value.where(), value.path()});
+  const RecordedTrajectory recorded = loader(read_address(value));
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kWaypoints;
   WaypointsDescription& points = reference.waypoints;
@@ -143,6 +182,20 @@ std::optional<ReferenceDescription> read_expression(const YamlValue& value,
 }
 
 }  // namespace
+
+TrajectoryLoader trajectories_of(const TrajectoryLoader& bags, const FileLoader& files) {
+  return [&bags, &files](const TrajectoryAddress& address) {
+    if (!address.csv.empty()) return read_column(address, files);
+    if (!bags)
+      throw InputError(
+          {address.where, address.element,
+           "a bag is read by the ROS nodes only; `rosrun mechanism_codesign trajectory_from_bag " +
+               address.bag + " " + address.topic + " " + address.joint +
+               "` prints the same trajectory as way-points",
+           "", "{type: waypoints, ...}"});
+    return bags(address);
+  };
+}
 
 ReferenceDescription read_reference(const YamlValue& value, const ParameterTable& table,
                                     const TrajectoryLoader& loader) {

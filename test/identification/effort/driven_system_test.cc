@@ -63,6 +63,26 @@ TEST(DrivenSystem, WithoutControllersAndObjective) {
   EXPECT_EQ(make_driven_system(*system, measured({"hinge"})).system->layout().states, 0);
 }
 
+TEST(DrivenSystem, GearsThatYieldAreRigid) {
+  const auto system = compiled(
+      pendulum("<codesign:actuator gear_ratio='20' rotor_inertia='1e-4' stiffness='400'/>"),
+      let_go("{}", "hinge/velocity"));
+  ASSERT_GT(system->robot().joints.size(), 1U) << "the motor's side";
+  const DrivenSystem driven = make_driven_system(*system, measured({"hinge"}));
+  EXPECT_EQ(driven.drives, std::vector<int>{0});
+  EXPECT_EQ(driven.system->layout().n, 1);
+}
+
+// A measured joint drives, whatever motion the study gives; segments leave it to the study.
+TEST(DrivenSystem, MotionsThatTheStudyGivesAreMeasured) {
+  const auto system =
+      compiled(four_bar(), "duration: 1\nmotion: {left_hinge: {position: \"${0.3 + 0.2*t}\"}}\n");
+  const DrivenSystem driven = make_driven_system(*system, measured({"left_hinge"}));
+  EXPECT_EQ(driven.drives, std::vector<int>{0});
+  EXPECT_TRUE(driven.system->study().motion.empty());
+  EXPECT_EQ(independent_joints(*system, measured({"left_hinge"})), std::vector<std::string>{});
+}
+
 TEST(DrivenSystem, TooFewJointsAreRefusedByTheJointWhoseMotionIsNotDetermined) {
   const InputFault fault = refusal(*double_pendulum_system(), measured({"shoulder"}));
   EXPECT_EQ(fault.element, "<joint name=\"elbow\">");

@@ -196,7 +196,7 @@ TEST(DrivenReplay, ShowsWhatWasSimulated) {
     }
     const Eigen::VectorXd measured[] = {column_of(crank.position), column_of(crank.velocity),
                                         column_of(crank.acceleration)};
-    const Status status = replay.show(measured, &shown);
+    const Status status = replay.show(0.0, measured, &shown);
     ASSERT_TRUE(status.ok()) << status.cause;
     ASSERT_EQ(shown.frictions.size(), simulated.frictions.size());
     EXPECT_LT(largest_difference(simulated, shown), 1e-5) << "t = " << 0.005 * k;

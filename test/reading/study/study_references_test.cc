@@ -111,6 +111,40 @@ TEST(StudyReferences, WithoutALoaderTheMessageSaysHowToConvertTheBag) {
       "rosrun mechanism_codesign trajectory_from_bag moves.bag /arm/command crank_joint");
 }
 
+TEST(StudyReferences, ATrajectoryInATable) {
+  const std::string table = "t,height,note\n0,0.5,a\n0.5,0.7,b\n1.5,nan,c\n";
+  const auto read = [&](const std::string& reference, const std::string& text) {
+    const FileLoader files = [&text](const FileAddress& address) {
+      EXPECT_EQ(address.file, "road.csv");
+      return SourceText{"road.csv", text};
+    };
+    return read_study({"study.yaml", with_reference(reference)}, study_robot(), {}, files);
+  };
+  const std::string reference = "{type: trajectory, csv: road.csv, column: height, time: t}";
+  const Study study = read(reference, table.substr(0, table.find("1.5")));
+  const WaypointsDescription& points = study.integral.at(0).reference.waypoints;
+  EXPECT_EQ(points.times, (std::vector<double>{0.0, 0.5}));
+  EXPECT_EQ(points.positions.at(1).nominal(), 0.7);
+  EXPECT_TRUE(points.velocities.empty());
+  const auto fault = [&](const std::string& of, const std::string& text) {
+    try {
+      read(of, text);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(fault(reference, table).find("road.csv:4: column \"height\": not finite"),
+            std::string::npos)
+      << fault(reference, table);
+  EXPECT_NE(fault("{type: trajectory, csv: road.csv, column: hight, time: t}", table)
+                .find("did you mean \"height\""),
+            std::string::npos);
+  EXPECT_NE(fault("{type: trajectory, csv: road.csv, column: height}", table).find("road.csv:1"),
+            std::string::npos);
+  EXPECT_THROW(read_study({"study.yaml", with_reference(reference)}, study_robot()), InputError);
+}
+
 TEST(StudyReferences, AnExpressionOfTime) {
   const ReferenceDescription wave = read_reference_text("\"${A*sin(2*t)}\"");
   EXPECT_EQ(wave.kind, ReferenceDescription::Kind::kExpression);
