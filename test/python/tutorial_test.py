@@ -173,6 +173,7 @@ class Tutorials(unittest.TestCase):
             blocks = re.findall(r"^```\{raw\} html\n(.*?)\n```$", page, re.DOTALL | re.MULTILINE)
             self.assertEqual(re.findall("src=\"(data:image/svg[^\"]*)", "".join(blocks)), re.findall("src=\"(data:image/svg[^\"]*)", "".join(html)))
             self.assertEqual([re.sub("<[^>]*>", "", block) for block in blocks], [re.sub("<[^>]*>", "", text) for text in html])
+            self.assertIn(f"{{download}}`This page as a notebook <{os.path.basename(path)}>`", page)
             for output in outputs:
                 if "text/html" in output.get("data", {}):
                     self.assertNotIn("".join(output["data"]["text/plain"]), page)
