@@ -161,14 +161,16 @@ else()
 endif()
 add_test(NAME api_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/api/api_page_test.py ${PROJECT_SOURCE_DIR} ${codesign_api_place})
 
-foreach(tool build check ci debian_packages fresh image measured_data packages)
+foreach(tool build check ci clone debian_packages doc fresh image measured_data packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()
+# Skipped, with a message, where there is no sphinx; without chromium the pages are built, but not looked at.
+set_tests_properties(tools_doc PROPERTIES SKIP_REGULAR_EXPRESSION "no sphinx on this machine")
 
 # What tools/test --quick leaves out: whole jobs, processes of MPI, builds of other programs; below also what starts a ROS master.
 get_property(codesign_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS codesign_tests)
-  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|features|gallery|tutorial_pages|report$|python_(jobs|tutorial|features)|corpus_table|api_page)")
+  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|features|gallery|tutorial_pages|report$|python_(jobs|tutorial|features)|corpus_table|api_page|tools_doc)")
     set_tests_properties(${test} PROPERTIES LABELS slow)
   endif()
 endforeach()

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import math
-import os
-import re
 from html import escape
 from typing import Any, Iterable, List, Sequence, Tuple
 
@@ -27,21 +25,12 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     return f'<table><thead>{row("th", head)}</thead><tbody>{"".join(row("td", cells) for cells in rows)}</tbody></table>'
 
 
-def _style() -> str:
-    """The rules of the page for pictures."""
-    from .codesign_report import page  # type: ignore[import-not-found]  # scripts/codesign_report
-    with open(os.path.join(page.HERE, "style.css"), encoding="utf-8") as file:
-        text = file.read()
-    colors = text[:text.index("* {")]
-    return colors + "svg{background:var(--paper)}" + "".join(line for line in re.findall(r"^svg .*$", text, re.MULTILINE))
-
-
-def _images(pictures: Iterable[Tuple[str, str]], style: str) -> str:
+def _images(pictures: Iterable[Tuple[str, str]]) -> str:
     """Pictures side by side, as images: their style reaches nothing else on the page."""
+    from .codesign_report import charts  # type: ignore[import-not-found]  # scripts/codesign_report
     parts = []
     for caption, svg in pictures:
-        whole = str(svg).replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', 1).replace("><title>", f"><style>{style}</style><title>", 1)
-        data = base64.b64encode(whole.encode()).decode()
+        data = base64.b64encode(charts.standalone(svg, background=True).encode()).decode()
         parts.append(f'<figure style="margin:4px;display:inline-block;width:420px;max-width:100%"><figcaption>{escape(caption)}</figcaption>'
                      f'<img alt="{escape(caption)}" style="width:100%" src="data:image/svg+xml;base64,{data}"/></figure>')
     return f'<div>{"".join(parts)}</div>'
@@ -83,7 +72,7 @@ def run(of: Any) -> str:
         pictures = _scene([("at the start; faint: later", of._problem.urdf(rho, **parameters), found["poses"])]) + pictures
     objective = "" if of.objective is None else f", objective {of.objective:.10g}"
     head = f'<p>{escape(str(of.status))}{objective}, {of.statistics["steps"]} steps, {of.statistics["cpu_seconds"]:.3g} s of processor time</p>'
-    return head + _table(("signal", "smallest", "largest", "at the end", "unit"), rows) + _images(pictures, _style()) + _notes(of.warnings)
+    return head + _table(("signal", "smallest", "largest", "at the end", "unit"), rows) + _images(pictures) + _notes(of.warnings)
 
 
 def result(of: Any) -> str:
@@ -100,7 +89,7 @@ def result(of: Any) -> str:
     sides = [(caption, problem_.urdf(rho), problem_._core.details(rho, {})["poses"]) for caption, rho in (("before", of.initial_rho), ("after", of.rho))]
     if all(poses["times"] for _, _, poses in sides):
         pictures = _scene(sides) + pictures
-    return head + _table(("parameter", "initial", "tuned", "lower", "upper", "unit"), rows) + _images(pictures, _style()) + _notes(of.warnings)
+    return head + _table(("parameter", "initial", "tuned", "lower", "upper", "unit"), rows) + _images(pictures) + _notes(of.warnings)
 
 
 def fit(of: Any) -> str:
@@ -109,4 +98,4 @@ def fit(of: Any) -> str:
              "on its bound" if n.on_bound else "" if n.determined else "not determined") for name, n in of.numbers.items()]
     pictures = [_curve(f"{name}: recorded (dashed) and computed", of.time, [("recorded", "initial", of.recorded[name]), ("computed", "tuned", of.computed[name])], "")
                 for name in list(of.recorded)[:_MOST_CURVES]]
-    return head + _table(("number", "start", "identified", "deviation", "from", "to", "unit", ""), rows) + _images(pictures, _style()) + _notes(of.warnings)
+    return head + _table(("number", "start", "identified", "deviation", "from", "to", "unit", ""), rows) + _images(pictures) + _notes(of.warnings)

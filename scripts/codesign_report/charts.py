@@ -2,6 +2,8 @@
 """Charts as SVG. Colors and strokes are classes, which the page's style gives a light and a dark look."""
 import collections
 import math
+import os
+import re
 
 from .numbers import Markup, escape, log_ticks, short, tick_labels, ticks
 
@@ -125,6 +127,21 @@ def grid(x, y, x_label, y_label):
 
 def svg(body, title, width=WIDTH, height=HEIGHT):
     return Markup(f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{escape(title)}"><title>{escape(title)}</title>{body}</svg>')
+
+
+def standalone(picture, background=False):
+    """A picture as a file or an image of its own: with its size, the colors, and those rules of the page's style that it uses."""
+    picture = str(picture)
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "style.css"), encoding="utf-8") as file:
+        text = file.read()
+    there = {word for words in re.findall(r'class="([^"]*)"', picture) for word in words.split()}
+    there |= {"text"} if "<text" in picture else set()
+    rules = [f"{names}{look}" for line in re.findall(r"^svg .*$", text, re.MULTILINE) for names, look in re.findall(r"(svg [^{]*)({[^}]*})", line)
+             if any(0 < len(parts) and there.issuperset(parts) for parts in (re.findall(r"\w+", name)[1:] for name in names.split(",")))]
+    style = re.sub(r"\s+", " ", text[text.index(":root"):text.index("* {")] + ("svg { background: var(--paper); } " if background else "") + " ".join(rules))
+    width, height = re.search(r'viewBox="0 0 (\S+) (\S+)"', picture).groups()
+    return picture.replace("<svg ", f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" ', 1).replace(
+        "</title>", f"</title><style>{style}</style>", 1)
 
 
 def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240):

@@ -53,14 +53,26 @@ class Scene:
         self.sides = sides
         moving = [p for robot, poses in sides for p in self.points_of(robot, poses)]
         self.right, self.up, self.towards = view_of(moving or [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0)])
+        self.height = HEIGHT
         flat = [self.project(p) for p in moving] or [(0.0, 0.0), (1.0, 1.0)]
+        self.scale, self.centre = self.fitted(flat)
+        # Solids of the ground are whole in the picture if the mechanism remains large; of others that part is drawn which is near.
+        least = 0.55 * self.scale
+        for robot, poses in sides:
+            for pose in poses["links"].get(robot.root, [])[:1]:
+                for solid in robot.solids.get(robot.root, []):
+                    wider = flat + [self.project(placed(pose, p)) for p in solid.points]
+                    scale, centre = self.fitted(wider)
+                    if scale >= least:
+                        flat, self.scale, self.centre = wider, scale, centre
+
+    def fitted(self, flat):
+        """Scale and centre of a picture of these points."""
         low, high = ([f(p[k] for p in flat) for k in (0, 1)] for f in (min, max))
         size = max(high[0] - low[0], high[1] - low[1], 1e-9)
-        # Only solids of the ground that are near the mechanism are drawn.
-        self.centre = [(a + b) / 2 for a, b in zip(low, high)]
         wide, tall = (max(b - a, 0.25 * size) for a, b in zip(low, high))
-        self.scale = min((WIDTH - 2 * MARGIN) / wide, (HEIGHT - 2 * MARGIN - 24) / tall) * 0.94
-        self.height = HEIGHT
+        scale = 0.94 * min((WIDTH - 2 * MARGIN) / wide, (HEIGHT - 2 * MARGIN - 24) / tall)
+        return scale, [(a + b) / 2 for a, b in zip(low, high)]
 
     def points_of(self, robot, poses):
         for name, series in poses["links"].items():

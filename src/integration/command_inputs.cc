@@ -18,11 +18,6 @@ constexpr double kMostSteps = 2e9;
 
 using Kind = CoordinateConstants<double>::Kind;
 
-bool has_given_motion(const MotionStudy& study, const std::string& joint) {
-  return std::any_of(study.motion.begin(), study.motion.end(),
-                     [&](const GivenMotion& motion) { return motion.joint == joint; });
-}
-
 bool is_drivable(const CompiledSystem& system, const Constants<double>& constants, std::size_t k) {
   const JointDescription& joint = system.robot().joints[k];
   const int pair = system.topology().joint_pair[k];

@@ -138,11 +138,11 @@ TEST(SimulateCommand, PrintsEveryPosture) {
       run_words({"simulate", model, study, "--signals", "crank_joint/position", "--samples", "3"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const std::vector<std::string> lines = lines_of(outcome.out);
-  ASSERT_EQ(lines.size(), 14U);
-  EXPECT_EQ(lines[13].substr(0, 3), "12,");
-  EXPECT_NEAR(std::stod(lines[13].substr(3)), 1.69297 + 2.0943951023931953, 1e-12);
-  EXPECT_NE(outcome.err.find("assembled 13 postures"), std::string::npos) << outcome.err;
-  const Outcome longer = run_words({"simulate", model, study, "--set", "a=1.3"});
+  ASSERT_EQ(lines.size(), 62U);
+  EXPECT_EQ(lines[61].substr(0, 3), "60,");
+  EXPECT_NEAR(std::stod(lines[61].substr(3)), 0.903436 + 1.0471975511965976, 1e-12);
+  EXPECT_NE(outcome.err.find("assembled 61 postures"), std::string::npos) << outcome.err;
+  const Outcome longer = run_words({"simulate", model, study, "--set", "a=4.2"});
   EXPECT_EQ(longer.code, kFailed);
   EXPECT_NE(longer.err.find("assembly_failed"), std::string::npos) << longer.err;
   EXPECT_NE(longer.err.find("posture "), std::string::npos) << longer.err;

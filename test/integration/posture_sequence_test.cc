@@ -30,10 +30,13 @@ Recorded record(const Problem& problem, const std::vector<std::string>& signals,
   return result;
 }
 
+/// The links a, b, c are 0.55464, 1.44084 and 0.72463 m.
 Problem function_generator(const std::string& crank, const std::string& guess) {
-  return postures("four_bar_function", "positions: {crank_joint: " + crank +
-                                           "}\ninitial_state: {rocker_joint: {guess: " + guess +
-                                           "}, crank_joint: {velocity: 2.0}}\n");
+  return postures("four_bar_function",
+                  "positions: {crank_joint: " + crank +
+                      "}\ninitial_state: {rocker_joint: {guess: " + guess +
+                      "}, crank_joint: {velocity: 2.0}}\nparameters: {a: {initial: 0.55464}, b: "
+                      "{initial: 1.44084}, c: {initial: 0.72463}}\n");
 }
 
 TEST(PostureSequence, FollowsTheListWithClosedLoops) {

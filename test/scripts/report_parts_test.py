@@ -83,6 +83,27 @@ class Parts(unittest.TestCase):
         (ax, ay), (bx, by) = scene.place((1.0, 0.0, 0.0)), scene.place((0.5, 0.0, 1.0))
         self.assertEqual(scene.picture(0, "t").count(f'<path class="body stick" d="M{ax} {ay}L{bx} {by}"/>'), 2)
 
+    def test_a_fixed_body_is_whole_unless_the_mechanism_became_small(self):
+        def scene(height):
+            box = f'<visual><origin xyz="0 0 {-0.5 * height}"/><geometry><box size="0.1 0.1 {height}"/></geometry></visual>'
+            arm = '<visual><origin xyz="0.5 0 0.5"/><geometry><box size="1 0.02 1"/></geometry></visual>'
+            robot = geometry.Robot(f"""<robot name="r"><link name="ground">{box}</link><link name="arm">{arm}</link>
+                <joint name="j" type="continuous"><parent link="ground"/><child link="arm"/></joint></robot>""")
+            pose = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+            return drawing.Scene([(robot, {"times": [0.0], "links": {"ground": [pose], "arm": [pose]}})])
+
+        alone, near, far = scene(0.001), scene(0.5), scene(5.0)
+        self.assertLess(near.place((0.0, 0.0, -0.5))[1], near.height - 24)
+        self.assertLess(near.scale, alone.scale)
+        self.assertAlmostEqual(far.scale, alone.scale, delta=0.01 * alone.scale)
+
+    def test_a_picture_of_its_own_has_the_style_that_it_uses(self):
+        chart = charts.standalone(charts.line_chart("t", [charts.Series("a", "tuned", [0.0, 1.0], [2.0, 3.0])], "time [s]", "[N]"))
+        self.assertTrue(chart.startswith(f'<svg xmlns="http://www.w3.org/2000/svg" width="{charts.WIDTH}" height="{charts.HEIGHT}" '))
+        for rule, there in (("svg .line.tuned {", True), ("svg text {", True), ("--after:", True), ("svg .solid {", False), ("svg {", False), (".hue0", False)):
+            self.assertEqual(rule in chart, there, rule)
+        self.assertIn("svg { background: var(--paper); }", charts.standalone(charts.svg("", "t"), background=True))
+
     def test_the_outline_of_a_square(self):
         self.assertEqual(len(drawing.hull([(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0.5)])), 4)
 
