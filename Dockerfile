@@ -1,6 +1,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 # An image with the packages of tools/package, without compiler and sources. It needs Docker 23, podman or buildah:
 #   docker build -t mechanism_codesign .
+#   docker run --rm --user "$(id -u):$(id -g)" -v "$PWD:/work" mechanism_codesign       # the demo: tunes the slider-crank; writes job/ and job.html
 #   docker run --rm --user "$(id -u):$(id -g)" -v "$PWD:/work" mechanism_codesign codesign optimize model.urdf study.yaml --output job
 # With Debian's ROS, for nodes, launch files and bags:
 #   docker build -t mechanism_codesign_ros --build-arg PACKAGES="mechanism-codesign python3-mechanism-codesign ros-mechanism-codesign" .
@@ -19,4 +20,5 @@ RUN --mount=type=bind,from=build,source=/src/mechanism_codesign/build/package,ta
 # The user of --user has no home where ROS could write.
 ENV ROS_HOME=/tmp/ros
 WORKDIR /work
-CMD ["codesign", "help"]
+CMD codesign optimize /usr/share/mechanism_codesign/urdf/slider_crank.urdf /usr/share/mechanism_codesign/config/slider_crank.yaml --output job && \
+    codesign report job -o job.html

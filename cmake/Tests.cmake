@@ -116,7 +116,7 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 
 if(TARGET codesign_python)
   add_dependencies(tests codesign_python)
-  foreach(part problem jobs notebook tutorial)
+  foreach(part problem jobs notebook tutorial features)
     add_test(NAME python_${part} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/${part}_test.py)
     set_tests_properties(python_${part} PROPERTIES
       ENVIRONMENT "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages;CODESIGN=$<TARGET_FILE:codesign>")
@@ -127,6 +127,7 @@ add_test(NAME update_tables COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/t
 add_test(NAME peers COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benchmark/peers_test.py)
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 add_test(NAME identify_cases COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/identify_cases_test.py $<TARGET_FILE:codesign>)
+add_test(NAME features COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/features_test.py $<TARGET_FILE:codesign>)
 add_test(NAME json_schema COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/json_schema_test.py $<TARGET_FILE:codesign>)
 add_test(NAME pages COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/pages_test.py)
 add_test(NAME readme COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/readme_test.py $<TARGET_FILE:codesign>)
@@ -160,14 +161,16 @@ else()
 endif()
 add_test(NAME api_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/api/api_page_test.py ${PROJECT_SOURCE_DIR} ${codesign_api_place})
 
-foreach(tool build check ci debian_packages fresh image packages)
+foreach(tool build check ci clone debian_packages doc fresh image measured_data packages)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()
+# Skipped, with a message, where there is no sphinx; without chromium the pages are built, but not looked at.
+set_tests_properties(tools_doc PROPERTIES SKIP_REGULAR_EXPRESSION "no sphinx on this machine")
 
 # What tools/test --quick leaves out: whole jobs, processes of MPI, builds of other programs; below also what starts a ROS master.
 get_property(codesign_tests DIRECTORY PROPERTY TESTS)
 foreach(test IN LISTS codesign_tests)
-  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|gallery|tutorial_pages|report$|python_(jobs|tutorial)|corpus_table|api_page)")
+  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|features|gallery|tutorial_pages|report$|python_(jobs|tutorial|features)|corpus_table|api_page|tools_doc)")
     set_tests_properties(${test} PROPERTIES LABELS slow)
   endif()
 endforeach()

@@ -41,6 +41,7 @@ class RunNotes:
 class Session:
     parameters: List[Tuple[str, float, float, float, str, bool]]
     joints: List[str]
+    names: List[str]
     name: str
     duration: float
     start: Array

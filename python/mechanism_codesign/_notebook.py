@@ -81,7 +81,8 @@ def result(of: Any) -> str:
         return head + "</p>" + _notes(of.warnings)
     head += f": objective {_short(of.initial_objective)} \u2192 <b>{_short(of.objective)}</b></p>"
     problem_ = of._problem
-    rows = [(p.name, a, b, p.lower, p.upper, p.unit) for p, a, b in zip((p for p in problem_.parameters if p.tuned), of.initial_rho.tolist(), of.rho.tolist())]
+    named = {p.name: p for p in problem_.parameters}
+    rows = [(name, a, b, named[name].lower, named[name].upper, named[name].unit) for name, a, b in zip(problem_.names, of.initial_rho.tolist(), of.rho.tolist())]
     pictures = []
     if len(of.best_objectives) > 1:
         pictures = [_curve("best objective by evaluation", range(1, len(of.best_objectives) + 1), [("best", "tuned", of.best_objectives)], "", "evaluation")]

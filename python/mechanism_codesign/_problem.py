@@ -74,7 +74,7 @@ class Problem:
             [_source(overlay, f"text of overlay {k}") for k, overlay in enumerate(overlays, 1)], dict(set or {}),
             None if result is None else _source(result, "result text"))
         #: Names of the tuned parameters, the order of rho and of every gradient.
-        self.names: List[str] = [p[0] for p in self._core.parameters if p[5]]
+        self.names: List[str] = self._core.names
         self._last: Tuple[Any, Any] = (None, None)
         for warning in self.warnings:
             warnings.warn(warning, stacklevel=2)
@@ -92,7 +92,8 @@ class Problem:
     @property
     def bounds(self) -> List[Tuple[float, float]]:
         """(lower, upper) of each tuned parameter, infinite without a bound: as scipy.optimize takes them."""
-        return [(p[2], p[3]) for p in self._core.parameters if p[5]]
+        of = {p.name: (p.lower, p.upper) for p in self.parameters}
+        return [of[name] for name in self.names]
 
     @property
     def duration(self) -> float:

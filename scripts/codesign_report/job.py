@@ -25,7 +25,7 @@ class Table:
             cells = [[] for _ in self.names]
             for row in rows:
                 if len(row) != len(self.names):
-                    raise ReportError(f"{path}:{rows.line_num}: {len(row)} cells, the first line has {len(self.names)}")
+                    raise ReportError(f"{path}:{rows.line_num}: {len(row)} cells, the first line has {len(self.names)}; the table is damaged, run the job again")
                 for column, cell in zip(cells, row):
                     column.append(to_value(cell))
         self.columns = dict(zip(self.names, cells))

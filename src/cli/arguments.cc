@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <type_traits>
 
 #include "text/nearest_name.h"
 
@@ -28,14 +29,16 @@ T number_of(const std::string& option, const std::string& text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    throw UsageError(option + ": \"" + text + "\" is not a number");
+    throw UsageError(option + ": \"" + text + "\" is not " +
+                     (std::is_integral_v<T> ? "a whole number" : "a number"));
   return value;
 }
 
 void add_setting(const std::string& text, Arguments* arguments) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw UsageError("--set: expected PARAMETER=VALUE, not \"" + text + "\"");
+    throw UsageError("--set: expected PARAMETER=VALUE, such as crank_length=0.07, not \"" + text +
+                     "\"");
   arguments->settings.emplace_back(text.substr(0, equals),
                                    number_of<double>("--set", text.substr(equals + 1)));
 }
@@ -54,7 +57,10 @@ std::size_t comma_after(const std::string& text, std::size_t first) {
 void add_signals(const std::string& text, Arguments* arguments) {
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t comma = comma_after(text, first);
-    if (comma == first) throw UsageError("--signals: an empty name in \"" + text + "\"");
+    if (comma == first)
+      throw UsageError(
+          "--signals: an empty name in \"" + text +
+          "\" (allowed: names with one comma between them, such as pivot/position,pivot/velocity)");
     arguments->signals.push_back(text.substr(first, comma - first));
     first = comma + 1;
   }
@@ -62,7 +68,8 @@ void add_signals(const std::string& text, Arguments* arguments) {
 
 void set_samples(const std::string& text, Arguments* arguments) {
   arguments->samples = number_of<int>("--samples", text);
-  if (arguments->samples < 2) throw UsageError("--samples: " + text + " is less than 2");
+  if (arguments->samples < 2)
+    throw UsageError("--samples: " + text + " is less than 2, the first and the last instant");
 }
 
 void set_method(const std::string& text, Arguments* arguments) {
@@ -77,7 +84,7 @@ void set_method(const std::string& text, Arguments* arguments) {
 void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   if (!arguments->output.empty() && arguments->output != path)
     throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path +
-                     "\" are two folders, a job has one");
+                     "\" are two folders, a job has one; leave one of the options out");
   arguments->output = path;
   arguments->resume = arguments->resume || resume;
 }
@@ -171,9 +178,14 @@ void take_positional(const std::string& word, Arguments* arguments) {
   else if (arguments->study.empty() && arguments->command != "new")
     arguments->study = word;
   else if (arguments->command == "new")
-    throw UsageError("unexpected \"" + word + "\" after the name of the folder");
+    throw UsageError(
+        "unexpected \"" + word +
+        "\" after the name of the folder; a name with spaces stands in quotation marks");
   else
-    throw UsageError("unexpected \"" + word + "\" after model and study");
+    throw UsageError(
+        "unexpected \"" + word +
+        "\" after model and study; further URDF files are given by --overlay, and a path with "
+        "spaces stands in quotation marks");
 }
 
 bool asks_for_help(const Names& words) {
@@ -285,7 +297,7 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
   Names commands = command_names();
   commands.push_back("help");
   Arguments arguments;
-  if (words.empty()) throw UsageError("no command given");
+  if (words.empty()) throw UsageError("no command given (allowed: " + list_names(commands) + ")");
   arguments.command = asks_for_help(words) ? "help" : words[0];
   if (arguments.command == "help") {
     // The command before `--help`, or the word after `help`.
@@ -303,16 +315,19 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
   if (std::count(commands.begin(), commands.end(), arguments.command) == 0)
     fail_unknown("command", arguments.command, commands);
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (words[i].empty()) throw UsageError("an empty argument");
+    if (words[i].empty())
+      throw UsageError("an empty argument; a variable of the shell that is not set gives one");
     if (words[i][0] == '-')
       i = apply_option(words, i, &arguments);
     else
       take_positional(words[i], &arguments);
   }
   if (arguments.command == "new") return arguments;
-  if (arguments.model.empty()) throw UsageError("\"" + arguments.command + "\" needs a MODEL");
+  if (arguments.model.empty())
+    throw UsageError("\"" + arguments.command + "\" needs a MODEL, the path of a URDF file");
   if (arguments.study.empty() && arguments.command != "check" && arguments.command != "urdf")
-    throw UsageError("\"" + arguments.command + "\" needs a STUDY");
+    throw UsageError("\"" + arguments.command +
+                     "\" needs a STUDY, the path of a YAML file, after the MODEL");
   return arguments;
 }
 

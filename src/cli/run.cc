@@ -32,7 +32,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
     const std::string gallery = find_gallery(program.parent_path().string());
     if (gallery.empty())
       throw std::runtime_error("the gallery of this package is not installed beside " +
-                               program.string());
+                               program.string() + "; the Debian package and devel/ have it");
     return start_project(arguments, gallery, console);
   }
   if (arguments.command == "version")

@@ -55,7 +55,7 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
     throw InputError(
         {signal.where, "signal",
          "the joint moves only a link without <inertial>, so it has no dynamics to read",
-         signal.text, ""});
+         signal.text, "a joint whose child link has an <inertial>"});
   const Pair& pair = topology.pairs[to_index(reference.pair)];
   for (std::size_t k = 0; k < pair.chain.size(); ++k)
     if (pair.chain[k].joint == joint) reference.element = static_cast<int>(k);
@@ -85,7 +85,7 @@ SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescr
   if (topology.link_body[to_index(link)] == Topology::kMassless)
     throw InputError({signal.where, "signal",
                       "the link has no <inertial>, so it is folded into a joint and cannot be read",
-                      signal.text, ""});
+                      signal.text, "a link with an <inertial>"});
   return reference;
 }
 

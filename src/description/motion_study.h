@@ -154,4 +154,7 @@ struct MotionStudy {
 /// Whether the objective has a term: an integral, a terminal one or a peak.
 bool has_objective(const MotionStudy& study);
 
+/// Whether the study gives the motion of this joint.
+bool has_given_motion(const MotionStudy& study, const std::string& joint);
+
 }  // namespace codesign

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "description/study.h"
 
+#include <algorithm>
+
 namespace codesign {
 
 MotionStudy::MotionStudy() = default;
@@ -15,5 +17,10 @@ Study::Study(Study&&) noexcept = default;
 Study& Study::operator=(const Study&) = default;
 Study& Study::operator=(Study&&) noexcept = default;
 Study::~Study() = default;
+
+bool has_given_motion(const MotionStudy& study, const std::string& joint) {
+  return std::any_of(study.motion.begin(), study.motion.end(),
+                     [&](const GivenMotion& motion) { return motion.joint == joint; });
+}
 
 }  // namespace codesign

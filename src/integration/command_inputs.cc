@@ -21,7 +21,8 @@ using Kind = CoordinateConstants<double>::Kind;
 bool is_drivable(const CompiledSystem& system, const Constants<double>& constants, std::size_t k) {
   const JointDescription& joint = system.robot().joints[k];
   const int pair = system.topology().joint_pair[k];
-  if (joint.is_motor || joint.is_loop || joint.mimic || !has_one_coordinate(joint.type) || pair < 0)
+  if (joint.is_motor || joint.is_loop || joint.mimic || !has_one_coordinate(joint.type) ||
+      pair < 0 || has_given_motion(system.study(), joint.name))
     return false;
   const std::vector<ChainElement>& chain = system.topology().pairs[to_index(pair)].chain;
   const auto& coordinates = constants.pairs[to_index(pair)].coordinates;
@@ -52,9 +53,11 @@ bool drives(const MotionStudy& study) {
                      [](const auto& controller) { return !controller.output.empty(); });
 }
 
-void check_joints(const std::vector<std::string>& joints, const std::vector<std::string>& known) {
+void check_joints(const std::vector<std::string>& joints, const std::vector<std::string>& known,
+                  const MotionStudy& study) {
   std::set<std::string> seen;
   for (const std::string& joint : joints) {
+    refuse_given_motion(study, joint, "command_joints", known);
     if (std::find(known.begin(), known.end(), joint) == known.end())
       throw unknown_name({"command_joints", 0}, joint, "joint that can be driven", joint, known);
     if (!seen.insert(joint).second)
@@ -73,6 +76,16 @@ std::shared_ptr<LiveFunction> make_live(ReferenceDescription* reference) {
   return function;
 }
 
+void refuse_given_motion(const MotionStudy& study, const std::string& joint,
+                         const std::string& from, const std::vector<std::string>& known) {
+  if (has_given_motion(study, joint))
+    throw InputError({{from, 0},
+                      joint,
+                      "the study gives the motion of the joint, on which an effort has no effect",
+                      joint,
+                      list_names(known)});
+}
+
 std::vector<std::string> drivable_joints(const CompiledSystem& system) {
   const Constants<double> constants =
       evaluate_constants(system.robot(), system.topology(), system.parameters());
@@ -85,7 +98,7 @@ std::vector<std::string> drivable_joints(const CompiledSystem& system) {
 CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& options)
     : study(of.whole_study()), joints(drivable_joints(of)) {
   if (options.joints) {
-    check_joints(*options.joints, joints);
+    check_joints(*options.joints, joints, study);
     joints = *options.joints;
   }
   disconnect(options.disconnected, &study);

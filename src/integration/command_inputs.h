@@ -23,9 +23,14 @@ struct CommandOptions {
       0.0;  ///< instants at which commands may take effect, per second: each one ends a step
 };
 
-/// Every joint of the tree that moves mass, has a coordinate of its own and follows no other joint,
-/// in the order of the description.
+/// Every joint of the tree that moves mass, has a coordinate of its own and follows neither another
+/// joint nor a given motion, in the order of the description.
 std::vector<std::string> drivable_joints(const CompiledSystem& system);
+
+/// @param from topic or option that names the joint. @param known joints that take efforts
+/// @throws InputError if the study gives the motion of the joint.
+void refuse_given_motion(const MotionStudy& study, const std::string& joint,
+                         const std::string& from, const std::vector<std::string>& known);
 
 /// Makes `reference` a function that commands set during a run, in place of what it was, which
 /// holds until the first command.
@@ -43,8 +48,8 @@ struct CommandInputs {
   std::vector<std::shared_ptr<LiveFunction>> efforts;  ///< one per entry of `joints` [N m or N]
   std::vector<std::shared_ptr<LiveFunction>> setpoints;
 
-  /// @throws InputError for an unknown joint or controller, and for a joint named twice or without
-  /// a coordinate of its own.
+  /// @throws InputError for an unknown joint or controller, and for a joint named twice, without a
+  /// coordinate of its own or with a given motion.
   CommandInputs(const CompiledSystem& of, const CommandOptions& options);
 };
 

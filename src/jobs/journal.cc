@@ -123,7 +123,9 @@ void Journal::read() {
       add_line(number, line, &before);
     end_ += static_cast<std::int64_t>(line.size()) + 1;
   }
-  if (!file.eof()) throw InputError({{path_, 0}, "", "the journal cannot be read", "", ""});
+  if (!file.eof())
+    throw InputError(
+        {{path_, 0}, "", "the journal cannot be read", "", "a file that this user may read"});
   resumed_ = lines_.size();
   notes_.push_back("goes on from " + path_ + ", which has " + std::to_string(resumed_) +
                    " finished evaluations");

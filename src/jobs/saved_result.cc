@@ -175,7 +175,7 @@ class Examination {
                       name,
                       "the model and the study have no such parameter",
                       "",
-                      ""});
+                      "the model, the study and the overlays of the optimization"});
   }
 
   /// Checks that the parameters that were not tuned have the values at the begin of the search.

@@ -41,7 +41,7 @@ SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const T
     if (*body == Topology::kMassless)
       throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">",
                         "a spring cannot pull on a link without <inertial>",
-                        robot.links[to_index(link)].name, ""});
+                        robot.links[to_index(link)].name, "a link with an <inertial>"});
     *s = constants.links[to_index(link)].R * vector_at(origin.xyz, parameters) +
          constants.links[to_index(link)].s;
   };

@@ -157,7 +157,9 @@ class TreeBuilder {
       fail(
           "a body that carries the driven joint is connected by a loop only, not by a joint of the "
           "tree",
-          topology_.bodies[to_index(body)].name, "");
+          topology_.bodies[to_index(body)].name,
+          "bodies with a joint of the tree; make the loop of this body a joint, and another joint "
+          "of the ring a loop");
     require_simple(above);
     add_path(pair(above).body_i);
     add_node(above, false);

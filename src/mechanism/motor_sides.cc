@@ -8,8 +8,7 @@ namespace {
 
 bool moves_apart(const JointDescription& joint, const MotionStudy& study) {
   if (!joint.has_elastic_gear() || study.rigid_gears || study.postures > 0) return false;
-  return std::none_of(study.motion.begin(), study.motion.end(),
-                      [&joint](const GivenMotion& motion) { return motion.joint == joint.name; });
+  return !has_given_motion(study, joint.name);
 }
 
 JointDescription motor_side(const JointDescription& joint, int link) {

@@ -86,7 +86,8 @@ class TopologyBuilder {
       edges_.push_back(single_edge(static_cast<int>(k)));
       if (edges_.back().from == edges_.back().to)
         throw InputError({joint.where, joint.element(), "both ends lie on the same rigid body",
-                          robot_.links[index(joint.parent)].name, ""});
+                          robot_.links[index(joint.parent)].name,
+                          "two links that no chain of fixed joints connects"});
     }
   }
 

@@ -241,6 +241,8 @@ void add_session(py::module_* module) {
       .def(py::init(&open))
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("joints", &joints)
+      .def_property_readonly("names",
+                             [](const Session& of) { return to_list(of.problem().tuned_names()); })
       .def_property_readonly("name", [](const Session& of) { return robot_of(of.problem()).name; })
       .def_property_readonly("duration", [](const Session& of) { return of.problem().duration(); })
       .def_property_readonly("start",

@@ -272,7 +272,8 @@ double median_period(const std::vector<double>& times) {
 JointRecording checked_part(const JointRecording& recording, double from, double to) {
   for (std::size_t k = 0; k < recording.times.size(); ++k)
     if (!std::isfinite(recording.times[k]))
-      fail_at(recording, k, "the time is not a finite number", to_decimal(recording.times[k]), "");
+      fail_at(recording, k, "the time is not a finite number", to_decimal(recording.times[k]),
+              "seconds that ascend");
   const auto inside = [from, to](double time) { return from <= time && time <= to; };
   const auto first = std::find_if(recording.times.begin(), recording.times.end(), inside);
   const auto last = std::find_if(recording.times.rbegin(), recording.times.rend(), inside).base();

@@ -65,11 +65,18 @@ SourceText read_source(const std::string& path) {
   if (std::filesystem::is_directory(path, error))
     throw InputError({{path, 0}, "", "this is a folder", "", "a file"});
   if (!std::filesystem::exists(path, error))
-    throw InputError({{path, 0}, "", "there is no such file", "", ""});
+    throw InputError({{path, 0},
+                      "",
+                      "there is no such file",
+                      "",
+                      "a file; a relative path of the command line begins in the current folder, "
+                      "one in a study in the folder of the study"});
   std::ifstream file(path, std::ios::binary);
   if (file && file.peek() == std::ifstream::traits_type::eof())
-    throw InputError({{path, 1}, "", "the file is empty", "", ""});
-  if (!file) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
+    throw InputError({{path, 1}, "", "the file is empty", "", "a file with contents"});
+  if (!file)
+    throw InputError(
+        {{path, 0}, "", "the file cannot be read", "", "a file that this user may read"});
   // Devices and pipes may never end.
   constexpr std::size_t kMost = 32000000;
   std::string text;
@@ -79,7 +86,9 @@ SourceText read_source(const std::string& path) {
     if (text.size() > kMost)
       throw InputError({{path, 1}, "", "the file is too large", "", "at most 32 MB"});
   }
-  if (file.bad()) throw InputError({{path, 0}, "", "the file cannot be read", "", ""});
+  if (file.bad())
+    throw InputError(
+        {{path, 0}, "", "the file cannot be read", "", "a file that this user may read"});
   return {path, text};
 }
 

@@ -28,9 +28,9 @@ TEST(Arguments, TakesCommandModelAndStudy) {
 
 TEST(Arguments, CheckNeedsNoStudy) {
   EXPECT_EQ(parse_arguments({"check", "a.urdf"}).study, "");
-  expect_usage_error({"check"}, "needs a MODEL");
+  expect_usage_error({"check"}, "needs a MODEL, the path of a URDF file");
   for (const char* command : {"simulate", "gradient", "optimize"})
-    expect_usage_error({command, "a.urdf"}, "needs a STUDY");
+    expect_usage_error({command, "a.urdf"}, "needs a STUDY, the path of a YAML file");
 }
 
 TEST(Arguments, OptionsStandAnywhereAndTakeEitherSpelling) {
@@ -68,7 +68,8 @@ TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
   EXPECT_EQ(arguments.csv, "f");
   EXPECT_EQ(arguments.samples, 11);
   expect_usage_error({"simulate", "m", "s", "--samples", "1"}, "less than 2");
-  expect_usage_error({"simulate", "m", "s", "--samples", "ten"}, "not a number");
+  for (const char* samples : {"ten", "2.5"})
+    expect_usage_error({"simulate", "m", "s", "--samples", samples}, "not a whole number");
   EXPECT_EQ(
       parse_arguments({"simulate", "m", "s", "--signals", "${max(a/x, 1)},b/velocity"}).signals,
       (std::vector<std::string>{"${max(a/x, 1)}", "b/velocity"}));
@@ -86,12 +87,15 @@ TEST(Arguments, VerifyTakesAMethod) {
 }
 
 TEST(Arguments, RefusesWhatItDoesNotKnow) {
-  expect_usage_error({}, "no command");
+  expect_usage_error({}, "no command given (allowed: ");
+  expect_usage_error({}, "simulate, ");
   expect_usage_error({"optimise", "m", "s"},
                      "unknown command \"optimise\", did you mean \"optimize\"?");
   expect_usage_error({"check", "m", "--jsn"}, "unknown option \"--jsn\", did you mean \"--json\"?");
   expect_usage_error({"check", "m", "--verify"}, "\"check\" takes no --verify");
-  expect_usage_error({"check", "m", "s", "extra"}, "unexpected \"extra\"");
+  expect_usage_error(
+      {"check", "m", "s", "extra"},
+      "unexpected \"extra\" after model and study; further URDF files are given by --overlay");
   expect_usage_error({"check", "m", ""}, "empty argument");
 }
 

@@ -102,6 +102,37 @@ TEST(Excite, AClosedLoopKeepsTheLimitsOfJointsThatFollow) {
   EXPECT_LE(worst_on_fine_scan(problem, result, 20000), 1.0 + 1e-9);
 }
 
+/// A crank, a rod and a block on a slide of the ground, whose crank is moved.
+Problem planar_slider_crank(bool in_plane) {
+  std::string urdf = file_text("test/features/planar_loop.urdf");
+  const std::string held = " codesign:out_of_plane=\"zero\"";
+  if (!in_plane) urdf.erase(urdf.find(held), held.size());
+  return load_problem(
+      {"linkage.urdf", urdf}, {},
+      {"study.yaml",
+       "gravity: [0, -9.81, 0]\ninitial_state: {crank_joint: {position: 0.9}, rod_joint: {guess: "
+       "-1.1}, block_joint: {guess: 0.2}}\nidentify: {}\nexcite: {joints: {crank_joint: {position: "
+       "[-0.6, 2.4], velocity: 3.0, effort: 20.0, noise: 0.1}}, limits: {rod_joint: {velocity: "
+       "2.5}}, period: 3.0, harmonics: 4, starts: 1, max_evaluations: 60}\nparameters: {crank: {}, "
+       "rod: {}, mu: {}}\n"});
+}
+
+// The linkage is loaded in its plane, so that the same motion tells the same of both; the searches
+// end at different motions.
+TEST(Excite, ALoopThatIsHeldInItsPlane) {
+  const Problem problem = planar_slider_crank(true);
+  const ExcitationResult result = excite(problem, {}, nullptr),
+                         shared = excite(planar_slider_crank(false), {}, nullptr);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  ASSERT_TRUE(shared.status.ok()) << shared.status.cause;
+  EXPECT_GT(result.volume_factor(), 1.2);
+  expect_limits_kept(result);
+  EXPECT_LE(worst_on_fine_scan(problem, result, 20000), 1.0 + 1e-9);
+  for (const PredictedNumber& number : result.numbers)
+    EXPECT_NEAR(number.half_before / number_of(shared, number.name).half_before, 1.0, 1e-6)
+        << number.name;
+}
+
 TEST(Excite, WhatNoTrajectoryTellsIsNamed) {
   const ExcitationResult result =
       excite(pendulum("starts: 1, max_evaluations: 40",

@@ -60,6 +60,20 @@ TEST(CommandInputs, AJointThatMovesNoMassOrFollowsAnotherIsNotDriven) {
   EXPECT_EQ(drivable_joints(*system), Names{"first"});
 }
 
+TEST(CommandInputs, AJointWhoseMotionIsGivenTakesNoEfforts) {
+  const auto system =
+      compile(double_pendulum(),
+              "duration: 1.0\nmotion: {shoulder: {position: \"${0.3*sin(t)}\"}}\nobjective: "
+              "{integral: [{signal: elbow/position}]}\n");
+  EXPECT_EQ(drivable_joints(*system), Names{"elbow"});
+  EXPECT_EQ(CommandInputs(*system, {}).joints, Names{"elbow"});
+  CommandOptions options;
+  options.joints = Names{"elbow", "shoulder"};
+  const std::string said = message_of([&] { CommandInputs(*system, options); });
+  for (const char* part : {"command_joints", "gives the motion", "value: shoulder", "elbow"})
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+}
+
 TEST(CommandInputs, ChosenJointsKeepTheirOrderAndWrongOnesAreRefused) {
   const auto system = arm_with(kCascade);
   CommandOptions options;

@@ -180,6 +180,21 @@ class Values(unittest.TestCase):
         self.assertAlmostEqual(pendulum(set={"payload": 0.7}).objective(), heavy, delta=1e-9)
         self.assertEqual(problem.simulate(payload=0.7).objective, heavy)
 
+    def test_the_tuned_parameters_have_the_order_of_the_study(self):
+        """Whatever their order in the model."""
+        study = SWING.replace("{length: {}}", "{payload: {tune: true}, length: {}}")
+        problem = pendulum(study)
+        self.assertEqual([p.name for p in problem.parameters], ["length", "payload"])
+        self.assertEqual((problem.names, problem.bounds, problem.start.tolist()), (["payload", "length"], [(0.0, 1.0), (0.3, 0.8)], [0.1, 0.5]))
+        self.assertEqual(problem.objective([0.2, 0.4]), problem.objective(payload=0.2, length=0.4))
+        _, gradient = problem.gradient()
+        for name, slope in zip(problem.names, gradient):
+            value = {p.name: p.value for p in problem.parameters}[name]
+            ahead, behind = (problem.objective(**{name: value + step}) for step in (1e-4, -1e-4))
+            self.assertAlmostEqual((ahead - behind) / 2e-4, slope, delta=1e-3 * np.abs(gradient).max(), msg=name)
+        page = problem.optimize()._repr_html_()
+        self.assertRegex(page, r"payload</td>(<td[^>]*>[^<]*</td>){2}<td[^>]*>0</td><td[^>]*>1</td>")
+
     def test_an_untuned_value_holds_in_all_samples_but_those_of_its_own(self):
         problem = shipped("pendulum_robust")
         tuned = set(problem.names)

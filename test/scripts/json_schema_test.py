@@ -27,6 +27,22 @@ controllers:
   shoulder_servo: {type: computed_torque, output: shoulder, gains: {p: 400, d: 40}, setpoint: {type: waypoints, times: [0, 1, 2, 4], positions: [0.3, 1.0, -0.4, 0.3]}}
   elbow_servo: {type: computed_torque, output: elbow, gains: {p: 400, d: 40}, setpoint: {type: waypoints, times: [0, 1, 2, 4], positions: [-0.5, 0.8, -0.2, 0.5]}}
 """
+PENDULUM = """
+<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8"/>
+  <link name="ground"/>
+  <link name="rod"><inertial>
+    <origin xyz="0 0 -0.25" codesign:xyz="0 0 ${-length/2}"/><mass codesign:value="${2*length}"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.001"/>
+  </inertial></link>
+  <joint name="pivot" type="continuous"><parent link="ground"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+</robot>
+"""
+SWING = """
+duration: 1.0
+initial_state: {pivot: {position: 1.0}}
+parameters: {length: {}}
+objective: {terminal: [{signal: pivot/position, reference: 0.0}]}
+"""
 
 
 def validator(command):
@@ -78,6 +94,59 @@ class Outputs(unittest.TestCase):
         self.check("optimize", *self.case("pendulum_robust"))
         self.check("optimize", *self.case("governor_multistart"))
 
+    def pendulum(self, folder, *further):
+        """The paths of a model and of the study above with further lines."""
+        model, study = pathlib.Path(folder) / "pendulum.urdf", pathlib.Path(folder) / "swing.yaml"
+        model.write_text(PENDULUM.replace("<mass ", '<mass value="1" '))
+        study.write_text("\n".join([SWING, *further]))
+        return [model, study]
+
+    def test_a_model_that_is_filled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            model = pathlib.Path(folder) / "pendulum.urdf"
+            model.write_text(PENDULUM)
+            self.check("urdf", model, code=2, schema="error")
+            self.assertIn('value="1"', self.check("urdf", model, "--fill")["urdf"])
+
+    def test_one_run_of_a_study(self):
+        machine = ["gallery/function_generator/model.urdf", "gallery/function_generator/study.yaml"]
+        ends = [self.check("simulate", *machine, "--run", run)["series"]["output/position"][-1] for run in ("low", "high")]
+        self.assertNotEqual(*ends)
+        self.check("gradient", *machine, "--run", "low")
+        self.check("simulate", *machine, "--run", "lowest", code=2, schema="error")
+
+    def test_a_run_that_fails(self):
+        with tempfile.TemporaryDirectory() as folder:
+            files = self.pendulum(folder, "solver: {maximum_steps: 3}")
+            for command in ("simulate", "gradient", "optimize"):
+                output = self.check(command, *files, code=1)
+                self.assertEqual(output["error"]["code"], "too_many_steps")
+            # It slides down without end.
+            model, study = self.pendulum(folder)
+            model.write_text(model.read_text().replace('continuous"', 'prismatic"').replace('<axis xyz="0 1 0"/>', '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'))
+            study.write_text("duration: 1.0\n")
+            self.assertEqual(self.check("equilibrium", model, study, code=1)["error"]["code"], "no_equilibrium")
+
+    def test_a_search_without_a_feasible_point(self):
+        with tempfile.TemporaryDirectory() as folder:
+            output = self.check("optimize", *self.pendulum(folder, "path: [{signal: pivot/velocity, between: [-0.01, 0.01]}]"), code=1)
+            self.assertEqual(output["error"]["code"], "infeasible")
+            self.assertGreater(output["signals"][0]["violation"], 0.01)
+            output = self.check("optimize", *self.pendulum(folder, 'constraints: ["length >= 2"]'), code=1)
+            self.assertEqual(output["error"]["code"], "infeasible")
+            self.assertLess(output["constraints"][0]["margin"], -1.0)
+
+    def test_a_job_that_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            job = pathlib.Path(folder) / "job"
+            output = self.check("optimize", *self.pendulum(folder), "--output", job)
+            written = json.loads((job / "result.json").read_text())
+            self.assertEqual(list(validator("optimize").iter_errors(written)), [])
+            resumed = self.check("optimize", *self.pendulum(folder), "--resume", job)
+            self.assertEqual(resumed["parameters"], output["parameters"])
+            self.check("simulate", *self.pendulum(folder), "--result", job / "result.json")
+            self.check("optimize", *self.pendulum(folder, "gravity: [0, 0, -1.6]"), "--resume", job, code=2, schema="error")
+
     def test_a_fit_and_a_trajectory(self):
         with tempfile.TemporaryDirectory() as folder:
             study, recording, model = pathlib.Path(folder) / "study.yaml", pathlib.Path(folder) / "run.csv", "urdf/arm_limits.urdf"
@@ -110,6 +179,11 @@ class Outputs(unittest.TestCase):
 
 
 class Page(unittest.TestCase):
+    def test_every_key_has_a_meaning(self):
+        rows = [line for line in (ROOT / "doc/json.md").read_text().splitlines() if line.startswith("| `")]
+        self.assertGreater(len(rows), 300)
+        self.assertEqual([row for row in rows if not row.rstrip(" |").count(" | ") == 2], [])
+
     def test_it_is_made_from_the_schema(self):
         made = subprocess.run([ROOT / "tools/json_page"], capture_output=True, text=True, check=True).stdout
         self.assertEqual((ROOT / "doc/json.md").read_text(), made, "run tools/json_page > doc/json.md")

@@ -4,6 +4,7 @@
 
 --write puts the table of all keys into doc/study.md, and the sentences into doc/messages.md.
 """
+import functools
 import html
 import os
 import pathlib
@@ -68,6 +69,7 @@ def study():
     return text, table, table_of_keys(linked)
 
 
+@functools.lru_cache(maxsize=None)
 def messages():
     """doc/messages.md as the sources have it."""
     return subprocess.run([sys.executable, "-B", ROOT / "tools/message_index"], capture_output=True, text=True, check=True).stdout
@@ -110,15 +112,23 @@ class Pages(unittest.TestCase):
         differing = set(page.splitlines()) ^ set(right.splitlines())
         self.assertTrue(page == right, f"pages_test.py --write; of these lines page and sources differ: {sorted(differing)[:5]}")
 
+    def test_every_message_has_a_remedy(self):
+        """An allowed value, a code with a page, or an entry of doc/remedies.txt; and each entry has its message."""
+        check = subprocess.run([sys.executable, "-B", ROOT / "tools/message_index", "--check"], capture_output=True, text=True, check=False)
+        self.assertEqual((check.stdout.split("\n")[:5], check.returncode), (["", ""], 0), "correct doc/remedies.txt")
+        rows = [re.split(r"(?<!\\) \| ", line) for line in messages().splitlines() if line.startswith(("| `", "| ``"))]
+        self.assertGreater(len(rows), 900)
+        self.assertEqual([row[0] for row in rows if not row[1].strip()], [])
+
     def test_the_index_has_what_a_user_sees(self):
         index = (ROOT / "doc/messages.md").read_text().splitlines()
         for row in ("| `nothing is uncertain` | `at least one PARAMETER: {uniform: [lower, upper]}` |", "| `more than \N{HORIZONTAL ELLIPSIS} steps (solver.maximum_steps)` | [too_many_steps](statuses.md) |",
                     "| `the slope is \N{HORIZONTAL ELLIPSIS} of the start's` |",
                     # of Python: raised, told the parser of arguments, put together before, printed to stderr
-                    "| `identify() with arrays needs their times` |  | python/mechanism_codesign/_problem.py |", "| `--port: out of range` | `0 to 65535` | scripts/panel, scripts/watch |",
-                    "| `\N{HORIZONTAL ELLIPSIS} = \N{HORIZONTAL ELLIPSIS} was not taken; there is no such parameter; the warnings of the run say why` |  | scripts/panel |",
-                    "| `\N{HORIZONTAL ELLIPSIS} cells, the first line has \N{HORIZONTAL ELLIPSIS}; the table is damaged` |  | scripts/watch |",
-                    "| `a file of this job is damaged, or written by another version of this program (\N{HORIZONTAL ELLIPSIS}: \N{HORIZONTAL ELLIPSIS}); run the job again` |  | scripts/report |"):
+                    "| `identify() with arrays needs their times` | `identify(time, position=..., effort=...)`, ", "| `--port: out of range` | `0 to 65535` | scripts/panel, scripts/watch |",
+                    "| `\N{HORIZONTAL ELLIPSIS} = \N{HORIZONTAL ELLIPSIS} was not taken; there is no such parameter; the warnings of the run say why` | a value within its bounds ",
+                    "| `\N{HORIZONTAL ELLIPSIS} cells, the first line has \N{HORIZONTAL ELLIPSIS}; the table is damaged` | the folder of a running or finished ",
+                    "| `a file of this job is damaged, or written by another version of this program (\N{HORIZONTAL ELLIPSIS}: \N{HORIZONTAL ELLIPSIS}); run the job again` | the file that the message names "):
             self.assertTrue(any(line.startswith(row) for line in index), row)
 
     def test_every_warning_has_a_row(self):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The tutorials doc/tutorials/*.md are typed in a folder of their own, and print what stands there. Usage: tutorial_pages_test.py CODESIGN [--ros] [PAGE...]
+"""The tutorials doc/tutorials/*.md and the pages with worked examples are typed in a folder of their own, and print what stands there. Usage: tutorial_pages_test.py CODESIGN [--ros] [PAGE...]
 
-A block of xml, yaml or python that begins with a comment with a file's name is written to this file. In a block `console` the lines after "$ " are commands, each of which must
+The folder has `urdf` and `config` of the package. A block of xml, yaml or python that begins with a comment with a file's name is written to this file. In a block `console` the lines after "$ " are commands, each of which must
 succeed; the lines below are what it prints. Standard output must be there completely; "..." stands for anything in a line, and alone for any lines. Of standard error, only the
 lines that the page shows must be there. A block `console ros` is typed only if the program reads bags, as --ros says, a block `console without-ros` only if not. Words agree exactly, spaces in any number; numbers agree to 0.2 %.
 """
@@ -18,12 +18,13 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 FILE = re.compile(r"(?:<\?xml[^\n]*\n)?(?:<!--|#) ([\w.]+\.\w+)(?: -->)?\n")
 TOLERANCE = 2e-3
+EXAMPLES = ["doc/actuators.md", "doc/study/postures.md"]
 OPTIONS = sys.argv[2:]
 NOT_TYPED = "without-ros" if "--ros" in OPTIONS else "ros"
 
 
 def pages():
-    return [option for option in OPTIONS if option != "--ros"] or sorted(glob.glob(os.path.join(ROOT, "doc/tutorials/*.md")))
+    return [option for option in OPTIONS if option != "--ros"] or sorted(glob.glob(os.path.join(ROOT, "doc/tutorials/*.md"))) + [os.path.join(ROOT, page) for page in EXAMPLES]
 
 
 def blocks(text):
@@ -83,10 +84,12 @@ def difference(shown, output, errors):
 class TutorialPages(unittest.TestCase):
     def test_what_is_typed_prints_what_is_shown(self):
         self.assertGreater(len(pages()), 0)
-        environment = {**os.environ, "PATH": os.path.dirname(sys.argv[1]) + os.pathsep + os.environ["PATH"]}
+        environment = {**os.environ, "PATH": os.pathsep.join([os.path.dirname(sys.argv[1]), os.path.join(ROOT, "scripts"), os.environ["PATH"]])}
         for page in pages():
             with open(page, encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
                 text = file.read()
+                for shipped in ("urdf", "config"):
+                    os.symlink(os.path.join(ROOT, shipped), os.path.join(folder, shipped))
                 found = blocks(text)
                 self.assertTrue(any(kind == "console" for kind, _ in found))
                 self.assertNotRegex(text, r"(?m)^```\w+ (?!(ros|without-ros)$)")

@@ -34,23 +34,26 @@ def arguments():
     return {name: shlex.split(value)[0] for name, _, value in (text.partition("=") for text in texts("ARG"))}
 
 
+def called_by(command, programs, **environment):
+    """The calls of some programs by a command of the shell, with stand-ins for them."""
+    with tempfile.TemporaryDirectory() as folder:
+        for program in programs:
+            with open(os.path.join(folder, program), "w", encoding="utf-8") as file:
+                file.write(f'#!/bin/sh\necho {program} "$@"\n')
+            os.chmod(file.name, 0o755)
+        done = subprocess.run(["/bin/sh", "-c", command], env={"PATH": folder, **environment}, capture_output=True, text=True, check=True)
+    return done.stdout.splitlines()
+
+
 def installed_by(chosen):
     """What apt-get is called with when the packages of the second stage are installed, where the first one has made all packages."""
     mount, command = re.fullmatch(r"(--mount=\S+)\s+(.*)", texts("RUN")[-1]).groups()
     target = re.search(r"target=([^,\s]+)", mount).group(1)
-    with tempfile.TemporaryDirectory() as folder:
-        made, stand_ins = os.path.join(folder, "made"), os.path.join(folder, "bin")
-        os.mkdir(made)
-        os.mkdir(stand_ins)
+    with tempfile.TemporaryDirectory() as made:
         for package in packages.PACKAGES:
             with open(os.path.join(made, f"{package}_1.0~deb12_amd64.deb"), "w", encoding="utf-8"):
                 pass
-        for program in ("apt-get", "rm"):
-            with open(os.path.join(stand_ins, program), "w", encoding="utf-8") as file:
-                file.write(f'#!/bin/sh\necho {program} "$@"\n')
-            os.chmod(file.name, 0o755)
-        done = subprocess.run(["/bin/sh", "-c", command.replace(target, made)], env={"PATH": stand_ins, "PACKAGES": chosen}, capture_output=True, text=True, check=True)
-    return done.stdout.splitlines()
+        return called_by(command.replace(target, made), ("apt-get", "rm"), PACKAGES=chosen)
 
 
 class ImageTest(unittest.TestCase):
@@ -75,9 +78,17 @@ class ImageTest(unittest.TestCase):
         tool = texts("RUN")[0].split()
         self.assertEqual(len(tool), 1, "tools/package takes other options for trials")
         self.assertTrue(os.access(os.path.join(ROOT, tool[0]), os.X_OK))
-        program = re.match(r'\["(\w+)"', texts("CMD")[0]).group(1)
-        self.assertTrue(os.path.exists(os.path.join(ROOT, "man", f"{program}.1.in")))
-        self.assertIn(packages.package_of(f"bin/{program}"), arguments()["PACKAGES"].split())
+
+    def test_its_own_command_is_the_demo(self):
+        command, = texts("CMD")
+        optimize, report = called_by(command, ("codesign",))
+        share = "/usr/share/mechanism_codesign/"
+        self.assertRegex(optimize, rf"^codesign optimize {share}\S+ {share}\S+ --output job$")
+        self.assertEqual(report, "codesign report job -o job.html")
+        for path in ["bin/codesign", *(f"share/mechanism_codesign/{name}" for name in re.findall(rf"{share}(\S+)", optimize))]:
+            self.assertIn(packages.package_of(path), arguments()["PACKAGES"].split())
+        for name in re.findall(rf"{share}(\S+)", optimize):
+            self.assertTrue(os.path.exists(os.path.join(ROOT, name)), name)
 
     def test_the_packages_are_installed(self):
         named = re.findall(r'PACKAGES="([^"]+)"', read("Dockerfile"))

@@ -7,7 +7,6 @@
 #include "assembly/assembly.h"
 #include "control/reference.h"
 #include "description/study.h"
-#include "identification/fit/given_motion.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"
 

@@ -42,11 +42,6 @@ JointSamples samples_of(const GivenMotion& motion, const std::vector<double>& ti
 
 }  // namespace
 
-bool has_given_motion(const MotionStudy& study, const std::string& joint) {
-  return std::any_of(study.motion.begin(), study.motion.end(),
-                     [&](const GivenMotion& motion) { return motion.joint == joint; });
-}
-
 std::optional<StudyRecordings> with_given_motions(const Problem& problem,
                                                   const StudyRecordings& recordings) {
   const Study& study = study_of(problem);

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "description/study.h"
 #include "mechanism_codesign/problem.h"
 #include "recordings/joint_recording.h"
 
 namespace codesign {
-
-/// Whether the study gives the motion of this joint.
-bool has_given_motion(const MotionStudy& study, const std::string& joint);
 
 /// Recordings with the joints whose motion the study gives and which they lack: they have the
 /// positions and velocities of the functions at the times of the recording, whose clock is that of

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "description/study.h"
-#include "identification/fit/given_motion.h"
 #include "math/arrays.h"
 #include "mechanism/motor_sides.h"
 #include "text/number_text.h"

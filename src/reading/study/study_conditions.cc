@@ -62,7 +62,9 @@ void read_scalar_start(const YamlValue& value, const ParameterTable& table,
   if (const auto velocity = value.find("velocity"))
     state->velocity = read_quantity(*velocity, table);
   const auto guess = value.find("guess");
-  if (guess && state->position) guess->fail("a joint has either a position or a guess of it");
+  if (guess && state->position)
+    guess->fail("a joint has either a position or a guess of it",
+                "position, which is kept, or guess, where the search for a closed loop begins");
   if (guess) state->guess = guess->number();
 }
 

@@ -79,6 +79,18 @@ void refuse_start(const std::string& joint, bool by_velocity, const Study& study
                      : "no initial_state." + joint);
 }
 
+/// The form that a run gives takes the place of the other one, which only the study gives: its path
+/// is not below that of the run.
+void replace_other_form(const YamlValue& motion, std::optional<YamlValue>* position,
+                        std::optional<YamlValue>* velocity) {
+  if (!*position || !*velocity) return;
+  const auto is_of_run = [&motion](const YamlValue& form) {
+    return form.path().compare(0, motion.path().size(), motion.path()) == 0;
+  };
+  if (is_of_run(**position) != is_of_run(**velocity))
+    (is_of_run(**position) ? velocity : position)->reset();
+}
+
 void refuse_controllers(const std::string& joint, const Study& study, const YamlValue& value) {
   for (const ControllerDescription& controller : study.controllers)
     if (controller.output == joint)
@@ -97,7 +109,8 @@ void read_motion(const YamlValue& study_value, const RobotDescription& robot,
     constexpr const char* kForms = "{position: FUNCTION} or {velocity: FUNCTION}";
     if (!value.is_map()) value.fail("a motion must be a map", kForms);
     value.require_keys({}, {"position", "velocity"});
-    const auto position = value.find("position"), velocity = value.find("velocity");
+    auto position = value.find("position"), velocity = value.find("velocity");
+    replace_other_form(value, &position, &velocity);
     if (position.has_value() == velocity.has_value())
       value.fail("a motion has either a position or a velocity", kForms);
     GivenMotion motion;

@@ -25,7 +25,8 @@ Parameter new_parameter(const std::string& name, const YamlValue& value,
     return {name, 0.0, Parameter().lower, Parameter().upper, "", value.where()};
   const std::string hint = did_you_mean(nearest_name(name, names_of(model)));
   throw InputError({value.where(), value.path() + ".initial",
-                    "required key is missing: the model has no such parameter" + hint, "", ""});
+                    "required key is missing: the model has no such parameter" + hint, "",
+                    "a parameter of the model, or a new one with initial: NUMBER"});
 }
 
 std::unordered_map<std::string, int> indices_of(const std::vector<Parameter>& parameters) {

@@ -46,11 +46,13 @@ Interpolation read_interpolation(const YamlValue& value) {
 
 void check_times(const std::vector<double>& times, const YamlValue& value) {
   if (times.size() < 2)
-    value.fail("a trajectory needs at least two way-points, found " + std::to_string(times.size()));
+    value.fail("a trajectory needs at least two way-points, found " + std::to_string(times.size()),
+               "times: [0, ...] with as many positions");
   for (std::size_t k = 1; k < times.size(); ++k)
     if (!(times[k - 1] < times[k]))
-      value.fail("the times must ascend, and way-point " + std::to_string(k) +
-                 " does not come later");
+      value.fail(
+          "the times must ascend, and way-point " + std::to_string(k) + " does not come later",
+          "each time above the one before it");
 }
 
 std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count,

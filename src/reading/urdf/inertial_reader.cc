@@ -46,7 +46,10 @@ std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::str
                                           const ParameterTable& table) {
   std::vector<ShapeDescription> shapes;
   for (const XmlElement& visual : link.children(tag)) shapes.push_back(read_solid(visual, table));
-  if (shapes.empty()) link.fail("the link has no <" + tag + "> to compute its mass from");
+  if (shapes.empty())
+    link.fail("the link has no <" + tag + "> to compute its mass from", "",
+              "a <" + tag + "> with box, cylinder or sphere, or codesign:from=\"" +
+                  (tag == "visual" ? "collision" : "visual") + "\"");
   return shapes;
 }
 

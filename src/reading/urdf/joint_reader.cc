@@ -113,7 +113,11 @@ void read_limit_of_joint(const XmlElement& element, const ReadContext& context,
                          JointDescription* joint) {
   const std::optional<XmlElement> limit = element.child("limit");
   const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
-  if (bounded && !limit) element.fail("a joint of this type needs a <limit>", element.text("type"));
+  if (bounded && !limit)
+    element.fail(
+        "a joint of this type needs a <limit>", element.text("type"),
+        "<limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>, or of a hinge "
+        "without stops type=\"continuous\"");
   if (limit && has_one_coordinate(joint->type))
     joint->limit = read_limit(*limit, joint->type, context);
 }
@@ -139,7 +143,8 @@ void read_mimic_of_joint(const XmlElement& element, const ReadContext& context,
 void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
                    JointDescription* joint) {
   if (!dynamics.has("damping") && !dynamics.has("friction"))
-    dynamics.fail("neither damping nor friction is given");
+    dynamics.fail("neither damping nor friction is given", "",
+                  "damping=\"...\", friction=\"...\", or no <dynamics>");
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
   const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
@@ -207,11 +212,13 @@ void read_type_specific(const XmlElement& element, const ReadContext& context,
                                   length = element.child("codesign:length");
   if (second_axis) {
     if (loop->type != JointType::kUniversal)
-      second_axis->fail("only a loop of type codesign:universal has a second axis");
+      second_axis->fail("only a loop of type codesign:universal has a second axis",
+                        element.text("type"), "type=\"codesign:universal\", or no second axis");
     loop->second_axis = read_axis(*second_axis, context.table);
   }
   if (length && loop->type != JointType::kDistance)
-    length->fail("only a loop of type codesign:distance has a length");
+    length->fail("only a loop of type codesign:distance has a length", element.text("type"),
+                 "type=\"codesign:distance\", or no length");
   if (loop->type == JointType::kDistance)
     loop->distance =
         read_quantity(element.only("codesign:length"), "value", Range::kPositive, context.table);

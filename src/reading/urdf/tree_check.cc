@@ -65,7 +65,8 @@ std::optional<InputError> mimic_fault(const JointDescription& joint,
       return unknown_name(at->mimic->where, element, "joint to mimic", at->mimic->joint, names);
     if (++steps > names.size())
       return InputError({joint.mimic->where, joint.element() + " <mimic>",
-                         "the joints mimic each other in a ring", joint.mimic->joint, ""});
+                         "the joints mimic each other in a ring", joint.mimic->joint,
+                         "a joint that does not follow this one, directly or through others"});
   }
   return std::nullopt;
 }

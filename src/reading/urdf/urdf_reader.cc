@@ -135,7 +135,8 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   ReadContext context{{}, ParameterTable(robot.parameters), &robot.warnings, &laws};
   for (const XmlElement& link : element.children("link"))
     robot.links.push_back(read_link(link, context.table));
-  if (robot.links.empty()) element.fail("the robot has no links");
+  if (robot.links.empty())
+    element.fail("the robot has no links", "", "at least one <link name=\"...\">");
   for (const LinkDescription& link : robot.links) context.links.push_back(link.name);
   for (const XmlElement& joint : element.children("joint"))
     robot.joints.push_back(read_joint(joint, context));

@@ -58,7 +58,8 @@ void check_with_urdfdom(const XmlDocument& document) {
   if (urdf::parseURDF(text) != nullptr) return;
   const tinyxml2::XMLElement* element = find_named(document.robot(), collector.errors());
   throw InputError({document.location(element != nullptr ? element : document.robot()), "<robot>",
-                    "urdfdom refuses the file: " + collector.errors(), "", ""});
+                    "urdfdom refuses the file: " + collector.errors(), "",
+                    "a file that robot_state_publisher and rviz can read, too"});
 }
 
 }  // namespace codesign

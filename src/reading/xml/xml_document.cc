@@ -80,7 +80,7 @@ XmlDocument::XmlDocument(const SourceText& source)
                       "",
                       "the text is not XML: " + parse_fault(dom_->ErrorID()),
                       "",
-                      ""});
+                      "a URDF file; & and < in a text or an attribute are written &amp; and &lt;"});
   if (robot() == nullptr)
     throw InputError({{file_, 1}, "", "the text contains no XML element", "", "<robot>"});
   if (std::string(robot()->Name()) != "robot")

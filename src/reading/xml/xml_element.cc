@@ -31,8 +31,9 @@ std::optional<std::string> XmlElement::find(const std::string& attribute) const 
 
 std::string XmlElement::text(const std::string& attribute) const {
   const std::optional<std::string> value = find(attribute);
-  if (!value) fail("the attribute " + attribute + " is missing");
-  if (value->empty()) fail_at(attribute, "the attribute " + attribute + " is empty");
+  if (!value) fail("the attribute " + attribute + " is missing", "", attribute + "=\"...\"");
+  if (value->empty())
+    fail_at(attribute, "the attribute " + attribute + " is empty", attribute + "=\"...\"");
   return *value;
 }
 
@@ -68,7 +69,7 @@ std::optional<XmlElement> XmlElement::child(const std::string& tag) const {
 
 XmlElement XmlElement::only(const std::string& tag) const {
   const std::optional<XmlElement> found = child(tag);
-  if (!found) fail("the element <" + tag + "> is missing");
+  if (!found) fail("the element <" + tag + "> is missing", "", "one <" + tag + "> in it");
   return *found;
 }
 

@@ -75,7 +75,11 @@ YamlValue YamlValue::parse(const SourceText& source) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(source.text);
     if (documents.empty() || documents.front().IsNull())
-      throw InputError({{source.name, 1}, kRoot, "the file contains no YAML", "", ""});
+      throw InputError({{source.name, 1},
+                        kRoot,
+                        "the file contains no YAML",
+                        "",
+                        "a map of keys and values, such as duration: 2.0"});
     if (documents.size() > 1)
       throw InputError({{source.name, documents[1].Mark().line + 1},
                         kRoot,
@@ -89,14 +93,16 @@ YamlValue YamlValue::parse(const SourceText& source) {
                       kRoot,
                       "lists and maps are nested too deeply",
                       "",
-                      ""});
+                      "a few levels, as the keys of the study need them"});
   } catch (const YAML::Exception& error) {
     const std::string column = "column " + std::to_string(error.mark.column + 1);
-    throw InputError({{source.name, std::max(1, error.mark.line + 1)},
-                      column,
-                      "not YAML: " + error.msg,
-                      "",
-                      ""});
+    throw InputError(
+        {{source.name, std::max(1, error.mark.line + 1)},
+         column,
+         "not YAML: " + error.msg,
+         "",
+         "spaces for indentation, a space after each colon and comma, every bracket and "
+         "quotation mark closed"});
   }
 }
 
@@ -118,7 +124,8 @@ YamlValue YamlValue::child(const YAML::Node& node, const std::string& key) const
 
 void YamlValue::require_map() const {
   if (!node_.IsMap())
-    fail("expected a map of keys and values, found " + std::string(kind_of(node_)));
+    fail("expected a map of keys and values, found " + std::string(kind_of(node_)),
+         "{key: value, ...}, or lines of key: value that are indented further");
 }
 
 SourceLocation YamlValue::key_place(const std::string& key) const {
@@ -161,9 +168,11 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::own_entries() const {
   for (const auto& entry : node_) {
     const YAML::Node& key_node = entry.first;
     if (!key_node.IsScalar())
-      fail("a key must be a plain word, found " + std::string(kind_of(key_node)));
+      fail("a key must be a plain word, found " + std::string(kind_of(key_node)),
+           "key: value, without brackets before the colon");
     const std::string key = key_node.Scalar();
-    if (!seen.insert(key).second) child(key_node, key).fail("repeated key");
+    if (!seen.insert(key).second)
+      child(key_node, key).fail("repeated key", "each key once in its block");
     result.emplace_back(key, child(entry.second, key));
   }
   return result;
@@ -177,7 +186,8 @@ void YamlValue::require_keys(const std::vector<std::string>& required,
     if (!contains(known, key)) throw unknown_name(key_place(key), value.path(), "key", key, known);
   for (const std::string& key : required)
     if (!find(key))
-      throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+      throw InputError(
+          {where(), child(node_, key).path(), "required key is missing", "", key + ": ..."});
 }
 
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
@@ -191,12 +201,15 @@ std::optional<YamlValue> YamlValue::find(const std::string& key) const {
 YamlValue YamlValue::at(const std::string& key) const {
   std::optional<YamlValue> value = find(key);
   if (!value)
-    throw InputError({where(), child(node_, key).path(), "required key is missing", "", ""});
+    throw InputError(
+        {where(), child(node_, key).path(), "required key is missing", "", key + ": ..."});
   return *value;
 }
 
 std::vector<YamlValue> YamlValue::items() const {
-  if (!node_.IsSequence()) fail("expected a list, found " + std::string(kind_of(node_)));
+  if (!node_.IsSequence())
+    fail("expected a list, found " + std::string(kind_of(node_)),
+         "[..., ...], or lines that begin with a hyphen");
   std::vector<YamlValue> result;
   for (std::size_t i = 0; i < node_.size(); ++i)
     result.push_back(YamlValue(node_[i], file_, path_ + "[" + std::to_string(i) + "]"));
@@ -204,8 +217,9 @@ std::vector<YamlValue> YamlValue::items() const {
 }
 
 std::string YamlValue::text() const {
-  if (!node_.IsScalar()) fail("expected text, found " + std::string(kind_of(node_)));
-  if (node_.Scalar().empty()) fail("the text is empty");
+  if (!node_.IsScalar())
+    fail("expected text, found " + std::string(kind_of(node_)), "one word or number");
+  if (node_.Scalar().empty()) fail("the text is empty", "at least one character, or no such key");
   return node_.Scalar();
 }
 

@@ -137,7 +137,9 @@ ApplyArguments parse_apply_arguments(const std::vector<std::string>& words) {
     }
   }
   if (!arguments.help && arguments.request.result.empty())
-    throw ApplyUsageError("\"apply\" needs the DIR or BAG of an optimization");
+    throw ApplyUsageError(
+        "\"apply\" needs the DIR or BAG of an optimization, as codesign optimize --output DIR "
+        "writes it");
   return arguments;
 }
 

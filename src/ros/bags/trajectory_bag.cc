@@ -74,9 +74,12 @@ Trajectory find_message(const TrajectoryAddress& address, const std::string& pat
     if (index_of(trajectory, address.joint) < trajectory.joints.size())
       found.push_back(std::move(trajectory));
   });
-  if (!any) fail(address, "topic", "the bag holds no message on this topic", address.topic, "");
+  if (!any)
+    fail(address, "topic", "the bag holds no message on this topic", address.topic,
+         "a topic that rosbag info shows");
   if (found.empty())
-    fail(address, "joint", "no trajectory on this topic names the joint", address.joint, "");
+    fail(address, "joint", "no trajectory on this topic names the joint", address.joint,
+         "a name in joint_names of its messages");
   if (found.size() > 1)
     fail(address, "topic", std::to_string(found.size()) + " trajectories name the joint",
          address.topic, "one; rosbag filter keeps one");

@@ -41,6 +41,7 @@ void require_once(const std::string& topic, const std::vector<std::string>& join
 
 std::size_t index_of_joint(const CommandInputs& inputs, const std::string& topic,
                            const std::string& joint) {
+  refuse_given_motion(inputs.study, joint, topic, inputs.joints);
   const auto found = std::find(inputs.joints.begin(), inputs.joints.end(), joint);
   if (found == inputs.joints.end())
     throw unknown_name({topic, 0}, joint, "joint that takes efforts", joint, inputs.joints);

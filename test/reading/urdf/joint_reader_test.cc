@@ -75,7 +75,7 @@ TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
   EXPECT_DOUBLE_EQ(joint.damping.at(at), 0.2);
   EXPECT_DOUBLE_EQ(joint.dry_friction.at(at), 0.3);
   expect_error(pendulum("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis is zero"});
-  expect_error(pendulum("<axis/>"), {"the attribute xyz is missing"});
+  expect_error(pendulum("<axis/>"), {"the attribute xyz is missing", "(allowed: xyz=\"...\")"});
   expect_error(pendulum("<dynamics/>"), {"neither damping nor friction"});
   expect_warning(pendulum("<dynamics damping=\"-1\"/>"), "negative_value",
                  {"test.urdf:2:", "damping is negative and is taken as zero"});
@@ -89,7 +89,8 @@ TEST(JointReader, Limits) {
   EXPECT_EQ(joint.limit->upper.nominal(), 2.0);
   EXPECT_EQ(joint.limit->effort.nominal(), 3.0);
   EXPECT_EQ(joint.limit->velocity.nominal(), 4.0);
-  expect_error(typed("prismatic"), {"needs a <limit>"});
+  expect_error(typed("prismatic"),
+               {"needs a <limit>", "(value: prismatic, allowed: <limit lower="});
   const SourceText reversed =
       read_limits("revolute", R"(lower="2" upper="1" effort="1" velocity="1")");
   expect_warning(

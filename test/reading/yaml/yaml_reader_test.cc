@@ -71,6 +71,7 @@ TEST(YamlReader, ChecksKeys) {
   });
   EXPECT_EQ(missing.element, "nested.signal");
   EXPECT_EQ(missing.message, "required key is missing");
+  EXPECT_NE(missing.allowed, "");
   EXPECT_EQ(fault_of([&] { parse("a: 1\nb: 2\na: 3\n").entries(); }).where.line, 3);
   EXPECT_EQ(fault_of([&] { parse("? [a, b]\n: 3\n").entries(); }).message,
             "a key must be a plain word, found a list");
@@ -114,6 +115,7 @@ TEST(YamlReader, RefusesTextThatIsNotOneDocument) {
   EXPECT_EQ(fault_of([] { parse("a: [1, 2\nb: 3\n"); }).message.substr(0, 8), "not YAML");
   EXPECT_EQ(fault_of([] { parse("a: 1\n\tb: 3\n"); }).where.line, 2);
   EXPECT_EQ(fault_of([] { parse(""); }).message, "the file contains no YAML");
+  EXPECT_EQ(fault_of([] { parse(""); }).allowed, "a map of keys and values, such as duration: 2.0");
   EXPECT_EQ(fault_of([] { parse("a: 1\n---\nb: 1\n"); }).message, "more than one YAML document");
 }
 

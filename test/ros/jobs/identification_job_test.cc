@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "identification/geared_arm.h"
 #include "identification/swinging_arm.h"
 #include "jobs/json.h"
 #include "reading/urdf/urdf_reader.h"
@@ -206,6 +207,39 @@ TEST_F(IdentificationJobTest, AFileThatCannotBeWrittenCostsThatFileAlone) {
   const auto result = run().result;
   EXPECT_EQ(result.code, "output_failed");
   EXPECT_NE(result.message.find(out()), std::string::npos) << result.message;
+}
+
+/// Writes a recording as the joint states of a robot whose topic has positions and efforts.
+void write_joint_states(const std::string& path, const JointRecording& recording) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  sensor_msgs::JointState message;
+  for (const JointSamples& joint : recording.joints) message.name.push_back(joint.joint);
+  message.position.resize(message.name.size());
+  message.effort.resize(message.name.size());
+  for (std::size_t k = 0; k < recording.times.size(); ++k) {
+    message.header.stamp = ros::Time(100.0 + recording.times[k]);
+    for (std::size_t joint = 0; joint < message.name.size(); ++joint) {
+      message.position[joint] = recording.joints[joint].position[k];
+      message.effort[joint] = recording.joints[joint].effort[k];
+    }
+    bag.write("/joint_states", message.header.stamp, message);
+  }
+}
+
+TEST_F(IdentificationJobTest, OfABagFindsTheLossesOfAGearFromMotorsAlone) {
+  write_joint_states((folder_.path() / "run.bag").string(),
+                     with_noise(clean_geared_recording(), 3));
+  const auto result = run_identification(geared_problem("{bag: run.bag, topic: /joint_states}"),
+                                         folder_.path().string(), {}, {out(), 20.0}, {}, cancel_)
+                          .result;
+  ASSERT_TRUE(result.success) << result.message;
+  ASSERT_EQ(result.numbers.size(), kGearedTruth.size());
+  std::map<std::string, double> found;
+  for (const auto& number : result.numbers) {
+    found[number.name] = number.value;
+    EXPECT_TRUE(number.determined) << number.name;
+  }
+  expect_geared_truth(found, "from a bag");
 }
 
 }  // namespace

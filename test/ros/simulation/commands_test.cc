@@ -82,6 +82,20 @@ TEST(CommandReading, ARefusedEffortNamesTopicJointAndValue) {
   expect_refused(read(efforts({}, {})), {"no joint is named"});
 }
 
+TEST(CommandReading, AnEffortOnAGivenMotionIsRefused) {
+  const Problem arm = servo_arm();
+  const Problem problem = load_problem(
+      arm.urdf(), {},
+      {"arm.yaml",
+       "duration: 1.0\nmotion: {shoulder: {velocity: 0.5}}\nobjective: {integral: [{signal: "
+       "elbow/position}]}\n"});
+  const CommandInputs inputs(*system_of(problem), {});
+  EXPECT_EQ(read_efforts(inputs, "effort", efforts({"elbow"}, {1.0})).efforts.at(0).first, 0U);
+  expect_refused(
+      refusal_of([&] { read_efforts(inputs, "/s/effort", efforts({"shoulder"}, {1.0})); }),
+      {"/s/effort", "shoulder", "gives the motion of the joint", "allowed: elbow"});
+}
+
 TEST(CommandReading, ASetPointIsAFiniteNumber) {
   std_msgs::Float64 message;
   message.data = 0.7;
