@@ -128,8 +128,8 @@ const ReferenceDescription& clock_function();
 /// a column of a table.
 struct TrajectoryAddress {
   std::string bag, topic, joint;
-  SourceLocation where;  ///< the place in the study that names it, for messages
-  std::string element;   ///< likewise
+  SourceLocation where;                 ///< the place in the study that names it, for messages
+  std::string element;                  ///< likewise
   std::string csv{}, column{}, time{};  ///< of a table: the file, and names of columns
 };
 

@@ -53,6 +53,8 @@ void check(const ReferenceDescription& reference, const std::vector<double>& par
   if (reference.kind == ReferenceDescription::Kind::kIntegral)
     return check(*reference.integral.rate, parameters, where, element, warnings);
   if (reference.kind != ReferenceDescription::Kind::kWaypoints) return;
+  // One posture that is held is one way-point, without a curve.
+  if (reference.waypoints.times.size() < 2) return;
   std::vector<double> positions;
   for (const Quantity& position : reference.waypoints.positions)
     positions.push_back(position.at(parameters));

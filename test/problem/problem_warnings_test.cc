@@ -158,6 +158,7 @@ TEST(WaypointOvershoot, SaysNothingOfCurvesWithinTheirWayPoints) {
   EXPECT_TRUE(waypoint_overshoots(study_with(Interpolation::kMonotone, {0.0, 10.0, 10.0})).empty());
   EXPECT_TRUE(waypoint_overshoots(study_with(Interpolation::kQuintic, {0.0, 1.0})).empty());
   EXPECT_TRUE(waypoint_overshoots(study_with(Interpolation::kQuintic, {2.0, 2.0, 2.0})).empty());
+  EXPECT_TRUE(waypoint_overshoots(study_with(Interpolation::kQuintic, {2.0})).empty());
   EXPECT_TRUE(waypoint_overshoots(Study()).empty());
 }
 

@@ -109,11 +109,12 @@ class Outputs(unittest.TestCase):
             self.assertIn('value="1"', self.check("urdf", model, "--fill")["urdf"])
 
     def test_one_run_of_a_study(self):
-        machine = ["gallery/function_generator/model.urdf", "gallery/function_generator/study.yaml"]
-        ends = [self.check("simulate", *machine, "--run", run)["series"]["output/position"][-1] for run in ("low", "high")]
-        self.assertNotEqual(*ends)
-        self.check("gradient", *machine, "--run", "low")
-        self.check("simulate", *machine, "--run", "lowest", code=2, schema="error")
+        with tempfile.TemporaryDirectory() as folder:
+            files = self.pendulum(folder, "runs: {near: {initial_state: {pivot: {position: 0.5}}}, far: {initial_state: {pivot: {position: 1.5}}}}")
+            starts = [self.check("simulate", *files, "--run", run)["series"]["pivot/position"][0] for run in ("near", "far")]
+            self.assertEqual(starts, [0.5, 1.5])
+            self.check("gradient", *files, "--run", "near")
+            self.check("simulate", *files, "--run", "nearest", code=2, schema="error")
 
     def test_a_run_that_fails(self):
         with tempfile.TemporaryDirectory() as folder:

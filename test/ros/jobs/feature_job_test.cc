@@ -6,6 +6,9 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <filesystem>
 
 #include "mechanism_codesign/Signals.h"
