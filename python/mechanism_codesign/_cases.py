@@ -52,4 +52,4 @@ def case(name: str) -> Case:
     hint = f', did you mean "{near[0]}"?' if near else ""
     allowed = ", ".join(cases)
     raise InputError({"file": "arguments", "line": 0, "element": "case", "value": str(name), "allowed": allowed,
-                      "message": f"arguments: case: unknown case{hint} (value: {name}, allowed: {allowed})"})
+                      "message": f"arguments: case: unknown case{hint} (value: {name}, allowed: a case or a machine of the gallery: {allowed})"})
