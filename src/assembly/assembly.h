@@ -176,7 +176,7 @@ class Assembly {
     VectorX<double> errors, rates, given, left;
     VectorX<double> start, first,
         near;  ///< tree coordinates to return to, of solve_positions(), close() and refine()
-    VectorX<double> plain, followed,
+    VectorX<double> plain, followed, direct,
         rate;  ///< tree coordinates and rates to return to, of keep_branch() and follow()
     std::vector<double> between;  ///< a design on the way, of follow()
     Eigen::MatrixXd rows, scaled;
@@ -215,6 +215,8 @@ class Assembly {
   bool follow(const std::vector<double>& parameters, Equations<double>* equations);
   template <class PlaceAt>
   bool walk(const std::vector<int>& free, const PlaceAt& place_at, Equations<double>* equations);
+  /// Whether theta_ belongs to the branch of `other`.
+  bool is_same(const VectorX<double>& other) const;
   bool converges_at_once(const std::vector<double>& parameters, const std::vector<int>& free,
                          Equations<double>* equations);
   void keep_loop_turns(const std::vector<double>& turns, State<double>* state) const;

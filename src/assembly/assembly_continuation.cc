@@ -83,6 +83,11 @@ Status Assembly::solve_from(const TreeCoordinates& from, const std::vector<doubl
   return {};
 }
 
+bool Assembly::is_same(const VectorX<double>& other) const {
+  return (theta_ - other).cwiseAbs().maxCoeff() <=
+         kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
+}
+
 /// The turns of loops, which do not follow from the tree's coordinates.
 void Assembly::keep_loop_turns(const std::vector<double>& turns, State<double>* state) const {
   for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
@@ -102,7 +107,7 @@ void Assembly::note_origin() {
   origin_.free = work_.moved;
   origin_.rank_tolerance = rank_tolerance_;
   work_.between = own_design_;
-  work_.plain = work_.followed = work_.rate =
+  work_.plain = work_.followed = work_.direct = work_.rate =
       theta_;  // of their size already, so that later designs ask for no memory
 }
 
@@ -116,15 +121,13 @@ Status Assembly::keep_branch(const Status& plain, const std::vector<double>& par
   const double rank_tolerance = rank_tolerance_;
   const bool all_rows_count = all_rows_count_, reached = follow(parameters, equations);
   theta_rate_ = work_.rate;
-  const bool same = plain.ok() && (theta_ - work_.plain).cwiseAbs().maxCoeff() <=
-                                      kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
+  const bool same = plain.ok() && is_same(work_.plain);
   if (reached && !same) {
     warn_of_branch("branch_continued",
                    "the guesses of the study lead to another position of the loop than its "
-                   "position at the study's own values, "
-                   "continued to this design; the continued position is used, so that the "
-                   "objective does not jump; to find it where "
-                   "this design is simulated by itself",
+                   "position at the study's own values, continued to this design; the continued "
+                   "position is used, so that the objective does not jump; to find it where this "
+                   "design is simulated by itself",
                    theta_, work_.plain, parameters);
     return {};
   }
@@ -135,10 +138,9 @@ Status Assembly::keep_branch(const Status& plain, const std::vector<double>& par
   if (!reached && plain.ok() && !cancelled())
     warn_of_branch("branch_lost",
                    "the position of the loop at the study's own values cannot be continued to this "
-                   "design, since the loop cannot be closed "
-                   "or is in a singular position on the way; the position found from the study's "
-                   "guesses is used, and the objective may "
-                   "jump here; to stay near the position reached on the way",
+                   "design, since the loop cannot be closed or is in a singular position on the "
+                   "way; the position found from the study's guesses is used, and the objective "
+                   "may jump here; to stay near the position reached on the way",
                    work_.followed, theta_, parameters);
   return plain;
 }
@@ -169,19 +171,29 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
 }
 
 /// Continues the position work_.followed along a line, with steps that are halved where Newton's
-/// method for the `free` coordinates does not converge at once. @param place_at (part of the way)
-/// -> the design there. @returns whether the end was reached; work_.followed is the last solution.
+/// method for the `free` coordinates does not converge at once, or to another solution than by way
+/// of the middle of the step. @param place_at (part of the way) -> the design there. @returns
+/// whether the end was reached; work_.followed is the last solution.
 template <class PlaceAt>
 bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
                     Equations<double>* equations) {
+  const auto arrives = [&](double part) {
+    const std::vector<double>& design = place_at(part);
+    set_given_start(system_, tree_, design, posture_, &theta_, &theta_rate_);
+    follow_couplings(*equations);
+    return converges_at_once(design, free, equations);
+  };
   double reached = 0.0;
   for (double step = 1.0; reached < 1.0 && step >= kShortest && !cancelled();) {
     const double next = std::min(1.0, reached + step);
-    const std::vector<double>& design = place_at(next);
     theta_ = work_.followed;
-    set_given_start(system_, tree_, design, posture_, &theta_, &theta_rate_);
-    follow_couplings(*equations);
-    if (converges_at_once(design, free, equations)) {
+    bool is_continued = arrives(next);
+    if (is_continued && !free.empty()) {
+      work_.direct = theta_;
+      theta_ = work_.followed;
+      is_continued = arrives(0.5 * (reached + next)) && arrives(next) && is_same(work_.direct);
+    }
+    if (is_continued) {
       work_.followed = theta_;
       reached = next;
       step *= 2.0;
@@ -353,47 +365,6 @@ Status Assembly::contradiction() {
   return {StatusCode::kInitialVelocityFailed, 0.0,
           "the given initial velocities of " + joints +
               " contradict each other: loop or coupling '" + loop + "' cannot follow them"};
-}
-
-// At a singular position where several motions meet, rates can satisfy the loops to first order
-// without belonging to any motion.
-Status Assembly::choose_branch(const std::vector<double>& parameters,
-                               Equations<double>* equations) {
-  singular_start_.load(parameters, theta_, equations);
-  if (singular_start_.is_motion(theta_rate_)) return {};
-  const std::string joints = singular_start_.joints();
-  const std::string where =
-      "the start is a singular position, where several motions of " + joints + " meet";
-  std::vector<bool> held = velocity_given_;
-  for (std::size_t k = 0; k < followers_.size(); ++k)
-    if (system_.topology().couplings[k].motion >= 0 && followers_[k] >= 0)
-      held[to_index(followers_[k])] = true;
-  if (!singular_start_.choose_motion(held, &theta_rate_))
-    return {StatusCode::kSingularConfiguration, 0.0,
-            where + ", and the given velocities belong to none of them"};
-  warnings_.push_back({"singular_start",
-                       where + ", and the given velocities do not determine which one begins: one "
-                               "was chosen, and gradients do not include "
-                               "this choice. Give the initial velocity of one more of these "
-                               "joints, or start from another position",
-                       {}});
-  return {};
-}
-
-// From rest, the accelerations take the place of the velocities in the check for a possible motion,
-// doc/theory.md (19a).
-Status Assembly::check_rest(const State<double>& state) {
-  if (!theta_rate_.isZero(0.0) || !singular_start_.is_singular()) return {};
-  const VectorX<double>& accelerations =
-      singular_start_.tree_accelerations(In<double>(state.z).first(system_.layout().n));
-  if (accelerations.size() == 0 || accelerations.cwiseAbs().maxCoeff() < 1e-9 ||
-      singular_start_.is_motion(accelerations))
-    return {};
-  return {StatusCode::kSingularConfiguration, 0.0,
-          "the start is at rest in a singular position, where several motions of " +
-              singular_start_.joints() +
-              " meet, and the forces do not determine which one begins: give initial velocities, "
-              "or start from another position"};
 }
 
 }  // namespace codesign

@@ -52,6 +52,24 @@ TEST(PostureSequence, FollowsTheListWithClosedLoops) {
   }
 }
 
+// At the second crank angle the rocker's old position is nearer to the other branch, to which
+// Newton's method converges at once.
+TEST(PostureSequence, KeepsTheBranchBetweenDistantPostures) {
+  const auto end = [](const std::string& crank) {
+    const Recorded run = record(
+        postures("four_bar_function", "positions: {crank_joint: " + crank +
+                                          "}\ninitial_state: {rocker_joint: {guess: 1.573}}\n"
+                                          "parameters: {a: {initial: 3, tune: false}, b: {initial: "
+                                          "1, tune: false}, c: {initial: 3.2, tune: false}}\n"),
+        {"rocker_joint/position"});
+    EXPECT_TRUE(run.status.ok()) << run.status.cause;
+    return run.signals.back()[0];
+  };
+  const double fine = end("{from: 0.974, to: 1.427, count: 60}");
+  EXPECT_NEAR(fine, 2.07828, 1e-4);
+  EXPECT_NEAR(end("[0.974, 1.427]"), fine, 1e-10);
+}
+
 // The rate of the rocker for the given rate of the crank, by the angles of the velocity triangle.
 TEST(PostureSequence, GivenVelocitiesHoldInEachPosture) {
   const Recorded run =
