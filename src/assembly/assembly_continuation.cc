@@ -192,6 +192,7 @@ bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
       work_.direct = theta_;
       theta_ = work_.followed;
       is_continued = arrives(0.5 * (reached + next)) && arrives(next) && is_same(work_.direct);
+      theta_ = work_.direct;
     }
     if (is_continued) {
       work_.followed = theta_;
