@@ -3,8 +3,8 @@
 """What a call from Python costs beside the same call in C++, on a pendulum whose run has two steps, and how soon calls end by Ctrl-C.
 Usage: benchmark/python_calls.py [DEVEL] [costs | interruptions]
 
-DEVEL is the devel space, devel/ by default. costs: the mean of the least twentieth of the times of 4000 calls, in us. interruptions: the longest time
-from SIGINT, or from the event, to the end of the call, of several of them spread over a long call, in s, and the processor time until then. Without a
+DEVEL is the devel space, devel/ by default. costs: the mean of the least twentieth of the times of 4000 calls, in us. interruptions: the longest
+time from SIGINT, or from the event, to the end of the call, of several of them spread over a long call, in s, and the processor time until then. Without a
 word both.
 """
 import os

@@ -15,6 +15,7 @@ ODD_KEYS = {"bzip2": "libbz2-dev", "dynamic_reconfigure": "libdynamic-reconfigur
 # Packages for building and for taking pictures, and packages without a key of rosdep on every distribution.
 NOT_IN_PACKAGE_XML = {
     "g++", "make", "ninja-build", "ccache", "cmake", "python3", "xvfb", "imagemagick", "libbenchmark-dev", "libsimbody-dev", "python3-venv",
+    "mypy", "python3-nbclient", "python3-nbformat", "python3-ipykernel",
     "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libxbyak-dev", "libopenmpi-dev", "openmpi-bin"}
 
 # What benchmark/peers measures in an environment of its own.
@@ -81,7 +82,7 @@ class PackagesTest(unittest.TestCase):
     def test_the_core_needs_no_ros(self):
         core = listed("--core")
         self.assertIn("libsundials-dev", core)
-        self.assertEqual({p for p in core if re.match(r"ros-|catkin|rosbash|libros|librviz|python3-(?!yaml|jinja2|jsonschema|dev|numpy|scipy)", p)}, set())
+        self.assertEqual({p for p in core if re.match(r"ros-|catkin|rosbash|libros|librviz|python3-(?!yaml|jinja2|jsonschema|dev|numpy|scipy|nbclient|nbformat|ipykernel)", p)}, set())
         self.assertLess(core, listed("--headless"))
         self.assertLess(listed("--headless"), listed())
 
