@@ -2,6 +2,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """The Python package as one finds it: names, documentation of every member, types, shipped cases."""
 import ast
+import inspect
 import os
 import re
 import shutil
@@ -89,7 +90,7 @@ class Cases(unittest.TestCase):
 def entries(of):
     """What the docstring of a class says of its members: "NAME, NAME: TEXT" by name, with lines that go on."""
     found = {}
-    for names, text in re.findall(r"^    ((?:\w+, )*\w+): (.*(?:\n     +.*)*)", type(of).__doc__, re.MULTILINE):
+    for names, text in re.findall(r"^((?:\w+, )*\w+): (.*(?:\n +.*)*)", inspect.cleandoc(type(of).__doc__), re.MULTILINE):
         found.update(dict.fromkeys(names.split(", "), text))
     return found
 
