@@ -6,7 +6,7 @@ import functools
 import os
 import tempfile
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Tuple
+from typing import Any, cast, Dict, Iterator, List, NamedTuple, Optional, Tuple, TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -76,8 +76,7 @@ class Run(Mapping[str, Array]):
 
     def __getitem__(self, signal: str) -> Array:
         try:
-            column: Array = self._columns[signal]
-            return column
+            return cast("Array", self._columns[signal])
         except KeyError:
             raise KeyError(f"{signal!r} is not recorded in this run; recorded are {', '.join(self._columns)}; simulate(signals=[...]) "
                            "records others") from None
