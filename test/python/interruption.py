@@ -34,8 +34,8 @@ problem = codesign.Problem({model!r}, {study!r})
 {before}
 event = threading.Event()
 threading.Thread(target=lambda: sys.stdin.readline() and event.set(), daemon=True).start()
-print("ready", flush=True)
 try:
+    print("ready", flush=True)
     end = {call}.status.code
 except KeyboardInterrupt:
     end = "interrupted"

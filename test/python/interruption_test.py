@@ -43,8 +43,8 @@ import mechanism_codesign as codesign
 problem = codesign.Problem({FREE!r}, {LONG!r})
 thread = threading.Thread(target=problem.gradient, daemon=True)
 thread.start()
-print("ready", flush=True)
 try:
+    print("ready", flush=True)
     thread.join()
 except KeyboardInterrupt:
     print("interrupted", flush=True)
