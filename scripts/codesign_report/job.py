@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Reads what a job has left: the folder of `codesign optimize` or `codesign identify`, or that beside a bag of the optimization node."""
+"""Reads what a job has left: the folder of `codesign optimize` or `codesign identify`, or what is beside a bag of the optimization node."""
 import csv
 import html
 import json
@@ -79,10 +79,12 @@ def read_study(path):
 
 
 class Job:
-    """The files of one job; what is not there is None, empty, or missing from a dictionary."""
+    """The files of one job; what is not there is None, empty, or missing from a dictionary.
 
-    def __init__(self, folder, bag=None):
-        self.folder, self.bag = folder, bag
+    Their names begin with prefix, which is empty but for the identifications of the optimization node."""
+
+    def __init__(self, folder, bag=None, prefix=""):
+        self.folder, self.bag, self.prefix = folder, bag, prefix
         self.kind = "identification" if self.has("identification.json") and not self.has("result.json") else "optimization"
         self.result = read_json(self.path("result.json" if self.kind == "optimization" else "identification.json"))
         self.details = read_json(self.path("details.json")) if self.has("details.json") else {}
@@ -93,7 +95,7 @@ class Job:
             self.table(name + ".csv") for name in ("convergence", "starts", "scenarios", "residuals"))
 
     def path(self, name):
-        return os.path.join(self.folder, name)
+        return os.path.join(self.folder, self.prefix + name)
 
     def refuse_to_replace(self, output):
         """A page replaces no file of its job but an earlier page, neither by its own path nor by a link to it."""
@@ -120,16 +122,18 @@ class Job:
 
     @property
     def name(self):
-        return self.details.get("model") or self.robot_name() or os.path.basename(os.path.normpath(os.path.abspath(self.folder)))
+        return self.details.get("model") or self.robot_name() or self.prefix[:-1] or os.path.basename(os.path.normpath(os.path.abspath(self.folder)))
 
 
 def find_job(path):
-    """The job of a folder, or of a bag with its folder beside it; with absolute paths, so that the commands of the page work anywhere."""
+    """The job of a folder, or of a bag with its files beside it; with absolute paths, so that the commands of the page work anywhere."""
     path = os.path.abspath(path)
     if os.path.isdir(path):
         folder, bag = path, None
     elif path.endswith(".bag") and os.path.isfile(path):
         folder, bag = path[:-len(".bag")], path
+        if os.path.isfile(folder + ".identification.json"):
+            return Job(os.path.dirname(path), bag, os.path.basename(folder) + ".")
         if not os.path.isdir(folder):
             raise ReportError(f"{path}: the folder {folder} with the files of this job is not beside the bag; jobs before 0.2 have none, "
                               "simulate or optimize again")

@@ -52,8 +52,12 @@ def commands(job):
     files = job.details.get("files", {})
     here = "cd " + shlex.quote(job.folder)
     if job.kind == "identification":
-        study = "job_study.yaml" if job.study_text else "STUDY"
-        return [("see the identified numbers in motion", f"{here} && codesign simulate identified.urdf {study} --result identification.json")]
+        model, study, result = (shlex.quote(job.prefix + name) for name in ("identified.urdf", "job_study.yaml", "identification.json"))
+        study = study if job.study_text else "STUDY"
+        rows = [("see the identified numbers in motion", f"{here} && codesign simulate {model} {study} --result {result}")]
+        if job.bag:
+            rows.append(("the measured beside the identified motion", f"roslaunch mechanism_codesign replay.launch bag:={shlex.quote(job.bag)}"))
+        return rows
     rows = []
     if files.get("model") and not job.bag:
         overlays = "".join(f" --overlay {shlex.quote(path)}" for path in files.get("overlays", []))

@@ -226,7 +226,6 @@ T Reference<T>::integral_at(double t) const {
   if (kind_ == ReferenceDescription::Kind::kSine)
     return offset_ * t + amplitude_ / angular_frequency_ *
                              (cos(phase_) - cos(angular_frequency_ * T(t) + phase_));
-  if (kind_ == ReferenceDescription::Kind::kExpression) return integral_by_panels(t);
   const std::size_t k = piece_at(t);
   if (k == 0) return areas_[0] + pieces_[0].c[0] * (t - pieces_[1].start);
   return areas_[k] + area(pieces_[k], t - pieces_[k].start);
@@ -235,14 +234,13 @@ T Reference<T>::integral_at(double t) const {
 // Panels are chosen by the values alone, so that all number types have the same ones.
 template <class T>
 void Reference<T>::set_panels(double duration) {
-  const auto values = [this](double t) {
-    const Taylor<T> series = series_at(t);
-    Taylor<double> plain;
-    for (std::size_t k = 0; k < series.c.size(); ++k) plain.c[k] = value_of(series.c[k]);
-    return plain;
+  std::vector<double> values;
+  for (const T& used : used_) values.push_back(value_of(used));
+  const auto series_of_values = [&](double t) {
+    return time_series(*expression_->formula, expression_->time, values, t);
   };
   panels_.clear();
-  for (const double begin : integration_panels(values, duration)) {
+  for (const double begin : integration_panels(series_of_values, duration)) {
     const Taylor<T> series = series_at(begin);
     T area(0.0);
     if (!panels_.empty()) {
@@ -255,7 +253,7 @@ void Reference<T>::set_panels(double duration) {
 
 // Outside the prepared panels, as in a run that goes on, further ones of their mean width follow.
 template <class T>
-T Reference<T>::integral_by_panels(double t) const {
+T Reference<T>::integral_by_panels(double t, const Taylor<T>& there) const {
   const auto next =
       std::upper_bound(panels_.begin(), panels_.end(), t,
                        [](double time, const Panel& panel) { return time < panel.begin; });
@@ -264,7 +262,7 @@ T Reference<T>::integral_by_panels(double t) const {
   while (panel.begin != t) {
     const double step = std::clamp(t - panel.begin, -width, width),
                  end = std::abs(t - panel.begin) <= width ? t : panel.begin + step;
-    const Taylor<T> series = series_at(end);
+    const Taylor<T> series = end == t ? there : series_at(end);
     panel.area += panel_integral(panel.series, series, end - panel.begin);
     panel.begin = end;
     panel.series = series;
@@ -274,13 +272,7 @@ T Reference<T>::integral_by_panels(double t) const {
 
 template <class T>
 Taylor<T> Reference<T>::series_at(double t) const {
-  const Expression& formula = *expression_->formula;
-  std::vector<Taylor<T>> variables;
-  variables.reserve(used_.size());
-  for (std::size_t k = 0; k < used_.size(); ++k)
-    variables.push_back(formula.dependencies()[k] == expression_->time ? Taylor<T>::time(t)
-                                                                       : Taylor<T>(used_[k]));
-  return evaluate_formula<Taylor<T>>(formula.steps(), variables);
+  return time_series(*expression_->formula, expression_->time, used_, t);
 }
 
 template <class T>
@@ -306,8 +298,13 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
     return {offset_ + s, angular_frequency_ * c, -(square * s), -(square * angular_frequency_ * c)};
   }
   if (kind_ == ReferenceDescription::Kind::kIntegral) {
-    const ReferenceMotion<T> rate = rate_[0].at(t);
-    return {offset_ + rate_[0].integral_at(t), rate.value, rate.rate, rate.acceleration};
+    const Reference& of = rate_[0];
+    if (of.kind_ == ReferenceDescription::Kind::kExpression) {
+      const Taylor<T> f = of.series_at(t);
+      return {offset_ + of.integral_by_panels(t, f), f.c[0], f.c[1], T(2.0) * f.c[2]};
+    }
+    const ReferenceMotion<T> rate = of.at(t);
+    return {offset_ + of.integral_at(t), rate.value, rate.rate, rate.acceleration};
   }
   const Piece& piece = pieces_[piece_at(t)];
   if (!std::isfinite(piece.start)) {

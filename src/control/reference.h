@@ -87,12 +87,13 @@ class Reference {
   };
   static ReferenceMotion<T> along(const Piece& piece, double t);
   ReferenceMotion<T> sampled_at(double t) const;
-  /// The integral from 0 to t, theory (C2b); of way-points and expressions after sum_areas().
+  /// The integral from 0 to t, theory (C2b), but of an expression; of way-points after sum_areas().
   T integral_at(double t) const;
   /// @param duration panels of an expression are prepared up to here [s].
   void sum_areas(double duration);
   void set_panels(double duration);
-  T integral_by_panels(double t) const;
+  /// The same of an expression, after sum_areas(). @param there series_at(t)
+  T integral_by_panels(double t, const Taylor<T>& there) const;
   Taylor<T> series_at(double t) const;
   std::size_t piece_at(double t) const;
   static T area(const Piece& piece, double duration);

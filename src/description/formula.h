@@ -8,6 +8,7 @@
 #include "description/expression.h"
 #include "math/arrays.h"
 #include "math/scalar.h"
+#include "math/taylor.h"
 
 namespace codesign {
 
@@ -204,6 +205,19 @@ T evaluate_formula(const ExpressionSteps& steps, const std::vector<T>& variables
     }
   }
   return stack.back().value;
+}
+
+/// The Taylor polynomial of an expression of the time at time t [s]. @param time index of the time
+/// among the names of the formula. @param used the numbers of its dependencies; that of the time
+/// does not count.
+template <class T>
+Taylor<T> time_series(const Expression& formula, int time, const std::vector<T>& used, double t) {
+  std::vector<Taylor<T>> variables;
+  variables.reserve(used.size());
+  for (std::size_t k = 0; k < used.size(); ++k)
+    variables.push_back(formula.dependencies()[k] == time ? Taylor<T>::time(t)
+                                                          : Taylor<T>(used[k]));
+  return evaluate_formula<Taylor<T>>(formula.steps(), variables);
 }
 
 }  // namespace codesign

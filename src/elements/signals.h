@@ -166,35 +166,42 @@ T term_value(const StateView<T>& view, const SignalReference& term) {
   return value;
 }
 
-/// An expression of signals, parameters and the time.
-template <class T>
-T formula_value(const StateView<T>& view, const Signal& signal) {
-  std::vector<T> variables;
-  variables.reserve(signal.formula->variables.size());
-  for (const ResolvedFormula::Variable& variable : signal.formula->variables)
-    variables.push_back(variable.term >= 0   ? term_value(view, signal[to_index(variable.term)])
-                        : variable.parameter ? value_at(*variable.parameter, view.design.parameters)
-                                             : view.design.clock.at(view.state->t).value);
-  return evaluate_formula<T>(signal.formula->steps, variables);
-}
-
-/// Its time derivative, from the derivatives of the signals.
-template <class T>
-T formula_rate(const StateView<T>& view, const Signal& signal) {
-  std::vector<Taylor<T>> variables;
+/// An expression of signals, parameters and the time. @param number (value, value of its rate) ->
+/// a Number; the rates are functions without arguments.
+template <class Number, class T, class OfValueAndRate>
+Number formula_of(const StateView<T>& view, const Signal& signal, const OfValueAndRate& number) {
+  std::vector<Number> variables;
   variables.reserve(signal.formula->variables.size());
   for (const ResolvedFormula::Variable& variable : signal.formula->variables) {
-    const std::size_t term = variable.term >= 0 ? to_index(variable.term) : 0;
-    if (variable.term >= 0) {
-      Taylor<T>& x = variables.emplace_back(term_value(view, signal[term]));
-      x.c[1] = term_value(view, signal[signal.size() / 2 + term]);
-    } else if (variable.parameter) {
-      variables.emplace_back(value_at(*variable.parameter, view.design.parameters));
-    } else {
-      variables.emplace_back(view.design.clock.at(view.state->t).value).c[1] = T(1.0);
-    }
+    const auto of_term = [&](std::size_t first) {
+      return term_value(view, signal[first + to_index(variable.term)]);
+    };
+    if (variable.term >= 0)
+      variables.push_back(number(of_term(0), [&] { return of_term(signal.size() / 2); }));
+    else if (variable.parameter)
+      variables.push_back(
+          number(value_at(*variable.parameter, view.design.parameters), [] { return T(0.0); }));
+    else
+      variables.push_back(number(view.design.clock.at(view.state->t).value, [] { return T(1.0); }));
   }
-  return evaluate_formula<Taylor<T>>(signal.formula->steps, variables).c[1];
+  return evaluate_formula<Number>(signal.formula->steps, variables);
+}
+
+template <class T>
+T formula_value(const StateView<T>& view, const Signal& signal) {
+  return formula_of<T>(view, signal, [](const T& value, const auto&) { return value; });
+}
+
+/// The time derivative of an expression, from the derivatives of the signals.
+template <class T>
+T formula_rate(const StateView<T>& view, const Signal& signal) {
+  return formula_of<Taylor<T>>(view, signal,
+                               [](const T& value, const auto& rate) {
+                                 Taylor<T> x(value);
+                                 x.c[1] = rate();
+                                 return x;
+                               })
+      .c[1];
 }
 
 /// A signal, the sum of its terms times their factors, or an expression of them.

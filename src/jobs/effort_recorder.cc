@@ -33,8 +33,7 @@ DrivenReplay replay_of(const Problem& problem, const SetpointMotion& motion,
     throw InputError(in_words_of_study(
         error.fault(), "controllers",
         "its motion is not determined: neither `motion` nor the set-point of a controller gives "
-        "it, "
-        "and the joints whose motion they give do not determine it through the loops",
+        "it, and the joints whose motion they give do not determine it through the loops",
         "motions or set-points of the positions of as many independent joints as there are degrees "
         "of freedom"));
   }

@@ -11,8 +11,7 @@ namespace codesign {
 
 /// A function of time near one instant as its Taylor polynomial sum c_k tau^k to the third degree.
 /// The operations are those of power series (Griewank and Walther, Evaluating Derivatives, 2008,
-/// section 13.2). T: double, std::complex<double>, Lanes<N> or
-/// Traced.
+/// section 13.2). T: double, std::complex<double>, Lanes<N> or Traced.
 template <class T>
 struct Taylor {
   static constexpr std::size_t kTerms = 4;

@@ -13,7 +13,7 @@ bool moves_apart(const JointDescription& joint, const MotionStudy& study) {
 
 JointDescription motor_side(const JointDescription& joint, int link) {
   JointDescription motor;
-  motor.name = joint.name + kMotorSuffix;
+  motor.name = joint.name + "/motor";
   motor.type = is_turn(joint.type) ? JointType::kContinuous : JointType::kPrismatic;
   motor.parent = joint.parent;
   motor.child = link;
@@ -55,6 +55,12 @@ RobotDescription with_motor_sides(RobotDescription robot, const MotionStudy& stu
     robot.links.push_back(std::move(link));
   }
   return robot;
+}
+
+std::string joint_of_motor(const RobotDescription& robot, const std::string& name) {
+  for (const JointDescription& joint : robot.joints)
+    if (joint.motor >= 0 && robot.joints[to_index(joint.motor)].name == name) return joint.name;
+  return name;
 }
 
 }  // namespace codesign

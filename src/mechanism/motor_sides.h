@@ -8,16 +8,6 @@
 
 namespace codesign {
 
-/// The motor's side of a gear is the joint `JOINT/motor`.
-constexpr const char* kMotorSuffix = "/motor";
-/// The joint to which a motor's side belongs; of another joint its own name.
-inline std::string joint_of_motor(const std::string& name) {
-  const std::string suffix = kMotorSuffix;
-  const bool is_motor = name.size() > suffix.size() &&
-                        name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
-  return is_motor ? name.substr(0, name.size() - suffix.size()) : name;
-}
-
 /// The model in which the motors behind elastic gears move by themselves, theory (9c): after the
 /// joints of the files each of them has a joint of its own, NAME/motor with JointDescription::
 /// is_motor, beside its joint NAME, whose JointDescription::motor it is. It has the same parent,
@@ -31,5 +21,8 @@ RobotDescription with_motor_sides(RobotDescription robot, const MotionStudy& stu
 
 /// The model as the files describe it, without the joints that with_motor_sides() adds.
 RobotDescription without_motor_sides(RobotDescription robot);
+
+/// The joint beside which a motor stands; of another joint its own name. @param robot with motors
+std::string joint_of_motor(const RobotDescription& robot, const std::string& name);
 
 }  // namespace codesign

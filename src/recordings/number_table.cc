@@ -107,32 +107,6 @@ std::string text_of_file(const RecordingDescription& description, const std::str
   return text;
 }
 
-/// The index of a column that the study names.
-int index_of(const ColumnDescription& column, const NumberTable& table) {
-  if (column.number > 0) {
-    if (column.number > table.width())
-      throw InputError(
-          {column.where, column.element,
-           "the table has " + std::to_string(table.width()) + " columns: " + table.file(),
-           std::to_string(column.number), "from 1 to " + std::to_string(table.width())});
-    return column.number - 1;
-  }
-  const std::vector<std::string>& names = table.names();
-  if (names.empty())
-    throw InputError({column.where, column.element,
-                      "the columns of the table have no names: " + table.file(), column.name,
-                      "a number from 1 to " + std::to_string(table.width())});
-  const auto found = std::find(names.begin(), names.end(), column.name);
-  if (found == names.end())
-    throw unknown_name(column.where, column.element, "column of " + table.file(), column.name,
-                       names);
-  if (std::find(found + 1, names.end(), column.name) != names.end())
-    throw InputError({column.where, column.element,
-                      "several columns have this name: " + table.file(), column.name,
-                      "the number of the column, from 1 to " + std::to_string(table.width())});
-  return static_cast<int>(found - names.begin());
-}
-
 /// A column that was found by its name in the table.
 ColumnDescription named(const std::string& name, const RecordingDescription& description) {
   ColumnDescription column;
@@ -296,6 +270,31 @@ void NumberTable::fail(std::size_t line, const std::string& element, const std::
                        std::string_view value, const std::string& allowed) const {
   throw InputError(
       {{file_, static_cast<int>(line)}, element, message, std::string(value), allowed});
+}
+
+int index_of(const ColumnDescription& column, const NumberTable& table) {
+  if (column.number > 0) {
+    if (column.number > table.width())
+      throw InputError(
+          {column.where, column.element,
+           "the table has " + std::to_string(table.width()) + " columns: " + table.file(),
+           std::to_string(column.number), "from 1 to " + std::to_string(table.width())});
+    return column.number - 1;
+  }
+  const std::vector<std::string>& names = table.names();
+  if (names.empty())
+    throw InputError({column.where, column.element,
+                      "the columns of the table have no names: " + table.file(), column.name,
+                      "a number from 1 to " + std::to_string(table.width())});
+  const auto found = std::find(names.begin(), names.end(), column.name);
+  if (found == names.end())
+    throw unknown_name(column.where, column.element, "column of " + table.file(), column.name,
+                       names);
+  if (std::find(found + 1, names.end(), column.name) != names.end())
+    throw InputError({column.where, column.element,
+                      "several columns have this name: " + table.file(), column.name,
+                      "the number of the column, from 1 to " + std::to_string(table.width())});
+  return static_cast<int>(found - names.begin());
 }
 
 JointRecording read_table_recording(const RecordingDescription& description,

@@ -62,6 +62,9 @@ class NumberTable {
   int first_line_ = 1;
 };
 
+/// The index of a column that a study names. @throws InputError if there is none, or several
+int index_of(const ColumnDescription& column, const NumberTable& table);
+
 /// Reads a table of numbers without checking their values. Without `columns` in the description,
 /// the columns named `time` (or `t`) and `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are
 /// read.

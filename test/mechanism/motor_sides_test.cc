@@ -34,6 +34,15 @@ TEST(MotorSides, AreJointsBesideTheirs) {
   EXPECT_FALSE(both.links[4].inertial);
 }
 
+// By the model and not by the name, which a joint of the file may have, too.
+TEST(MotorSides, HaveTheJointBesideWhichTheyStand) {
+  RobotDescription both = with_motor_sides(elastic_arm(), {});
+  EXPECT_EQ(joint_of_motor(both, "elbow/motor"), "elbow");
+  EXPECT_EQ(joint_of_motor(both, "elbow"), "elbow");
+  both.joints[0].name = "left/motor";
+  EXPECT_EQ(joint_of_motor(both, "left/motor"), "left/motor");
+}
+
 TEST(MotorSides, AreTakenAwayAndAddedAgain) {
   const RobotDescription twice = with_motor_sides(with_motor_sides(elastic_arm(), {}), {});
   EXPECT_EQ(twice.joints.size(), 4u);

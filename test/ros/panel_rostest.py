@@ -184,6 +184,10 @@ class PanelTest(unittest.TestCase):
         mu = next(row for row in result["rows"] if row[0] == "mu_static")
         self.assertAlmostEqual(mu[2], 0.4, delta=0.01)
         self.assertEqual(result["values"]["mu_static"], mu[2])
+        with urllib.request.urlopen(self.address + "report.html", timeout=60) as answer:
+            report = answer.read().decode()
+        self.assertIn("fitted recording 1", report)
+        self.assertIn(f'replay.launch bag:={result["bag"]}', report)
 
     def test_a_long_job_shows_its_progress_and_is_cancelled(self):
         node = self.start_jobs(seconds=300.0)

@@ -56,7 +56,7 @@ class PageTest(PanelTestCase):
 
     def finish_job(self):
         self.board.tell("job", kind="optimization", result={
-            "job": "arm_1", "success": True, "message": "success", "summary": "objective 2 to 1", "columns": ["parameter", "initial", "tuned"], "has_report": True,
+            "job": "arm_1", "success": True, "message": "success", "summary": "objective 2 to 1", "columns": ["parameter", "initial", "tuned"],
             "rows": [["length", 0.5, 0.1 + 0.2], [LONG_NAME, 1.0, None]], "values": {"length": 0.1 + 0.2}, "warnings": ["parameter_on_bound: <b>wide</b>"], "bag": "/a/b.bag"})
         self.page.wait("!document.getElementById('result').hidden")
 

@@ -153,7 +153,7 @@ class RequestsTest(PanelTestCase):
     def test_a_report_that_is_not_there_is_a_sentence(self):
         code, _, text = self.ask("GET", "/report.html")
         self.assertEqual(code, 404)
-        self.assertIn("no optimization has ended", text)
+        self.assertIn("no job with a bag has ended", text)
         self.board.bag = "/nowhere/job.bag"
         code, _, text = self.ask("GET", "/report.html")
         self.assertEqual(code, 404)

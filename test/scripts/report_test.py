@@ -259,6 +259,16 @@ class Report(unittest.TestCase):
         self.assertIn("the data do not tell it", page.text)
         self.assertIn("hinge, holdout recording 1", page.text)
         self.assertIn("0.0625", [value for value, _ in page.data])
+        # The optimization node writes the same files beside its bag.
+        bag = self.path("arm_1.bag")
+        for name in ("identification.json", "residuals.csv", "job_study.yaml"):
+            shutil.copy(os.path.join(folder, name), self.path("arm_1." + name))
+        with open(bag, "wb"):
+            pass
+        _, of_node = self.page_of("arm_1.bag")
+        self.assertIn("hinge, holdout recording 1", of_node.text)
+        self.assertIn("codesign simulate arm_1.identified.urdf arm_1.job_study.yaml --result arm_1.identification.json", of_node.text)
+        self.assertIn(f"replay.launch bag:={bag}", of_node.text)
 
     def test_a_large_job_stays_small(self):
         folder = self.path("large")

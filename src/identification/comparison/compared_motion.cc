@@ -222,9 +222,9 @@ class MotionComparison {
     const bool is_first = compared->model.empty();
     Frame model, measured;
     Status& status = compared->status;
-    const double time = instant.time;
-    status = show(time, simulated, is_first, &model_, &model);
-    if (status.ok() && measured_) status = show(time, given, is_first, &*measured_, &measured);
+    status = show(instant.time, simulated, is_first, &model_, &model);
+    if (status.ok() && measured_)
+      status = show(instant.time, given, is_first, &*measured_, &measured);
     if (!status.ok()) return;
     compared->measured.push_back(
         measured_frame(measured_ ? measured : model, joints, instant.sample, instant.time));

@@ -19,7 +19,7 @@ constexpr double kNoLimit = 1e9;  // [m/s or rad/s] a segment may begin in any m
 class SegmentStudy {
  public:
   SegmentStudy(const CompiledSystem& of, const FitVariables& variables)
-      : study_(of.whole_study()), variables_(variables) {
+      : robot_(of.robot()), study_(of.whole_study()), variables_(variables) {
     study_.initial_state.clear();
     study_.integral.clear();
     study_.terminal.clear();
@@ -63,8 +63,8 @@ class SegmentStudy {
     for (const std::string& joint : independent) {
       InitialJointState& initial = study_.initial_state.emplace_back();
       initial.joint = joint;
-      initial.position = start_number(joint + "/position",
-                                      recording.find(joint_of_motor(joint))->position.front());
+      initial.position = start_number(
+          joint + "/position", recording.find(joint_of_motor(robot_, joint))->position.front());
     }
     for (InitialJointState& initial : study_.initial_state)
       initial.velocity = start_number(initial.joint + "/velocity", 0.0);
@@ -106,6 +106,7 @@ class SegmentStudy {
     return parameter("start of " + name, value);
   }
 
+  const RobotDescription& robot_;
   Study study_;
   const FitVariables& variables_;
   std::vector<int> columns_;

@@ -190,7 +190,7 @@ void require_enough(const JointRecording& recording, const std::vector<Samples>&
 }
 
 /// The start that was measured at a time of the recording.
-Eigen::VectorXd measured_start(const MeasuredMotion& motion,
+Eigen::VectorXd measured_start(const MeasuredMotion& motion, const RobotDescription& robot,
                                const std::vector<std::string>& independent, double time,
                                int starts) {
   const auto nearest = to_signed(std::llround((time - motion.times.start) / motion.times.step));
@@ -198,7 +198,7 @@ Eigen::VectorXd measured_start(const MeasuredMotion& motion,
   Eigen::VectorXd start = Eigen::VectorXd::Zero(starts);
   for (std::size_t k = 0; k < independent.size(); ++k)
     for (const JointMotion& joint : motion.joints)
-      if (joint.joint == joint_of_motor(independent[k])) {
+      if (joint.joint == joint_of_motor(robot, independent[k])) {
         start[to_signed(k)] = joint.position[at];
         start[to_signed(independent.size() + k)] = joint.velocity[at];
       }
@@ -266,11 +266,12 @@ class Follower {
   State<double> state_;
 };
 
-Eigen::VectorXd positions_at(const JointRecording& recording,
+Eigen::VectorXd positions_at(const JointRecording& recording, const RobotDescription& robot,
                              const std::vector<std::string>& independent, std::size_t sample) {
   Eigen::VectorXd positions(to_signed(independent.size()));
   for (std::size_t k = 0; k < independent.size(); ++k)
-    positions[to_signed(k)] = recording.find(joint_of_motor(independent[k]))->position[sample];
+    positions[to_signed(k)] =
+        recording.find(joint_of_motor(robot, independent[k]))->position[sample];
   return positions;
 }
 
@@ -334,8 +335,8 @@ std::vector<Segment> cut_into_segments(const JointRecording& recording, const Se
     for (std::size_t k : samples) segment.times.push_back(recording.times[k] - of.epoch);
     segment.begin.time = segment.times.front();
     segment.recorded = recorded_at(recording, of, variables, samples);
-    segment.start =
-        measured_start(motion, independent, recording.times[samples.front()], of.starts);
+    segment.start = measured_start(motion, of.system->robot(), independent,
+                                   recording.times[samples.front()], of.starts);
   }
   return segments;
 }
@@ -357,7 +358,8 @@ Status set_branches(const JointRecording& recording, const SegmentSystem& of,
          ++sample) {
       if (is_set(cancel)) return {StatusCode::kCancelled, 0.0, "cancelled"};
       const double time = recording.times[sample] - of.epoch;
-      Status status = follower.move_to(positions_at(recording, independent, sample), time);
+      Status status =
+          follower.move_to(positions_at(recording, usual.robot(), independent, sample), time);
       status.time = recording.times[sample];
       if (!status.ok()) return status;
     }

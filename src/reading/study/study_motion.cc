@@ -42,12 +42,11 @@ void refuse_jumping_velocity(const ReferenceDescription& velocity, const Study& 
   if (velocity.kind != Kind::kExpression) return;
   const TimeExpression& expression = velocity.expression;
   const std::vector<double> parameters = start_parameters(study);
+  std::vector<double> numbers;
+  for (const int used : expression.formula->dependencies())
+    numbers.push_back(used == expression.time ? 0.0 : parameters.at(to_index(used)));
   const auto series = [&](double t) {
-    std::vector<Taylor<double>> variables;
-    for (const int used : expression.formula->dependencies())
-      variables.push_back(used == expression.time ? Taylor<double>::time(t)
-                                                  : Taylor<double>(parameters.at(to_index(used))));
-    return evaluate_formula<Taylor<double>>(expression.formula->steps(), variables);
+    return time_series(*expression.formula, expression.time, numbers, t);
   };
   if (const std::optional<double> jump = find_jump(series, study.duration))
     value.fail("the velocity jumps at " + readable(*jump, 6) + " s, which takes an infinite effort",

@@ -62,17 +62,24 @@ bool is_held(const std::string& joint, const YamlValue& hold) {
                      [&](const YamlValue& item) { return item.text() == joint; });
 }
 
+/// A function with these values in the postures 0, 1, ...
+ReferenceDescription by_posture(std::vector<Quantity> values) {
+  ReferenceDescription reference;
+  reference.kind = ReferenceDescription::Kind::kWaypoints;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    reference.waypoints.times.push_back(static_cast<double>(k));
+  reference.waypoints.positions = std::move(values);
+  return reference;
+}
+
 /// The motion that holds a joint in posture k at the time k, with the velocity that the start
 /// gives.
 GivenMotion holding_motion(const InitialJointState& state) {
   GivenMotion motion;
   motion.joint = state.joint;
   motion.where = state.where;
-  motion.position.kind = ReferenceDescription::Kind::kWaypoints;
+  motion.position = by_posture(state.positions);
   WaypointsDescription& points = motion.position.waypoints;
-  points.positions = state.positions;
-  for (std::size_t k = 0; k < state.positions.size(); ++k)
-    points.times.push_back(static_cast<double>(k));
   points.velocities.assign(points.times.size(), state.velocity.value_or(Quantity(0.0)));
   points.accelerations.assign(points.times.size(), Quantity(0.0));
   return motion;
@@ -150,13 +157,8 @@ ReferenceDescription read_target(const YamlValue& value, const ParameterTable& t
                    std::to_string(study.postures) + " postures",
                "one per posture");
   if (items.size() == 1) return read_quantity(items.front(), table);
-  ReferenceDescription reference;
-  reference.kind = ReferenceDescription::Kind::kWaypoints;
+  ReferenceDescription reference = by_posture(read_values(value, table));
   reference.waypoints.interpolation = Interpolation::kLinear;
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    reference.waypoints.times.push_back(static_cast<double>(k));
-    reference.waypoints.positions.push_back(read_quantity(items[k], table));
-  }
   return reference;
 }
 

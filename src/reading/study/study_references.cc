@@ -8,7 +8,6 @@
 
 #include "reading/study/study_values.h"
 #include "recordings/number_table.h"
-#include "text/nearest_name.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -124,13 +123,9 @@ RecordedTrajectory read_column(const TrajectoryAddress& address, const FileLoade
   const SourceText source = files({address.csv, address.where, address.element});
   const NumberTable table(source.name, source.text, CellDelimiter::kAuto);
   std::vector<int> columns;
-  for (const std::string& name : {address.time, address.column}) {
-    const auto found = std::find(table.names().begin(), table.names().end(), name);
-    if (found == table.names().end())
-      throw unknown_name({source.name, table.first_line()}, address.element, "column", name,
-                         table.names());
-    columns.push_back(static_cast<int>(found - table.names().begin()));
-  }
+  for (const std::string& name : {address.time, address.column})
+    columns.push_back(
+        index_of({name, 0, 1.0, 0.0, {source.name, table.first_line()}, address.element}, table));
   NumberTable::Columns cells = table.read(columns);
   for (std::size_t k = 0; k < columns.size(); ++k)
     for (std::size_t row = 0; row < cells.lines.size(); ++row)
