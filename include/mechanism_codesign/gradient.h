@@ -101,6 +101,12 @@ struct GradientCheck {
   /// If not empty, the reference has one entry per column: the derivative along this direction in
   /// the space of the tuned parameters.
   Eigen::MatrixXd directions;
+  /// By check_steps(): as `reference`, but through the steps of a run with a hundredth of the
+  /// study's tolerances. Empty where that is not known.
+  Eigen::VectorXd finer;
+  /// As largest_relative_difference, of the gradient from `finer`: what the length of the steps
+  /// costs. A complex step through the same steps does not see it.
+  double largest_change = 0;
 };
 
 /// Computes the gradient at `rho` and a reference for it. With `idas` the method is always

@@ -25,6 +25,7 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
     if (arguments.each_parameter ||
         (check.status.ok() && check.directions.size() > 0 && disagrees(check)))
       check = check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
+    check_steps(ensemble, problem.start(), &console.cancel, &check);
     return check;
   }
   GradientCheck result;
@@ -58,6 +59,9 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
         << name_of(result.method) << " verifies each parameter\n";
   if (verified || along)
     out << "largest relative difference " << readable(result.largest_relative_difference) << '\n';
+  if (result.finer.size() > 0)
+    out << "largest change with a hundredth of the tolerances " << readable(result.largest_change)
+        << '\n';
 }
 
 Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result,
@@ -80,6 +84,7 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
     verification["reference_error"] = by_name(names, result.reference_error);
   }
   verification["largest_relative_difference"] = result.largest_relative_difference;
+  if (result.finer.size() > 0) verification["largest_change"] = result.largest_change;
   return object;
 }
 

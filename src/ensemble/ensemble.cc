@@ -12,6 +12,7 @@
 #include "problem/load_problem.h"
 #include "sampling/measure.h"
 #include "sensitivity/gradient_check.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -208,6 +209,8 @@ bool Ensemble::fill_tail(const std::vector<std::size_t>& failed,
 
 namespace {
 
+constexpr double kCoarse = 0.01;  // share of a gradient that its steps may change
+
 /// @param directions how many; 0: by each parameter.
 GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
                       int directions, const std::atomic<bool>* cancel) {
@@ -250,6 +253,39 @@ GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, 
                           const std::atomic<bool>* cancel) {
   return checked(ensemble, rho, method, rho.size() > kCheckedDirections ? kCheckedDirections : 0,
                  cancel);
+}
+
+void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,
+                 const std::atomic<bool>* cancel, GradientCheck* check) {
+  if (!check->status.ok() || check->method != CheckMethod::kComplexStep) return;
+  const EnsembleEvaluation all = ensemble.evaluate(rho, true, cancel);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(check->reference.size());
+  for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
+    const double factor = all.total.status.ok() ? all.by_value[to_signed(k)] : 0.0;
+    const Scenario& scenario = ensemble.scenarios()[k];
+    if (factor == 0.0) continue;
+    const bool tests_errors = scenario.system->study().solver.sensitivity_tolerance > 0.0;
+    if (tests_errors || !can_replay(scenario.system->study())) return;
+    Eigen::VectorXd one;
+    const Status status = differentiate_finer_steps(
+        *scenario.system, scenario.parameters(rho), check->directions,
+        all.extremes.empty() ? Extremes() : all.extremes[k], cancel, &one);
+    if (status.code == StatusCode::kCancelled) check->status = status;
+    if (!status.ok() || !one.allFinite()) return;
+    sum += factor * one;
+  }
+  check->finer = std::move(sum);
+  compare(check);
+  if (check->largest_change > kCoarse)
+    check->evaluation.warnings.push_back(
+        warn("coarse_gradient",
+             {{ensemble.scenarios().front().system->whole_study().file, 1},
+              "solver",
+              "the steps are too long for the gradient: with a hundredth of the tolerances it "
+              "changes by this share",
+              readable(check->largest_change, 2),
+              "at most " + readable(kCoarse, 2) +
+                  "; sensitivity_tolerance: 1e-6, or smaller tolerances"}));
 }
 
 bool disagrees(const GradientCheck& check) {

@@ -85,6 +85,13 @@ constexpr int kCheckedDirections = 1;
 GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
                           const std::atomic<bool>* cancel = nullptr);
 
+/// Sets GradientCheck::finer and largest_change of an ended check, with the warning
+/// `coarse_gradient` in its evaluation if the gradient changes by more than a hundredth. Does
+/// nothing where a run cannot be repeated (idas, postures, bands), where its steps obey
+/// solver.sensitivity_tolerance, and if a run with smaller tolerances fails.
+void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,
+                 const std::atomic<bool>* cancel, GradientCheck* check);
+
 /// Whether a gradient and its reference differ by more than rounding, or the error of differences,
 /// explains.
 bool disagrees(const GradientCheck& check);

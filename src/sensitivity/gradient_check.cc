@@ -31,12 +31,13 @@ struct TakenStep {
   const RosenbrockTableau* tableau;
 };
 
-/// Records the steps of an integration with sensitivities.
+/// Records the steps of an integration.
 Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters,
-                    const std::atomic<bool>* cancel, std::vector<TakenStep>* steps) {
+                    Derivatives derivatives, const std::atomic<bool>* cancel,
+                    std::vector<TakenStep>* steps) {
   RosenbrockGradient run(system);
   run.obey(cancel);
-  Status status = run.start(parameters, Derivatives::kGradient);
+  Status status = run.start(parameters, derivatives);
   while (status.ok() && run.time() < system.study().duration) {
     status = run.advance(system.study().duration);
     if (status.ok()) steps->push_back({run.step_size(), &run.tableau()});
@@ -141,10 +142,10 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   return result;
 }
 
-/// The directions along which a reference is computed.
-Eigen::MatrixXd directions_of(const GradientCheck& check) {
-  const auto count = check.evaluation.gradient.size();
-  return check.directions.size() > 0 ? check.directions : Eigen::MatrixXd::Identity(count, count);
+/// The directions along which a reference is computed: those given, or each tuned parameter.
+Eigen::MatrixXd directions_of(const CompiledSystem& system, const Eigen::MatrixXd& given) {
+  const auto count = to_signed(system.study().tuned.size());
+  return given.size() > 0 ? given : Eigen::MatrixXd::Identity(count, count);
 }
 
 /// parameters + step * direction, with the tuned parameters in the direction.
@@ -183,26 +184,31 @@ void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
   }
 }
 
-void check_by_complex_step(const CompiledSystem& system, const std::vector<double>& parameters,
-                           const std::atomic<bool>* cancel, GradientCheck* check) {
+/// Derivatives of the objective and of the watched numbers through the steps of a run: one entry
+/// and one row per direction.
+/// @param derivatives of the run that chooses the steps. @param extremes of the run under check.
+Status differentiate_steps(const CompiledSystem& system, const std::vector<double>& parameters,
+                           Derivatives derivatives, const Eigen::MatrixXd& directions,
+                           const Extremes& extremes, const std::atomic<bool>* cancel,
+                           Eigen::VectorXd* objective, Eigen::MatrixXd* watched) {
   RosenbrockIntegrator integrator(system);
   std::vector<TakenStep> steps;
-  check->extreme_reference.setZero(check->reference.size(),
-                                   check->evaluation.extremes.values.size());
-  check->status = record_steps(system, parameters, cancel, &steps);
-  const Eigen::MatrixXd directions = directions_of(*check);
-  for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
+  objective->setZero(directions.cols());
+  watched->setZero(directions.cols(), extremes.values.size());
+  Status status = record_steps(system, parameters, derivatives, cancel, &steps);
+  for (Eigen::Index k = 0; status.ok() && k < directions.cols(); ++k) {
     const double h = step_along(system.study(), parameters, directions.col(k), [](double value) {
       return kComplexStep * std::max(1.0, std::abs(value));
     });
     const std::vector<Complex> perturbed =
         moved(system.study(), parameters, directions.col(k), Complex(0.0, h));
-    const Replayed run = replay(system, perturbed, steps, check->evaluation.extremes, &integrator,
-                                parameters, cancel);
-    check->reference[k] = run.objective.imag() / h;
-    check->extreme_reference.row(k) = run.watched.imag().transpose() / h;
-    if (is_set(cancel)) check->status = {StatusCode::kCancelled, 0.0, "cancelled"};
+    const Replayed run =
+        replay(system, perturbed, steps, extremes, &integrator, parameters, cancel);
+    (*objective)[k] = run.objective.imag() / h;
+    watched->row(k) = run.watched.imag().transpose() / h;
+    if (is_set(cancel)) status = {StatusCode::kCancelled, 0.0, "cancelled"};
   }
+  return status;
 }
 
 /// Reference by Ridders' extrapolated differences [9]. The error of the objective must be far below
@@ -217,7 +223,7 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
   study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
   Evaluator evaluator =
       evaluator_of(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
-  const Eigen::MatrixXd directions = directions_of(*check);
+  const Eigen::MatrixXd directions = directions_of(system, check->directions);
   for (Eigen::Index k = 0; check->status.ok() && k < check->reference.size(); ++k) {
     const auto objective = [&](double step) {
       const Evaluation evaluation = evaluator.evaluate_design(
@@ -235,6 +241,26 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
 }
 
 }  // namespace
+
+bool can_replay(const MotionStudy& study) {
+  return study.postures == 0 && study.solver.integrator == IntegratorKind::kRosenbrock &&
+         std::none_of(study.watched.begin(), study.watched.end(), has_band);
+}
+
+Status differentiate_finer_steps(const CompiledSystem& system,
+                                 const std::vector<double>& parameters,
+                                 const Eigen::MatrixXd& directions, const Extremes& extremes,
+                                 const std::atomic<bool>* cancel, Eigen::VectorXd* derivatives) {
+  Study study = system.whole_study();
+  for (double* tolerance : {&study.solver.relative_tolerance, &study.solver.absolute_tolerance})
+    *tolerance = std::max(1e-2 * *tolerance, 1e-13);
+  study.solver.maximum_steps *= 10;
+  const CompiledSystem finer(system.robot(), study, system.sharing());
+  Eigen::MatrixXd watched;
+  return differentiate_steps(finer, parameters, Derivatives::kNone,
+                             directions_of(finer, directions), extremes, cancel, derivatives,
+                             &watched);
+}
 
 GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
                              const std::atomic<bool>* cancel) {
@@ -278,6 +304,10 @@ void compare(GradientCheck* check) {
   };
   compare_with(check->evaluation.gradient, check->reference,
                1e-3 * check->reference.cwiseAbs().maxCoeff());
+  if (check->finer.size() > 0)
+    check->largest_change =
+        largest_difference(check->directions, check->evaluation.gradient, check->finer,
+                           1e-3 * check->finer.cwiseAbs().maxCoeff());
   // Values at the start may have gradients that are zero within rounding, so that differences are
   // compared with the largest gradient of all.
   const Eigen::MatrixXd& references = check->extreme_reference;
@@ -309,17 +339,16 @@ GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
   GradientCheck check;
   check.directions = directions;
   const MotionStudy& study = system->study();
-  const bool by_differences = study.postures > 0 ||
-                              study.solver.integrator == IntegratorKind::kIdas ||
-                              std::any_of(study.watched.begin(), study.watched.end(), has_band);
-  check.method = by_differences ? CheckMethod::kRidders : method;
+  check.method = can_replay(study) ? method : CheckMethod::kRidders;
   check.reference.setZero(count);
   check.reference_error.setZero(count);
   check.evaluation = evaluator_of(system).evaluate_design(parameters, true, cancel);
   check.status = check.evaluation.status;
   if (!check.status.ok()) return check;
   if (check.method == CheckMethod::kComplexStep) {
-    check_by_complex_step(*system, parameters, cancel, &check);
+    check.status = differentiate_steps(
+        *system, parameters, Derivatives::kGradient, directions_of(*system, directions),
+        check.evaluation.extremes, cancel, &check.reference, &check.extreme_reference);
   } else {
     check_by_differences(*system, parameters, cancel, &check);
   }

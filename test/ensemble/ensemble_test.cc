@@ -10,6 +10,7 @@
 #include "description/study.h"
 #include "ensemble/ensemble_fixture.h"
 #include "integration/mechanisms.h"
+#include "paths.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -115,6 +116,49 @@ TEST(Ensemble, GradientsOfAllMeasuresAgreeWithTheComplexStep) {
     EXPECT_GT(check.reference.norm(), 0.0);
     EXPECT_LT(check.largest_relative_difference, 1e-8) << measure;
   }
+}
+
+// A replay of the same steps does not see that they are too long where friction reverses.
+TEST(Ensemble, StepsThatAreTooLongForAGradientShow) {
+  const std::string loop = source_dir() + "/test/features/planar_loop";
+  const auto check_at = [&loop](const std::string& solver, CheckMethod method, int directions) {
+    SourceText study = read_source(loop + ".yaml");
+    study.text += "solver: {" + solver + "}\n";
+    const Problem problem = load_problem(read_source(loop + ".urdf"), {}, study);
+    const Ensemble ensemble(problem);
+    GradientCheck check = directions > 0
+                              ? check_along(ensemble, problem.start(), method)
+                              : check_gradient(ensemble, problem.start(), method);
+    check_steps(ensemble, problem.start(), nullptr, &check);
+    EXPECT_TRUE(check.status.ok()) << check.status.cause;
+    return check;
+  };
+  const auto warns = [](const GradientCheck& check) {
+    return check.evaluation.warnings.size() == 1 &&
+           check.evaluation.warnings[0].code == "coarse_gradient";
+  };
+  const std::string loose = "relative_tolerance: 1.0e-6, absolute_tolerance: 1.0e-7",
+                    tight = "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10";
+  for (const int directions : {0, 1}) {
+    const GradientCheck coarse = check_at(loose, CheckMethod::kComplexStep, directions),
+                        fine = check_at(tight, CheckMethod::kComplexStep, directions);
+    EXPECT_LT(coarse.largest_relative_difference, 1e-8);
+    EXPECT_GT(coarse.largest_change, 0.01);
+    EXPECT_TRUE(warns(coarse));
+    EXPECT_LT(fine.largest_change, 1e-4);
+    EXPECT_FALSE(warns(fine));
+    EXPECT_EQ(fine.finer.size(), fine.reference.size());
+  }
+  // What changes is the error: differences of other runs agree with the finer steps.
+  const GradientCheck coarse = check_at(loose, CheckMethod::kComplexStep, 0),
+                      runs = check_at(loose, CheckMethod::kRidders, 0);
+  EXPECT_LT((coarse.finer - runs.reference).norm(),
+            0.2 * (coarse.evaluation.gradient - runs.reference).norm());
+  EXPECT_EQ(runs.finer.size(), 0) << "known already";
+  EXPECT_EQ(check_at(loose + ", sensitivity_tolerance: 1.0e-6", CheckMethod::kComplexStep, 0)
+                .finer.size(),
+            0)
+      << "such steps are tested";
 }
 
 // The complex step of the scenarios does not check the measure itself: differences of the measure

@@ -57,6 +57,7 @@ class Features(unittest.TestCase):
                 verification = self.answer("gradient", feature.model, feature.study, "--verify=complex_step")["verification"]
                 self.assertEqual(verification["method"], "ridders" if feature.name in BY_DIFFERENCES else "complex_step")
                 self.assertLess(verification["largest_relative_difference"], 1e-8)
+                self.assertEqual("largest_change" in verification, verification["method"] == "complex_step")
                 for name, value in verification["reference"].items():
                     self.assertGreater(abs(value), 1e-9, f"{name} counts")
 
