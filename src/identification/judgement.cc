@@ -73,6 +73,7 @@ void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fi
                         const SeriesLengths& lengths, const IntervalOptions& intervals,
                         const std::vector<int>& columns, const std::vector<std::string>& names,
                         const ParameterCovariance& plain, IdentificationResult* result) {
+  if (plain.identifiability.dependent.empty()) return;  // each is determined
   const LinearNumbers numbers = with_inertial_numbers(names, fit.x(columns), weighted.jacobian);
   const ParameterCovariance changed =
       numbers.is_changed ? parameter_covariance(weighted.residuals, numbers.jacobian, lengths,
@@ -85,7 +86,7 @@ void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fi
     const bool is_dependent = std::find(found.dependent.begin(), found.dependent.end(),
                                         static_cast<int>(i)) != found.dependent.end();
     const bool is_told_alone = found.is_determined[k] && numbers.names[k] == names[k];
-    if (is_dependent || is_told_alone || plain.identifiability.dependent.empty()) continue;
+    if (is_dependent || is_told_alone) continue;
     const double value = combination_value(found, numbers.x, i);
     result->combinations.push_back(
         {combination_of(found, numbers.names, i), value, changed.combination_deviation[i],
@@ -114,6 +115,7 @@ void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
 /// determined.
 void release_undetermined(const ResidualFit& fit, const LossOptions& loss,
                           IdentificationResult* result) {
+  if (free_columns(*result).size() == result->numbers.size()) return;
   const Identifiability all =
       find_identifiable(weigh(fit.residuals, &fit.jacobian, fit.spreads, loss).jacobian);
   for (std::size_t k = 0; k < result->numbers.size(); ++k)
