@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 #include "engine/mpi_engine.h"
 #include "engine/rank_fixture.h"
 #include "ensemble/ensemble_fixture.h"
@@ -70,27 +72,31 @@ TEST(Dispatcher, ARankThatFallsSilentEndsTheJobWithItsName) {
 
 TEST(Dispatcher, ARankThatGivesSignsOfLifeIsWaitedFor) {
   const Problem problem = block("");
-  std::uint64_t task = 0;
+  std::deque<std::uint64_t> tasks;
   const auto begin = std::chrono::steady_clock::now();
   PlayedJob job(
       own_hello(),
       [&](MessageKind kind, std::uint64_t number) -> std::optional<std::string> {
-        if (kind == MessageKind::kTask) task = number;
+        if (kind == MessageKind::kTask) tasks.push_back(number);
+        // The dispatcher's own signs of life drive the answers.
+        if (tasks.empty() || std::chrono::steady_clock::now() - begin < 1.5 * kSilence)
+          return write_numbered(MessageKind::kSign);
+        const std::uint64_t task = tasks.front();
+        tasks.pop_front();
         Evaluation late;
         late.objective = 7.0;
-        // The dispatcher's own signs of life drive the answers.
-        if (std::chrono::steady_clock::now() - begin > 1.5 * kSilence)
-          return write_result(task, late);
-        return write_numbered(MessageKind::kSign);
+        return write_result(task, late);
       },
       short_times());
+  job.wait_for_hello();
   std::vector<double> objectives;
+  // So many tasks that the other rank gets one even if it is slow.
   for (const Evaluation& one :
-       MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr)) {
+       MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 100), nullptr)) {
     EXPECT_TRUE(one.status.ok()) << one.status.cause;
     objectives.push_back(one.objective);
   }
-  EXPECT_EQ(std::count(objectives.begin(), objectives.end(), 7.0), 1);
+  EXPECT_GE(std::count(objectives.begin(), objectives.end(), 7.0), 1);
 }
 
 TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
