@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 if _TYPE_CHECKING:
     from ._cases import case as case
     from ._core import version as version
+    __version__: str
     from ._errors import ComputationError as ComputationError
     from ._errors import InputError as InputError
     from ._errors import OutputError as OutputError
@@ -41,6 +42,8 @@ __all__ = sorted(_MODULES)
 
 
 def __getattr__(name: str) -> object:
+    if name == "__version__":  # the usual name
+        return __getattr__("version")()  # type: ignore[operator]
     if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     import importlib.util

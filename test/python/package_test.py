@@ -51,6 +51,7 @@ WRONG = {'problem.simulate(samples="many")': "arg-type", "problem.optimize(cance
 class Names(unittest.TestCase):
     def test_its_names_are_there(self):
         self.assertEqual(codesign.version(), command_line("gradient", *case("inverted_pendulum"))["version"])
+        self.assertEqual(codesign.__version__, codesign.version())
         self.assertLessEqual(set(codesign.__all__), set(dir(codesign)))
         for name in codesign.__all__:
             self.assertTrue(getattr(codesign, name).__doc__, name)
