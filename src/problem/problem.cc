@@ -254,6 +254,12 @@ Problem run_of(const Problem& problem, const std::string& name) {
     names.push_back(run.name);
     if (run.name != name) continue;
     Study study = run.study ? *run.study : whole;
+    // A parameter of the study itself or of another run is no mistake in this one.
+    study.used_parameters.insert(whole.used_parameters.begin(), whole.used_parameters.end());
+    for (const RunDescription& other : whole.ensemble.runs)
+      if (other.study)
+        study.used_parameters.insert(other.study->used_parameters.begin(),
+                                     other.study->used_parameters.end());
     study.ensemble = {};
     study.grid = whole.grid;
     return with_study(problem, std::move(study), run.set);

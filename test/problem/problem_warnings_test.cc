@@ -85,9 +85,10 @@ TEST(UnusedParameters, ANumberOfModelOrStudyUsesThem) {
 }
 
 TEST(UnusedParameters, TheChangesOfARunUseThem) {
-  EXPECT_EQ(warnings_of(problem_of(
-                "", "", "runs: {pushed: {loads: [{joint: hinge, effort: \"${weight}\"}]}}\n")),
-            0U);
+  const Problem problem = problem_of(
+      "", "", "runs: {pushed: {loads: [{joint: hinge, effort: \"${weight}\"}]}, free: {}}\n");
+  EXPECT_EQ(warnings_of(problem), 0U);
+  for (const char* run : {"pushed", "free"}) EXPECT_EQ(warnings_of(run_of(problem, run)), 0U);
 }
 
 TEST(UnusedParameters, AreUncertainButMoveNothing) {
