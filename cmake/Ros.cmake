@@ -105,5 +105,6 @@ target_link_libraries(optimization PRIVATE codesign_mpi)
 
 install(PROGRAMS scripts/bag_text scripts/case_figures scripts/example_client scripts/example_controller scripts/identify_then_tune scripts/launch_input scripts/model_mismatch scripts/panel scripts/play_bag scripts/restore_parameters scripts/simulate_sensors
   scripts/show_in_rviz scripts/trajectory_from_bag scripts/watch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
+install(DIRECTORY scripts/codesign_panel DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts PATTERN "__pycache__" EXCLUDE)
 install(FILES scripts/panel.html scripts/watch.html DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scripts)
 install(DIRECTORY launch plotjuggler rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -126,9 +126,8 @@ TEST(Ensemble, StepsThatAreTooLongForAGradientShow) {
     study.text += "solver: {" + solver + "}\n";
     const Problem problem = load_problem(read_source(loop + ".urdf"), {}, study);
     const Ensemble ensemble(problem);
-    GradientCheck check = directions > 0
-                              ? check_along(ensemble, problem.start(), method)
-                              : check_gradient(ensemble, problem.start(), method);
+    GradientCheck check = directions > 0 ? check_along(ensemble, problem.start(), method)
+                                         : check_gradient(ensemble, problem.start(), method);
     check_steps(ensemble, problem.start(), nullptr, &check);
     EXPECT_TRUE(check.status.ok()) << check.status.cause;
     return check;

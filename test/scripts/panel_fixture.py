@@ -2,8 +2,6 @@
 """The panel without ROS, for its tests: a fake takes the place of the nodes."""
 import contextlib
 import http.client
-import importlib.machinery
-import importlib.util
 import json
 import math
 import pathlib
@@ -14,17 +12,12 @@ import unittest
 
 sys.dont_write_bytecode = True
 PANEL = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "panel"
+sys.path.insert(0, str(PANEL.parent))
+from codesign_panel import server  # noqa: E402
+from codesign_panel.board import Board  # noqa: E402
+from codesign_panel.requests import Refused  # noqa: E402
+
 LONG_NAME = "a_controller_of_the_left_" + "shoulder_" * 8
-
-
-def load_script(path):
-    loader = importlib.machinery.SourceFileLoader(path.name, str(path))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(path.name, loader))
-    loader.exec_module(module)
-    return module
-
-
-SCRIPT = load_script(PANEL)
 
 
 class FakeNodes:
@@ -36,7 +29,7 @@ class FakeNodes:
     def do(self, what, fields):
         self.asked.append((what, fields))
         if fields.get("name") == "refused":
-            raise SCRIPT.Refused("refused: no such joint")
+            raise Refused("refused: no such joint")
         return f"{what} is done"
 
 
@@ -44,8 +37,8 @@ class PanelTestCase(unittest.TestCase):
     """A panel with fake nodes, as it is while a simulation runs."""
 
     def setUp(self):
-        self.board, self.nodes = SCRIPT.Board(), FakeNodes()
-        self.server = SCRIPT.make_server(0, self.board, self.nodes)
+        self.board, self.nodes = Board(), FakeNodes()
+        self.server = server.make_server(0, self.board, self.nodes)
         self.port = self.server.server_address[1]
         thread = threading.Thread(target=self.server.serve_forever, kwargs={"poll_interval": 0.02})
         thread.start()

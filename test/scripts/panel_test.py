@@ -10,12 +10,13 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from panel_fixture import PANEL, SCRIPT, PanelTestCase  # noqa: E402
+from panel_fixture import PANEL, PanelTestCase, server  # noqa: E402
+from codesign_panel import board  # noqa: E402
 
 
 class CurvesTest(unittest.TestCase):
     def setUp(self):
-        self.curves = SCRIPT.Curves()
+        self.curves = board.Curves()
 
     def add(self, stamp, *positions, names=("elbow", "wrist")):
         self.curves.add("joint_states", stamp, names, ("position", "velocity"), [positions, [0.5] * len(positions)])
@@ -41,11 +42,11 @@ class CurvesTest(unittest.TestCase):
         self.assertEqual(self.curves.names(), ["finger/position", "finger/velocity"])
 
     def test_memory_is_bounded_and_a_late_reader_gets_what_is_kept(self):
-        for k in range(SCRIPT.MOST_FRAMES + 100):
+        for k in range(board.MOST_FRAMES + 100):
             self.add(float(k), float(k), 0.0)
         points, _ = self.curves.since(["elbow/position"], (0, {"elbow/position": 50}))
-        self.assertEqual(len(points["elbow/position"]), SCRIPT.MOST_FRAMES)
-        self.assertEqual(points["elbow/position"][-1][1], SCRIPT.MOST_FRAMES + 99)
+        self.assertEqual(len(points["elbow/position"]), board.MOST_FRAMES)
+        self.assertEqual(points["elbow/position"][-1][1], board.MOST_FRAMES + 99)
 
     def test_a_signal_that_two_topics_have_is_one(self):
         self.add(0.0, 1.0, 2.0)
@@ -93,7 +94,7 @@ class RequestsTest(PanelTestCase):
         for kind in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""):
             code, _, _ = self.ask("POST", "/do", b'{"do": "pause"}', Content_Type=kind)
             self.assertEqual(code, 415, kind)
-        for length in (str(SCRIPT.MOST_BYTES + 1), "-1", "1e3", ""):
+        for length in (str(server.MOST_BYTES + 1), "-1", "1e3", ""):
             self.assertEqual(self.ask("POST", "/do", b"", Content_Type="application/json", Content_Length=length)[0], 413, length)
         for method in ("PUT", "OPTIONS", "DELETE"):
             self.assertEqual(self.ask(method, "/do")[0], 501)
@@ -145,7 +146,7 @@ class RequestsTest(PanelTestCase):
         self.assertFalse(event()[1]["simulation"]["answers"])
 
     def test_more_signals_than_a_page_has_curves_and_other_addresses_are_refused(self):
-        self.assertEqual(self.ask("GET", "/events?" + "signal=x&" * (SCRIPT.MOST_CURVES + 1))[0], 400)
+        self.assertEqual(self.ask("GET", "/events?" + "signal=x&" * (server.MOST_CURVES + 1))[0], 400)
         for path in ("/other", "/../panel", "/do"):
             self.assertEqual(self.ask("GET", path)[0], 404)
         self.assertEqual(self.ask("POST", "/", b"{}", Content_Type="application/json")[0], 404)
@@ -171,7 +172,7 @@ class CommandLineTest(unittest.TestCase):
         self.assertIn("value: 70000, allowed: 0 to 65535", self.refusal("--port", "70000"))
         self.assertIn("not a name of a node (value: my node)", self.refusal("--simulation", "my node"))
         self.assertRegex(self.refusal("--port", "0"), "no ROS master is running|it needs ROS")
-        with SCRIPT.make_server(0, None, None) as taken:
+        with server.make_server(0, None, None) as taken:
             self.assertIn(f"(value: {taken.server_address[1]}, allowed: a free port", self.refusal("--port", str(taken.server_address[1])))
 
 
