@@ -133,6 +133,8 @@ struct MotionStudy {
   std::vector<ControllerDescription> controllers;
   std::vector<LoadDescription> loads;
   std::vector<GivenMotion> motion;
+  /// find_excursions() of the study as it was read: break times of its expressions of the time [s].
+  std::vector<double> excursions;
   bool rigid_gears = false;  ///< gears with a stiffness are rigid, since the motion is given
   /// All named parameters: the model's in their order, then the study's own. `parameters[tuned[k]]`
   /// is rho_k.

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 
+#include "description/excursions.h"
+
 namespace codesign {
 
 BreakTimes::BreakTimes(const MotionStudy& study) : apart_(1e-12 * study.duration) {
   for (const ControllerDescription& controller : study.controllers) {
-    add(controller.setpoint);
-    add(controller.feedforward);
-    for (const FeedbackTerm& term : controller.feedback) add(term.reference);
     const BasisDescription& basis = controller.basis;
     // A linear basis has kinks at the knots, where each coefficient begins to act; a cubic one is
     // smooth until its end.
@@ -17,14 +16,8 @@ BreakTimes::BreakTimes(const MotionStudy& study) : apart_(1e-12 * study.duration
       times_.push_back(basis.support(k)[0]);
     if (basis.count() > 0) times_.push_back(basis.duration);
   }
-  for (const LoadDescription& load : study.loads) {
-    add(load.effort.of_time);
-    for (const auto* components : {&load.force, &load.torque})
-      for (const LoadFunction& component : *components) add(component.of_time);
-  }
-  for (const GivenMotion& motion : study.motion) add(motion.position);
-  for (const ObjectiveTerm& term : study.integral) add(term.reference);
-  for (const WatchedSignal& watched : study.watched) add(watched.reference);
+  visit_functions(study, [this](const ReferenceDescription& function) { add(function); });
+  times_.insert(times_.end(), study.excursions.begin(), study.excursions.end());
   std::sort(times_.begin(), times_.end());
 }
 

@@ -144,6 +144,41 @@ TEST(BreakTimes, NothingIsOverlookedAfterARest) {
   }
 }
 
+// Expressions of the time that act for a thousandth of a long rest.
+TEST(BreakTimes, NoPulseOfAnExpressionIsOverlooked) {
+  for (const char* integrator : {"rosenbrock", "idas"})
+    for (const char* push : {"${t > 0.503 ? (t < 0.504 ? height : 0) : 0}",
+                             "${2*height/sqrt(pi)*exp(-((t - 0.5035)/5e-4)^2)}"}) {
+      const auto system = compile(
+          pendulum(),
+          std::string(
+              "duration: 1.0\ngravity: [0, 0, 0]\nparameters: {height: {initial: 100}}\n"
+              "objective: {terminal: [{signal: hinge/velocity}]}\nloads: [{joint: hinge, effort: "
+              "\"") +
+              push + "\"}]\nsolver: {integrator: " + integrator + "}\n");
+      const auto engine = make_integrator(*system);
+      ASSERT_TRUE(engine->start({100.0}).ok());
+      while (engine->state().t < 1.0) ASSERT_TRUE(engine->advance(1.0).ok());
+      // The impulse by the inertia about the hinge.
+      const double speed = std::sqrt(engine->equations().terminal(engine->state()));
+      EXPECT_NEAR(speed, 0.1 / (0.0834 + 0.25), 1e-4) << integrator << push;
+    }
+}
+
+TEST(BreakTimes, APulseCountsAlsoWhereItsHeightStartsAtZero) {
+  for (const char* height : {"0", "0.5"}) {
+    const auto system = compile(
+        pendulum(), std::string("duration: 1.0\nparameters: {height: {initial: ") + height +
+                        ", lower: -1, upper: 1}}\nobjective: {terminal: [{signal: "
+                        "hinge/velocity}]}\nloads: [{joint: hinge, effort: \"${t > 0.503 ? (t < "
+                        "0.505 ? height : 0) : 0}\"}]\n");
+    const BreakTimes breaks(system->study());
+    EXPECT_NEAR(breaks.next(0.0, 1.0), 0.503, 1e-9);
+    EXPECT_NEAR(breaks.next(0.504 + 1e-6, 1.0), 0.505, 1e-9);
+    EXPECT_EQ(breaks.times().size(), 3u);
+  }
+}
+
 }  // namespace
 
 }  // namespace codesign

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "description/excursions.h"
 #include "description/study.h"
 #include "math/arrays.h"
 #include "mechanism/motor_sides.h"
@@ -201,6 +202,7 @@ SegmentSystem make_segment_system(const CompiledSystem& of, const FitVariables& 
     result.epoch = recording.times.front();
   SegmentStudy segment(of, variables);
   segment.study().duration = recording.times.back() - result.epoch;
+  segment.study().excursions = find_excursions(segment.study());
   std::vector<double> times = recording.times;
   for (double& time : times) time -= result.epoch;
   for (const MeasuredJoint& joint : joints) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "description/excursions.h"
 #include "reading/parameter_table.h"
 #include "reading/study/study_blocks.h"
 #include "reading/study/study_options.h"
@@ -97,6 +98,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   read_loads(root, robot, table, loader, &study);
   read_objective(root, robot, table, loader, &study);
   read_watched(root, robot, table, loader, &study);
+  study.excursions = find_excursions(study);
   study.used_parameters = robot.used_parameters;
   study.used_parameters.insert(table.used.begin(), table.used.end());
   if (const auto limits = root.find("limits")) read_options(*limits, &study.limits);
