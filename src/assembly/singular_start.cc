@@ -61,12 +61,21 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   J_ = sparse_J_;
   // A motion that is given is held, and its row is linear: it restricts no other motion.
   const std::vector<Coupling>& couplings = system_.topology().couplings;
+  std::vector<bool> is_given(to_index(J_.rows()), false);
   for (std::size_t k = 0; k < couplings.size(); ++k)
-    if (couplings[k].motion >= 0)
-      J_.row(loops_.first_coupling_row() + static_cast<int>(k)).setZero();
-  qr_.matrix(J_.rows(), J_.cols()) = J_;
+    if (couplings[k].motion >= 0) is_given[to_index(loops_.first_coupling_row()) + k] = true;
+  std::vector<int> others;
+  for (int row = 0; row < J_.rows(); ++row)
+    if (is_given[to_index(row)])
+      J_.row(row).setZero();
+    else
+      others.push_back(row);
+  Eigen::MatrixXd complement;
+  qr_.matrix(to_signed(others.size()), J_.cols()) = J_(others, Eigen::all);
   qr_.factor(kRankAtStart);
-  qr_.complement(&L_);
+  qr_.complement(&complement);
+  L_.setZero(J_.rows(), complement.cols());
+  L_(others, Eigen::all) = complement;
 }
 
 // (J x)_theta x, by central differences of fourth order.

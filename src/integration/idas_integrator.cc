@@ -238,7 +238,8 @@ Status IdasIntegrator::take_step(double limit) {
     if (Status status = jump(); !status.ok()) return status;
   void* ida = ida_.get();
   double time = state_.t;
-  const double stop = clock_.next(breaks_.next(state_.t, limit));
+  const double stop = end_of_step(clock_.next(breaks_.next(state_.t, limit)), limit,
+                                  smallest_step(state_.t, system_.study().duration));
   require(IDASetStopTime(ida, stop), "IDASetStopTime");
   const int flag = IDASolve(ida, stop, &time, y_.get(), y_dot_.get(), IDA_ONE_STEP);
   count_steps();

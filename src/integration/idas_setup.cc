@@ -57,6 +57,10 @@ void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEqu
   require(IDASetLinearSolver(ida, newton->solver(), newton->matrix()), "IDASetLinearSolver");
   require(IDASetJacFn(ida, IdasEquations::jacobian), "IDASetJacFn");
   require(IDAQuadInit(ida, IdasEquations::integrand, vectors.integrals), "IDAQuadInit");
+  // A smooth motion takes steps over which an objective may change much.
+  require(IDAQuadSStolerances(ida, options.relative_tolerance, options.absolute_tolerance),
+          "IDAQuadSStolerances");
+  require(IDASetQuadErrCon(ida, SUNTRUE), "IDASetQuadErrCon");
 }
 
 }  // namespace codesign

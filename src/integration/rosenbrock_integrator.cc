@@ -12,8 +12,8 @@ namespace codesign {
 namespace {
 
 /// The scaled error of the objective's integral over the last attempt, as RosenbrockStep::error().
-/// A given motion does not feel its effort, of which the objective is often made: friction that
-/// turns round would be stepped over.
+/// Where little moves, or a given motion does not feel its effort, of which the objective is made,
+/// steps could go over much of it.
 double psi_error(const RosenbrockStep<double>& step, const SolverOptions& options) {
   const RosenbrockTableau& tableau = step.tableau();
   const int psi = step.increment_layout().psi();
@@ -153,8 +153,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   }
   chooses_ = false;
   const double t = step_.state().t;
-  const double smallest = 16.0 * std::numeric_limits<double>::epsilon() *
-                          std::max(std::abs(t), 1e-3 * system_.study().duration);
+  const double smallest = smallest_step(t, system_.study().duration);
   bool singular = false;
   const auto judged = [&](const Status& status) {
     return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(),
@@ -170,9 +169,11 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     // Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is
     // left before the limit.
-    const double rest = clock_.next(breaks_.next(t, limit)) - t;
+    const double end = end_of_step(clock_.next(breaks_.next(t, limit)), limit, smallest),
+                 rest = end - t;
     const bool last = h >= rest / 1.1;
     if (last) h = rest;
+    while (last && t + h < end) h = std::nextafter(h, end);
     if (!last && h > 0.5 * rest) h = 0.5 * rest;
     if (!(h >= smallest))
       return judged(singular
@@ -189,7 +190,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     }
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
-    if (!system_.study().motion.empty()) error = std::max(error, psi_error(step_, options_));
+    error = std::max(error, psi_error(step_, options_));
     if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,17 @@ class RestartPace {
   double began_ = 0.0, time_ = 0.0;  ///< of the run and of the window
   std::int64_t steps_ = 0, restarts_ = 0;
 };
+
+/// The smallest step [s] at time t that rounding allows.
+inline double smallest_step(double t, double duration) {
+  return 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(t), 1e-3 * duration);
+}
+
+/// Where a step at most ends: at the next event, but not so short before the limit that no step
+/// could follow, as k times a sample time may lie.
+inline double end_of_step(double event, double limit, double smallest) {
+  return limit - event < smallest ? limit : event;
+}
 
 /// The instants [s] at which a study's functions of time have a kink or begin to move,
 /// doc/theory.md (C1). Integrators end a step there: a step across a kink loses its order, and a

@@ -90,9 +90,9 @@ const Linearization<double>& IdasTangent::linearize(const State<double>& state, 
   return derivatives_;
 }
 
-// The derivative of Phi'' + 2 kappa Phi' + kappa^2 Phi along (q, v, a) equals the derivative of
-// Phi'' along (q, v + kappa q, a + 2 kappa v + kappa^2 q), because (Phi'')_v = 2 (Phi')_q and
-// (Phi'')_a = (Phi')_v = Phi_q.
+// The other rows of the multipliers are as they are. The derivative of Phi'' + 2 kappa Phi' +
+// kappa^2 Phi along (q, v, a) equals the derivative of Phi'' along (q, v + kappa q, a + 2 kappa v +
+// kappa^2 q), because (Phi'')_v = 2 (Phi')_q and (Phi'')_a = (Phi')_v = Phi_q.
 void IdasTangent::derivative(int k, const State<double>& direction, VectorX<double>* result) {
   const Layout& layout = system_.layout();
   directional_derivative(system_, derivatives_, direction, result);
@@ -102,7 +102,8 @@ void IdasTangent::derivative(int k, const State<double>& direction, VectorX<doub
     stabilized_direction_.z.head(layout.n) +=
         2.0 * kappa_ * direction.v + kappa_ * kappa_ * direction.q;
     directional_derivative(system_, derivatives_, stabilized_direction_, &stabilized_);
-    result->segment(layout.n, layout.m) = stabilized_.segment(layout.n, layout.m);
+    result->segment(layout.n, layout.constraints()) =
+        stabilized_.segment(layout.n, layout.constraints());
   }
   *result += partial_.col(k);
 }

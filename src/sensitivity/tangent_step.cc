@@ -91,7 +91,9 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   take_up(initial, start_);
   largest_x_.setZero();
   largest_v_.setZero();
-  measure();
+  largest_state_ = 1.0;
+  per_square_ = inverse_squares<N>(parameters);
+  measure(initial);
   if (keeps_previous_) previous_y_ = y_;
 }
 
@@ -263,20 +265,15 @@ void TangentStep<N>::attempt(RosenbrockStep<double>* step) {
 template <int N>
 double TangentStep<N>::error(double relative_tolerance) const {
   const Directions<N>& u = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
-  const auto ratio = [](const Eigen::Array<double, N, 1>& squares,
-                        const Eigen::Array<double, N, 1>& size) {
-    // A parameter without influence on the motion has no error.
-    return (size > 0.0).select(squares / size, 0.0).maxCoeff();
+  // A parameter whose own size changes the motion by rounding alone has no error.
+  const Eigen::Array<double, N, 1> rounding = 1e-16 * largest_state_ * per_square_;
+  const auto ratio = [&rounding](const Eigen::Array<double, N, 1>& squares,
+                                 const Eigen::Array<double, N, 1>& size) {
+    return (squares / size.max(rounding)).maxCoeff();
   };
   const double largest = std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_),
                                   ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
   return std::sqrt(largest) / relative_tolerance;
-}
-
-template <int N>
-void TangentStep<N>::measure() {
-  largest_x_ = largest_x_.max(squared_norms(y_, at_.x(), at_.x_size));
-  largest_v_ = largest_v_.max(squared_norms(y_, at_.v(), at_.n));
 }
 
 // Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds
@@ -308,7 +305,7 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
   has_changes_ = false;
   if (!tableau_->is_explicit() || layout_.m > 0) linearize(step.unprojected());
   if (layout_.m > 0) project(step);
-  measure();
+  measure(step.state());
 }
 
 template <int N>

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -82,7 +83,8 @@ class TangentStep {
   /// receives the factorization of a stage.
   void attempt(RosenbrockStep<double>* step);
   /// Scaled error of the last attempt, acceptable up to 1: the largest |u'_last| / (tolerance |y'|)
-  /// over the parameters, with norms over positions or over velocities and the largest |y'| so far.
+  /// over the parameters, with norms over positions or over velocities and the largest |y'| so far,
+  /// at least 1e-8 max(1, |y|)/|rho|.
   double error(double relative_tolerance) const;
   /// Accepts the last attempt: computes the tangent of its end and projection. To be called after
   /// RosenbrockStep::accept().
@@ -137,7 +139,11 @@ class TangentStep {
   void explicit_stage(std::size_t i, RosenbrockStep<double>* step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
-  void measure();
+  void measure(const State<double>& state) {
+    largest_state_ = std::max({largest_state_, state.q.squaredNorm(), state.v.squaredNorm()});
+    largest_x_ = largest_x_.max(squared_norms(y_, at_.x(), at_.x_size));
+    largest_v_ = largest_v_.max(squared_norms(y_, at_.v(), at_.n));
+  }
   /// Sets stage_y_ to the derivatives at `time` within the last step.
   void interpolate(const RosenbrockStep<double>& step, double time);
   /// Sets point_ to the state of the dense output with its derivatives.
@@ -169,6 +175,8 @@ class TangentStep {
   std::vector<Directions<N>> stages_;                 ///< u' of each stage
   std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row
   Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
+  Eigen::Array<double, N, 1> per_square_;             ///< 1 / rho^2
+  double largest_state_ = 1.0;                        ///< squared norm, at least 1
 };
 
 }  // namespace codesign

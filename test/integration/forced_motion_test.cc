@@ -172,5 +172,21 @@ TEST(ForcedMotion, GravityCompensationLeavesNoOffset) {
   EXPECT_GT(lasting_error("type: pid, input: JOINT/position, gains: {p: 50.0, d: 25.0}"), 0.05);
 }
 
+// A bar at rest allows steps of any length, over which the objective changes.
+TEST(ForcedMotion, TheErrorOfTheObjectiveIsTestedWhereNothingMoves) {
+  for (const char* integrator : {"rosenbrock", "idas"})
+    for (const double frequency : {1.0, 3.0, 20.0}) {
+      const auto system = compile(
+          pendulum(),
+          "duration: 2.0\ngravity: [0, 0, 0]\nobjective: {integral: [{signal: "
+          "hinge/position, reference: {type: sine, amplitude: 2.0, frequency: " +
+              std::to_string(frequency) + "}}]}\nsolver: {integrator: " + integrator + "}\n");
+      const auto engine = make_integrator(*system);
+      ASSERT_TRUE(engine->start({}).ok());
+      while (engine->state().t < 2.0) ASSERT_TRUE(engine->advance(2.0).ok());
+      EXPECT_NEAR(engine->psi(), 4.0, 1e-3) << integrator << frequency;  // 2 a^2 / 2
+    }
+}
+
 }  // namespace
 }  // namespace codesign

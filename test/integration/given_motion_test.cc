@@ -181,5 +181,26 @@ TEST(GivenMotions, HaveNoRateOfTheirEffort) {
                InputError);
 }
 
+// The only constraint is the given motion, whose row bends along no motion but by rounding.
+TEST(GivenMotions, LeaveTheOtherJointsAtRest) {
+  const std::string arm = robot(
+      bar("upper") + bar("lower") +
+      "<joint name='turn' type='continuous'><parent link='ground'/><child link='upper'/><axis "
+      "xyz='0.2 0 1'/></joint><joint name='swing' type='continuous'><parent link='upper'/><child "
+      "link='lower'/><origin xyz='0.3 0 0'/><axis xyz='1 0 0'/></joint>");
+  const auto ends = [&arm](const char* coordinates, double t) {
+    return end_of(arm,
+                  std::string("duration: 1.0\nmotion: {turn: {position: {type: sine, amplitude: "
+                              "0.8, frequency: 0.5, phase: 0.2}}}\nsolver: {relative_tolerance: "
+                              "1.0e-9, absolute_tolerance: 1.0e-9, coordinates: ") +
+                      coordinates + "}\n",
+                  t, {"swing/velocity", "swing/position", "turn/effort"});
+  };
+  for (const double t : {0.0, 0.25}) {
+    const std::vector<double> own = ends("joint", t), all = ends("absolute", t);
+    for (std::size_t k = 0; k < own.size(); ++k) EXPECT_NEAR(all[k], own[k], 1e-6) << t << k;
+  }
+}
+
 }  // namespace
 }  // namespace codesign

@@ -189,6 +189,29 @@ TEST(FiniteFrame, NamesWhatIsNot) {
   EXPECT_EQ(find_not_finite(names, frame), "the motion of joint \"elbow\" is not finite");
 }
 
+// 3 times 0.3 is a last bit below 0.9, and so are sums of steps.
+TEST(RunEnds, ARunReachesItsEndABitBehindAnEvent) {
+  const std::string sampled =
+                        "controllers: {hold: {type: pid, input: hinge/position, setpoint: 0.5, "
+                        "output: hinge, gains: {p: 1}, sample_time: 0.03}}\n",
+                    points =
+                        "objective: {integral: [{signal: hinge/position, reference: {type: "
+                        "waypoints, times: [0, 0.8999999999999999], positions: [0, 1]}}]}\n";
+  for (const char* integrator : {"rosenbrock", "idas"})
+    for (const std::string& more : {sampled, points, std::string()})
+      for (const char* duration : {"0.33", "0.45", "0.9", "2.9", "3.1", "3.4"}) {
+        const auto system =
+            compile(pendulum(), std::string("duration: ") + duration + "\ngravity: [0, 0, 0]\n" +
+                                    more + "solver: {integrator: " + integrator + "}\n");
+        const auto engine = make_integrator(*system);
+        ASSERT_TRUE(engine->start({}).ok());
+        while (engine->state().t < system->study().duration) {
+          const Status status = engine->advance(system->study().duration);
+          ASSERT_TRUE(status.ok()) << integrator << more << duration << status.cause;
+        }
+      }
+}
+
 }  // namespace
 
 }  // namespace codesign

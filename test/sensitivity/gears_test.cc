@@ -141,5 +141,20 @@ TEST(GearGradients, AreThoseOfIndependentRuns) {
   expect_same(elastic(), "joint");
 }
 
+TEST(GearGradients, BothIntegratorsAgree) {
+  const auto gradient = [](const char* integrator) {
+    const Problem problem =
+        load_problem({"test.urdf", smooth().urdf()}, {},
+                     {"test.yaml", smooth().study(std::string("integrator: ") + integrator +
+                                                  ", coordinates: absolute, relative_tolerance: "
+                                                  "1.0e-9, absolute_tolerance: 1.0e-10")});
+    const Evaluation evaluation = Evaluator(problem).evaluate(problem.start(), true);
+    EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+    return evaluation.gradient;
+  };
+  const Eigen::VectorXd exact = gradient("rosenbrock");
+  EXPECT_LT((gradient("idas") - exact).norm(), 1e-4 * exact.norm());
+}
+
 }  // namespace
 }  // namespace codesign

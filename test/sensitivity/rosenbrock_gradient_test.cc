@@ -48,5 +48,32 @@ TEST(RosenbrockGradient, CancelledBetweenItsPartsItIsNoGradient) {
   EXPECT_TRUE(std::isnan(gradient[1]));
 }
 
+// All masses scale with a parameter, by which the motion changes by rounding alone.
+TEST(RosenbrockGradient, RoundingIsNoErrorOfASensitivity) {
+  std::string scaled = double_pendulum();
+  const auto replace = [&scaled](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = scaled.find(from, at)) != std::string::npos; at += to.size())
+      scaled.replace(at, from.size(), to);
+  };
+  replace("<mass value='1'/>", "<mass value='1' codesign:value='${m}'/>");
+  replace("ixx='0.0834'", "ixx='0.0834' codesign:ixx='${0.0834*m}'");
+  replace("iyy='0.0834'", "iyy='0.0834' codesign:iyy='${0.0834*m}'");
+  replace("izz='0.001'", "izz='0.001' codesign:izz='${0.001*m}'");
+  replace("<link name='ground'/>",
+          "<codesign:parameter name='m' value='1.3'/><link name='ground'/>");
+  const auto steps = [&scaled](const std::string& solver) {
+    const auto system = compile(
+        scaled,
+        "duration: 2.0\ninitial_state: {shoulder: {position: 1.2}, elbow: {velocity: 3.0}}\n"
+        "parameters: {m: {}}\nobjective: {integral: [{signal: shoulder/position}]}\nsolver: {" +
+            solver + "}\n");
+    const Evaluation evaluation = evaluator_of(system).evaluate_design({1.3}, true);
+    EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+    EXPECT_NEAR(evaluation.gradient[0], 0.0, 1e-9);
+    return evaluation.statistics.steps;
+  };
+  EXPECT_LE(steps("sensitivity_tolerance: 1.0e-6"), steps("") + 5);
+}
+
 }  // namespace
 }  // namespace codesign
