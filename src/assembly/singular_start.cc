@@ -28,6 +28,13 @@ SingularStart::SingularStart(const CompiledSystem& system, const TreeLayout& tre
                              const LoopJacobian& loops)
     : system_(system), tree_(tree), loops_(loops) {
   state_.resize(system.layout());
+  const std::vector<Coupling>& couplings = system.topology().couplings;
+  for (int row = 0; row < loops.rows(); ++row) {
+    const int coupling = row - loops.first_coupling_row();
+    const bool is_given = coupling >= 0 && coupling < static_cast<int>(couplings.size()) &&
+                          couplings[to_index(coupling)].motion >= 0;
+    (is_given ? given_ : others_).push_back(row);
+  }
 }
 
 void SingularStart::rates(const VectorX<double>& theta, const VectorX<double>& x,
@@ -59,23 +66,15 @@ void SingularStart::load(const std::vector<double>& parameters, const VectorX<do
   }
   loops_.evaluate(parameters, theta, *equations, &motion_, &sparse_J_);
   J_ = sparse_J_;
-  // A motion that is given is held, and its row is linear: it restricts no other motion.
-  const std::vector<Coupling>& couplings = system_.topology().couplings;
-  std::vector<bool> is_given(to_index(J_.rows()), false);
-  for (std::size_t k = 0; k < couplings.size(); ++k)
-    if (couplings[k].motion >= 0) is_given[to_index(loops_.first_coupling_row()) + k] = true;
-  std::vector<int> others;
-  for (int row = 0; row < J_.rows(); ++row)
-    if (is_given[to_index(row)])
-      J_.row(row).setZero();
-    else
-      others.push_back(row);
-  Eigen::MatrixXd complement;
-  qr_.matrix(to_signed(others.size()), J_.cols()) = J_(others, Eigen::all);
+  for (const int row : given_) J_.row(row).setZero();
+  const auto count_of_others = to_signed(others_.size());
+  Eigen::MatrixXd& analysed = qr_.matrix(count_of_others, J_.cols());
+  for (Eigen::Index k = 0; k < count_of_others; ++k) analysed.row(k) = J_.row(others_[to_index(k)]);
   qr_.factor(kRankAtStart);
-  qr_.complement(&complement);
-  L_.setZero(J_.rows(), complement.cols());
-  L_(others, Eigen::all) = complement;
+  qr_.complement(&complement_);
+  L_.setZero(J_.rows(), complement_.cols());
+  for (Eigen::Index k = 0; k < count_of_others; ++k)
+    L_.row(others_[to_index(k)]) = complement_.row(k);
 }
 
 // (J x)_theta x, by central differences of fourth order.

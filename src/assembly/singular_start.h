@@ -65,7 +65,10 @@ class SingularStart {
   Equations<double>* equations_ = nullptr;
   VectorX<double> theta_, Phi_, Phi_rate_, violated_;
   State<double> state_;
-  Eigen::MatrixXd J_, L_;
+  /// Rows of given motions, which are held and linear, so that they restrict no other motion; and
+  /// all others.
+  std::vector<int> given_, others_;
+  Eigen::MatrixXd J_, L_, complement_;
   LoopWorkspace motion_;
   SparseMatrix sparse_J_;
   PivotedQr qr_;
