@@ -101,7 +101,7 @@ void IdasNewton::solve(In<double> b, Out<double> x) {
   assert(b.size() == layout.n + layout.columns() && x.size() == b.size());
   const In<double> b_q = b.first(layout.n);
   u_ = Eigen::Map<const VectorX<double>>(b.data() + layout.n, layout.columns());
-  u_.segment(layout.n, layout.constraints()) /= (1.0 + kappa_ * h) * (1.0 + kappa_ * h);
+  u_.segment(layout.n, layout.m - layout.gears) /= (1.0 + kappa_ * h) * (1.0 + kappa_ * h);
   subtract_position_product(system_, derivatives_, b_q, h, u_);
   if (kappa_ > 0.0) subtract_stabilization(b_q);
   reduced_.lu().solve(u_);
