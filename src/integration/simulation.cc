@@ -52,7 +52,7 @@ class Simulation::Implementation {
     const CpuTimer timer;
     const double duration = system_->study().duration;
     Status status;
-    while (status.ok() && integrator_->state().t < time) {
+    while (status.ok() && is_before(time)) {
       const double now = integrator_->state().t;
       status = integrator_->advance(
           now < duration && time <= duration ? duration : std::max(time, now) + duration);
@@ -63,11 +63,8 @@ class Simulation::Implementation {
 
   Status advance_to(double time) {
     const CpuTimer timer;
-    // Rounding may leave a step's end a last bit before its limit.
-    const double apart = 1e-12 * std::max(time, 1e-3 * system_->study().duration);
     Status status;
-    while (status.ok() && time - integrator_->state().t > apart)
-      status = integrator_->advance(time);
+    while (status.ok() && is_before(time)) status = integrator_->advance(time);
     keep_statistics(timer);
     return status;
   }
@@ -107,6 +104,10 @@ class Simulation::Implementation {
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
+  /// Rounding may leave the end of a step, or an instant of a controller, a last bit before `time`.
+  bool is_before(double time) const {
+    return time - integrator_->state().t > 1e-12 * std::max(time, 1e-3 * system_->study().duration);
+  }
   void keep_statistics(const CpuTimer& timer) {
     const double cpu = statistics_.cpu_seconds + timer.seconds();
     statistics_ = integrator_->statistics();

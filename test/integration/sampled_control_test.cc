@@ -105,6 +105,24 @@ TEST(SampledControl, MovesADoubleIntegratorFromSampleToSampleAsItsMatrixSays) {
     }
 }
 
+// k T and the instant of a sample are the same to rounding only.
+TEST(SampledControl, SignalsAtAnInstantAreThoseBeforeItsJump) {
+  constexpr int kSamples = 90;
+  Simulation simulation =
+      simulation_of(cart(pd(900.0, 40.0), ", delay: 0.01", "rosenbrock", kSamples * kPeriod), {},
+                    {parse_signal("pd/output", {}, "signal")});
+  std::vector<double> outputs;
+  // Instants and the middles between them.
+  const Status status =
+      simulate(&simulation, kSamples * kPeriod, 2 * kSamples + 1, [&](const Frame& frame) {
+        outputs.push_back(frame.signals[0]);
+        return true;
+      });
+  ASSERT_TRUE(status.ok()) << status.cause;
+  for (std::size_t k = 2; k < outputs.size(); k += 2)
+    EXPECT_NEAR(outputs[k], outputs[k - 1], 1e-9) << k / 2;
+}
+
 TEST(SampledControl, LosesStabilityAtTheGainOfTheTextbook) {
   const double d = 60.0, critical = critical_gain(d);
   EXPECT_NEAR(spectral_radius(closed_loop(critical, d, 0)), 1.0, 1e-9)
