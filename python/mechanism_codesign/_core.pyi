@@ -12,6 +12,9 @@ Tell = Optional[Callable[[str, Dict[str, Any]], object]]
 def version() -> str:
     """The version of the package, such as "0.2.0"."""
 
+def numbers(values: npt.ArrayLike, name: str, /) -> Array:
+    """The values as real numbers, shape (n,). Raises TypeError or ValueError with this name."""
+
 class Optimized:
     record: Dict[str, Any]
     status: Dict[str, Any]

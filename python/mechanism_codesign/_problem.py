@@ -58,7 +58,7 @@ class Problem:
         Paths, or texts: a string with a line end or one that begins with `<` is a text. Without a
         study the mechanism is at rest for 0 s and nothing is tuned.
     overlays:
-        Paths or texts of overlays, in the order of their application.
+        Paths or texts of overlays, in the order of their application; one alone needs no list.
     set:
         Values of parameters by name, as `--set NAME=VALUE`: of a tuned one its start, of any other
         one its value in every design. The equations are compiled with them.
@@ -75,8 +75,10 @@ class Problem:
     names: of the tuned parameters, the order of rho and of every gradient.
     """
 
-    def __init__(self, model: Source, study: Optional[Source] = None, *, overlays: Iterable[Source] = (),
+    def __init__(self, model: Source, study: Optional[Source] = None, *, overlays: Union[Source, Iterable[Source]] = (),
                  set: Optional[Mapping[str, float]] = None, result: Optional[Source] = None):  # pylint: disable=redefined-builtin
+        if isinstance(overlays, (str, os.PathLike)):
+            overlays = [overlays]
         self._core = _core.Session(
             _source(model, "model text"), None if study is None else _source(study, "study text"),
             [_source(overlay, f"text of overlay {k}") for k, overlay in enumerate(overlays, 1)], dict(set or {}),
@@ -137,7 +139,7 @@ class Problem:
         """
         if isinstance(signals, str):
             signals = [signals]
-        failure, table, names, notes = self._core.simulate(rho, parameters, list(signals or ()), samples)
+        failure, table, names, notes = self._core.simulate(rho, parameters, list(() if signals is None else signals), samples)
         run = Run(self, (rho, parameters), failure, table, names, notes)
         if failure is not None:
             raise ComputationError(run.status, run)
@@ -188,7 +190,7 @@ class Problem:
         return self._squares(rho, parameters)[1]
 
     def _squares(self, rho: Optional[npt.ArrayLike], parameters: Dict[str, float]) -> Tuple[Array, Array]:
-        key = (None if rho is None else np.asarray(rho, float).tobytes(), tuple(parameters.items()))
+        key = (None if rho is None else _core.numbers(rho, "rho").tobytes(), tuple(parameters.items()))
         known, squares = self._last
         if known != key:  # both are asked for at the same point
             squares = self._evaluate(rho, parameters, 2)[1:]
@@ -208,15 +210,16 @@ class Problem:
             assert progress is not None
             progress(Stage(line, **fields) if "stage" in fields else Trial(line, **fields))
 
-        return Result(self._core.optimize(progress and tell, _event(cancel)), self)
+        return Result(self._core.optimize(None if progress is None else tell, _event(cancel)), self)
 
     def identify(self, time: Optional[npt.ArrayLike] = None, position: Optional[Columns] = None, effort: Optional[Columns] = None, *,
                  velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None,
                  progress: Optional[Callable[[FitTrial], object]] = None, cancel: Optional[Event] = None) -> Fit:
         """Fits the tuned parameters to a recorded motion: `codesign identify` with arrays in place of files.
 
-        time: shape (n,), ascending [s]. position, velocity, effort: {joint: array of shape (n,)}, or one array of shape (n,) or (n, k) for
-        the k `joints` (by default all joints with one coordinate) [rad or m, per s, N m or N]; at least positions or velocities. The
+        time: shape (n,), ascending [s]. position, velocity, effort: {joint: array of shape (n,)}, a table with such columns, such as a
+        pandas.DataFrame, or one array of shape (n,) or (n, k) for the k `joints` (by default all joints with one coordinate) [rad or m,
+        per s, N m or N]; at least positions or velocities. The
         block `identify:` of the study, which may be missing, says how; the recordings that it names are not read. Without arrays they
         are.
 
@@ -233,7 +236,7 @@ class Problem:
             assert progress is not None
             progress(FitTrial(line, **fields))
 
-        return Fit(self._core.identify(time, table, progress and tell, _event(cancel)))
+        return Fit(self._core.identify(time, table, None if progress is None else tell, _event(cancel)))
 
     def __repr__(self) -> str:
         return f"<Problem {self._core.name}: {self.duration:g} s, {len(self.names)} tuned parameters>"
@@ -254,10 +257,13 @@ def _columns(values: Optional[Columns], joints: Sequence[str], what: str) -> Map
         return {}
     if isinstance(values, Mapping):
         return values
-    array = np.asarray(values, float)
+    table: Any = values
+    if hasattr(table, "columns"):  # by their names, whatever their order
+        return {joint: table[joint] for joint in table.columns}
+    array = np.asanyarray(values)
     if array.ndim == 1:
         array = array[:, np.newaxis]
     if array.ndim != 2 or array.shape[1] != len(joints):
         raise ValueError(f"{what} has the shape {np.shape(values)}: (n, {len(joints)}) is needed for the joints {', '.join(joints)}; "
                          f"joints= chooses others, and a dictionary names them")
-    return dict(zip(joints, np.ascontiguousarray(array.T)))
+    return dict(zip(joints, array.T))

@@ -13,6 +13,20 @@ from .requests import Refused
 PATIENCE = 3.0  # [s] until a service or a listener must be there
 
 
+def setpoint_topics(controllers):
+    """The topic of each controller's set-point, from all controllers of a study in its order: the rule of the node `simulation`."""
+    topics = {}
+    for name in controllers:
+        legal = re.sub(rb"[^A-Za-z0-9/]", b"_", name.encode()).decode()
+        base = topic = legal if re.match("[A-Za-z/]", name) else "controller_" + legal
+        number_behind = 1
+        while topic + "/command" in topics.values():
+            number_behind += 1
+            topic = f"{base}_{number_behind}"
+        topics[name] = topic + "/command"
+    return topics
+
+
 class Nodes:
     """The ROS side: topics of both nodes to the board, what the page asks for to the nodes."""
 
@@ -71,11 +85,7 @@ class Nodes:
         import rosgraph
         _, subscribed, _ = rosgraph.Master(self._ros.get_name()).getSystemState()
         heard = {topic for topic, nodes in subscribed if self._ros.resolve_name(self._simulation) in nodes}
-        return [name for name in names if self._ros.resolve_name(self.setpoint_topic(name)) in heard]
-
-    @staticmethod
-    def setpoint_topic(controller):
-        return re.sub(r"[^A-Za-z0-9/]", "_", controller) + "/command"
+        return [name for name, topic in setpoint_topics(names).items() if self._ros.resolve_name(topic) in heard]
 
     def on_commands(self, message):
         self._board.tell("commands", efforts=dict(zip(message.joints, map(number, message.efforts))),
@@ -187,12 +197,14 @@ class Nodes:
             return self.set_parameters(fields["values"])
         name, value = fields.get("name"), fields.get("value")
         if what == "effort":
+            if name not in self._board.read("commands", "efforts"):
+                raise Refused(f"{name}: no joint of this simulation that takes efforts")
             self.heard(f"{self._simulation}/command/effort", self._joint_state).publish(self._joint_state(name=[name], effort=[value]))
             return f"{name}: effort {value:.6g} is commanded"
         if what == "setpoint":
             if name not in self._board.read("commands", "controllers"):
                 raise Refused(f"{name}: no controller of this study with a set-point")
-            self.heard(self.setpoint_topic(name), self._float).publish(self._float(value))
+            self.heard(setpoint_topics(self._controllers)[name], self._float).publish(self._float(value))
             return f"{name}: set-point {value:.6g} is commanded"
         return self.start_job(what)
 

@@ -71,7 +71,11 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if self.refusal():
             self.send_error(403, self.refusal())
             return
-        address = urllib.parse.urlparse(self.path)
+        try:
+            address = urllib.parse.urlparse(self.path)
+        except ValueError:  # no address
+            self.send_error(400)
+            return
         if address.path == "/":
             page = PAGE.read_text(encoding="utf-8")
             self.reply("text/html; charset=utf-8", page.encode(), policy(page))
@@ -87,7 +91,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def do_POST(self):  # noqa: N802
         length = self.headers.get("Content-Length", "")
-        content = self.rfile.read(int(length)) if length.isdecimal() and int(length) <= MOST_BYTES else None
+        is_short = re.fullmatch("0*[0-9]{1,9}", length) and int(length[-9:]) <= MOST_BYTES
+        content = self.rfile.read(int(length[-9:])) if is_short else None
         if self.refusal():
             self.send_error(403, self.refusal())
         elif self.path != "/do":

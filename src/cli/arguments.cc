@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
-#include <type_traits>
 
 #include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
@@ -24,23 +25,14 @@ struct Option {
   std::function<void(const std::string&, Arguments*)> apply;
 };
 
-template <class T>
-T number_of(const std::string& option, const std::string& text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw UsageError(option + ": \"" + text + "\" is not " +
-                     (std::is_integral_v<T> ? "a whole number" : "a number"));
-  return value;
-}
-
 void add_setting(const std::string& text, Arguments* arguments) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--set: expected PARAMETER=VALUE, such as crank_length=0.07, not \"" + text +
                      "\"");
-  arguments->settings.emplace_back(text.substr(0, equals),
-                                   number_of<double>("--set", text.substr(equals + 1)));
+  const std::optional<double> value = parse_number(text.substr(equals + 1));
+  if (!value) throw UsageError("--set: \"" + text.substr(equals + 1) + "\" is not a number");
+  arguments->settings.emplace_back(text.substr(0, equals), *value);
 }
 
 /// The comma after an item of a list; commas in `${max(a, b)}` separate arguments.
@@ -67,8 +59,16 @@ void add_signals(const std::string& text, Arguments* arguments) {
 }
 
 void set_samples(const std::string& text, Arguments* arguments) {
-  arguments->samples = number_of<int>("--samples", text);
-  if (arguments->samples < 2)
+  const char* const end = text.data() + text.size();
+  const auto [last, error] =
+      std::from_chars(text.data() + (text.rfind('+', 0) == 0 ? 1 : 0), end, arguments->samples);
+  if (error == std::errc::invalid_argument || last != end)
+    throw UsageError("--samples: \"" + text + "\" is not a whole number");
+  const bool is_out_of_range = error == std::errc::result_out_of_range;
+  if (is_out_of_range && text[0] != '-')
+    throw UsageError("--samples: " + text + " is out of range (allowed: 2 to " +
+                     std::to_string(std::numeric_limits<int>::max()) + ")");
+  if (is_out_of_range || arguments->samples < 2)
     throw UsageError("--samples: " + text + " is less than 2, the first and the last instant");
 }
 

@@ -75,10 +75,11 @@ void apply_design(const SavedDesign& design, Study* study, Warnings* warnings) {
     const std::string misfit = set_saved(name, value, study);
     misfit.empty() ? static_cast<void>(++fitting) : note(misfit);
   }
-  if (fitting == 0 && !design.values.empty())
+  if (fitting == 0 && !(design.values.empty() && study->tuned.empty()))
     throw InputError({{design.file, 0},
                       "result",
-                      "no value of this result fits the model and the study: " + misfits,
+                      "no value of this result fits the model and the study: " +
+                          (misfits.empty() ? "it has no values of parameters" : misfits),
                       "",
                       "the result of this study, or of one with some of its parameters"});
   for (const std::string& tuned : tuned_names(*study))

@@ -14,23 +14,13 @@ Tell Told::tell() {
 
 bool Told::call(const std::string& line, const Json& fields) {
   const py::gil_scoped_acquire acquire;
-  // Python's lock passes to other threads inside the call: the mutex is not held there.
   try {
     progress_(line, to_python(fields));
     return true;
   } catch (py::error_already_set& error) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!error_) error_.emplace(std::move(error));
-    interruption_->stop();
+    interruption_->fail(std::move(error));
     return false;
   }
-}
-
-void Told::check() {
-  if (!error_) return;
-  py::error_already_set error = std::move(*error_);
-  error_.reset();
-  throw error;
 }
 
 }  // namespace codesign::python

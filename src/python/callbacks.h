@@ -3,9 +3,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <mutex>
-#include <optional>
-
 #include "python/conversions.h"
 #include "python/interruption.h"
 #include "python/jobs.h"
@@ -21,20 +18,16 @@ class Told {
       : progress_(progress), interruption_(interruption) {}
 
   Tell tell();
-  /// Raises what the function has raised, if it has. With Python's lock.
-  void check();
 
  private:
   bool call(const std::string& line, const Json& fields);
 
   const pybind11::handle progress_;
   Interruption* const interruption_;
-  std::mutex mutex_;  ///< guards error_: trials and stages may be told by several threads
-  std::optional<pybind11::error_already_set> error_;
 };
 
 /// work(tell, cancel) without Python's lock, told to `progress`, ended early by Ctrl-C, by `cancel`
-/// (an event of `threading`, or None), and by an exception of `progress`. @throws
+/// (an event of `threading`, or None), and by an exception of either. @throws
 /// pybind11::error_already_set for Ctrl-C and for this exception
 template <class Work>
 auto job(pybind11::handle progress, pybind11::handle cancel, const Work& work) {
@@ -45,7 +38,6 @@ auto job(pybind11::handle progress, pybind11::handle cancel, const Work& work) {
     const EventWatch watch(cancel, &interruption);
     return work(told.tell(), interruption.flag());
   }();
-  told.check();
   interruption.check();
   return result;
 }

@@ -78,6 +78,13 @@ py::array keep_as_array(std::vector<double> values, std::size_t room, std::size_
 
 std::vector<double> to_numbers(const py::handle& values, const std::string& name) {
   using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  // What a conversion would lose: masks, imaginary parts, and the units of dates and durations.
+  if (py::module_::import("numpy").attr("ma").attr("is_masked")(values).cast<bool>())
+    throw py::type_error(name + " has masked values; leave them out");
+  if (const auto given = py::array::ensure(values);
+      given && std::string("cmM").find(given.dtype().kind()) != std::string::npos)
+    throw py::type_error(name + " has the type " + py::str(given.dtype()).cast<std::string>() +
+                         "; real numbers in SI units are needed");
   const Numbers array = Numbers::ensure(values);
   if (!array) {
     PyErr_Clear();
@@ -86,6 +93,12 @@ std::vector<double> to_numbers(const py::handle& values, const std::string& name
   if (array.ndim() != 1)
     throw py::value_error(name + " has " + std::to_string(array.ndim()) + " dimensions, not one");
   return {array.data(), array.data() + array.size()};
+}
+
+std::string to_name(const py::handle& value, const std::string& name) {
+  if (!py::isinstance<py::str>(value))
+    throw py::type_error(name + " needs names, not " + py::repr(value).cast<std::string>());
+  return value.cast<std::string>();
 }
 
 ParameterSettings to_settings(const py::dict& settings) {

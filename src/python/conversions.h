@@ -27,8 +27,11 @@ pybind11::array_t<double> to_array(const Eigen::MatrixXd& values);
 pybind11::array keep_as_array(std::vector<double> values, std::size_t room, std::size_t rows);
 
 /// The numbers of a list or array of one dimension. @param name for messages. @throws
-/// pybind11::value_error, pybind11::type_error
+/// pybind11::value_error; pybind11::type_error also for masked values, complex numbers, dates and
+/// durations
 std::vector<double> to_numbers(const pybind11::handle& values, const std::string& name);
+/// @param name for messages, of the list. @throws pybind11::type_error for what is no string
+std::string to_name(const pybind11::handle& value, const std::string& name);
 
 /// Values by parameter. @throws pybind11::type_error for one that is no number.
 ParameterSettings to_settings(const pybind11::dict& settings);

@@ -1,23 +1,28 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "python/interruption.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <utility>
 
 namespace codesign::python {
 namespace {
 
 namespace py = pybind11;
 
-// Of the calls in Python's main thread, which may be nested: a callback may start another one.
-std::atomic<bool> interrupted{false};
+/// Flags of the calls in Python's main thread, which may be nested: a callback may start another
+/// one. They outlive the calls, since the signal may come in any thread. Calls that are nested
+/// deeper share the last one.
+std::array<std::atomic<bool>, 64> interrupted;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take a lock");
-int depth = 0;
+std::size_t depth = 0;
 struct sigaction before;
 
 extern "C" void on_interrupt(int number, siginfo_t* info, void* context) {
-  interrupted = true;
+  for (std::atomic<bool>& flag : interrupted) flag = true;
   if ((before.sa_flags & SA_SIGINFO) != 0)
     before.sa_sigaction(number, info, context);
   else
@@ -42,9 +47,12 @@ bool is_main_thread() {
 
 }  // namespace
 
-Interruption::Interruption() : flag_(is_main_thread() ? &interrupted : &own_) {
-  if (flag_ == &own_ || depth++ > 0) return;
-  interrupted = false;
+Interruption::Interruption() : flag_(&own_) {
+  if (!is_main_thread()) return;
+  const std::size_t place = depth++;
+  flag_ = &interrupted[std::min(place, interrupted.size() - 1)];
+  if (place < interrupted.size()) *flag_ = false;
+  if (place > 0) return;
   sigaction(SIGINT, nullptr, &before);
   if (!has_handler(before)) return;
   struct sigaction ours = before;
@@ -61,9 +69,19 @@ Interruption::~Interruption() {
   if (is_ours(now)) sigaction(SIGINT, &before, nullptr);
 }
 
-void Interruption::check() const {
-  if (flag_ == &interrupted && interrupted && PyErr_CheckSignals() != 0)
-    throw py::error_already_set();
+void Interruption::fail(py::error_already_set&& error) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!error_) error_.emplace(std::move(error));
+  stop();
+}
+
+void Interruption::check() {
+  if (error_) {
+    py::error_already_set error = std::move(*error_);
+    error_.reset();
+    throw error;
+  }
+  if (flag_ != &own_ && *flag_ && PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 EventWatch::EventWatch(py::handle event, Interruption* interruption) {
@@ -87,14 +105,13 @@ void EventWatch::watch(py::handle event, Interruption* interruption) {
     lock.unlock();
     {
       const py::gil_scoped_acquire acquire;
-      // An event that cannot be asked ends the computation, too.
-      bool is_set = true;
       try {
-        is_set = event.attr("is_set")().cast<bool>();
+        const int is_set = PyObject_IsTrue(event.attr("is_set")().ptr());
+        if (is_set < 0) throw py::error_already_set();
+        if (is_set > 0) interruption->stop();
       } catch (py::error_already_set& error) {
-        error.discard_as_unraisable("the event `cancel`");
+        interruption->fail(std::move(error));
       }
-      if (is_set) interruption->stop();
     }
     lock.lock();
     ends_.wait_for(lock, kPeriod, [this] { return is_over_; });

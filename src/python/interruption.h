@@ -6,14 +6,15 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace codesign::python {
 
 /// Ends a computation early, which runs without Python's lock: while an object of this class exists
 /// in Python's main thread, SIGINT sets the flag that the computation obeys, before Python's own
-/// handler runs. In other threads, to which Python gives no KeyboardInterrupt, the flag is one that
-/// only stop() sets.
+/// handler runs. In other threads, to which Python gives no KeyboardInterrupt, only stop() and
+/// fail() set it. Each call has a flag of its own, also where a callback starts another one.
 class Interruption {
  public:
   Interruption();
@@ -24,17 +25,23 @@ class Interruption {
   /// The flag for the `cancel` arguments of the library.
   const std::atomic<bool>* flag() const { return flag_; }
   void stop() { *flag_ = true; }
-  /// Runs the signal handlers that wait. @throws pybind11::error_already_set if one of them raises
-  /// an exception, as Python's own handler of SIGINT does.
-  void check() const;
+  /// Stops the computation, behind which check() raises the first of these errors. Thread-safe.
+  void fail(pybind11::error_already_set&& error);
+  /// Behind the computation, with Python's lock: runs the signal handlers that wait. @throws
+  /// pybind11::error_already_set for fail(), and if a handler raises an exception, as Python's own
+  /// handler of SIGINT does.
+  void check();
 
  private:
   std::atomic<bool> own_{false};
   std::atomic<bool>* flag_;
+  std::mutex mutex_;  ///< guards error_
+  std::optional<pybind11::error_already_set> error_;
 };
 
 /// Asks an event of Python's `threading` every 50 ms whether it is set, and then stops the
-/// computation. Made and destroyed without Python's lock.
+/// computation. An exception of the event ends the computation, too, and is raised behind it. Made
+/// and destroyed without Python's lock.
 class EventWatch {
  public:
   /// @param event has `is_set()`; None: there is none. Must outlive this, as `interruption` must.
@@ -56,7 +63,7 @@ class EventWatch {
 /// Interruption::check().
 template <class Work>
 auto interruptible(const Work& work) {
-  const Interruption interruption;
+  Interruption interruption;
   auto result = [&] {
     const pybind11::gil_scoped_release release;
     return work(interruption.flag());

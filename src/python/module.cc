@@ -67,11 +67,11 @@ std::vector<double> design_of(const Session& session, const py::object& rho,
                         to_settings(settings));
 }
 
-std::vector<std::string> strings_of(const py::list& list) {
-  std::vector<std::string> strings;
-  strings.reserve(list.size());
-  for (const py::handle item : list) strings.push_back(item.cast<std::string>());
-  return strings;
+std::vector<std::string> names_of(const py::list& list, const std::string& what) {
+  std::vector<std::string> names;
+  names.reserve(list.size());
+  for (const py::handle item : list) names.push_back(to_name(item, what));
+  return names;
 }
 
 /// (failure or None, objective, gradient, empty, [warning]); for kGaussNewton residuals and their
@@ -122,7 +122,7 @@ struct RunNotes {
 py::tuple simulate(const Session& session, const py::object& rho, const py::dict& settings,
                    const py::list& signals, int samples) {
   std::vector<double> design = design_of(session, rho, settings);
-  const std::vector<std::string> asked = strings_of(signals);
+  const std::vector<std::string> asked = names_of(signals, "signals");
   RunTable run = interruptible(
       [&](const std::atomic<bool>* cancel) { return session.run(design, asked, samples, cancel); });
   const Status& status = run.summary.status;
@@ -153,7 +153,7 @@ std::optional<RecordedArrays> arrays_of(const py::object& time, const py::list& 
   for (const py::handle entry : joints) {
     const auto columns = entry.cast<py::tuple>();
     JointSamples samples;
-    samples.joint = columns[0].cast<std::string>();
+    samples.joint = to_name(columns[0], "joints");
     for (std::size_t q = 0; q < kMeasuredQuantityNames.size(); ++q) {
       const py::object values = columns[q + 1];
       if (values.is_none()) continue;
@@ -283,6 +283,10 @@ void add_session(py::module_* module) {
 PYBIND11_MODULE(_core, module) {
   codesign::python::translate_exceptions();
   module.def("version", &codesign::version);
+  module.def("numbers", [](const pybind11::object& values, const std::string& name) {
+    const std::vector<double> numbers = codesign::python::to_numbers(values, name);
+    return pybind11::array_t<double>(numbers.size(), numbers.data());
+  });
   // Before the sessions that return them, whose signatures name them.
   codesign::python::add_jobs(&module);
   codesign::python::add_session(&module);

@@ -68,6 +68,9 @@ TEST(Arguments, SimulateTakesSignalsFileAndSamples) {
   EXPECT_EQ(arguments.csv, "f");
   EXPECT_EQ(arguments.samples, 11);
   expect_usage_error({"simulate", "m", "s", "--samples", "1"}, "less than 2");
+  expect_usage_error({"simulate", "m", "s", "--samples=-99999999999"}, "less than 2");
+  expect_usage_error({"simulate", "m", "s", "--samples", "99999999999"},
+                     "99999999999 is out of range (allowed: 2 to 2147483647)");
   for (const char* samples : {"ten", "2.5"})
     expect_usage_error({"simulate", "m", "s", "--samples", samples}, "not a whole number");
   EXPECT_EQ(

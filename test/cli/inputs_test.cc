@@ -80,12 +80,14 @@ TEST(Inputs, OfAnotherStudysResultWhatFitsIsTaken) {
   for (const char* part : {"other.json", "1 of its 3", "rod_length = 70",
                            "elbow_gain is no parameter", "Kp, which is tuned"})
     EXPECT_NE(warning.message.find(part), std::string::npos) << warning.message;
-  std::ofstream(arguments.result) << R"({"parameters": {"elbow_gain": 3.0}})";
-  try {
-    load(arguments);
-    ADD_FAILURE() << "nothing fits";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.fault().where.file, arguments.result);
+  for (const char* nothing : {R"({"parameters": {"elbow_gain": 3.0}})", R"({"parameters": {}})"}) {
+    std::ofstream(arguments.result) << nothing;
+    try {
+      load(arguments);
+      ADD_FAILURE() << "nothing fits of " << nothing;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().where.file, arguments.result);
+    }
   }
 }
 

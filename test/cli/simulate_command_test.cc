@@ -44,7 +44,7 @@ TEST(SimulateCommand, ATableReplacesNoFileThatIsRead) {
       folder.edited("model.urdf", read_text_file(kModel), "<robot", "<robot"),
       folder.edited("study.yaml", read_text_file(kStudy), "duration", "duration"),
       folder.edited("overlay.urdf", "<robot name=\"slider_crank\"/>", "<robot", "<robot"),
-      folder.edited("result.json", "{\"parameters\": {}}", "{", "{")};
+      folder.edited("result.json", "{\"parameters\": {\"Kp\": 3.0}}", "{", "{")};
   std::filesystem::create_symlink(paths[0], folder.path("soft"));
   std::filesystem::create_hard_link(paths[1], folder.path("hard"));
   const std::vector<std::string> words = {"simulate", paths[0],   paths[1], "--overlay",

@@ -119,6 +119,45 @@ class Optimization(Files):
                 codesign.Problem(PENDULUM, study).optimize(progress)
             self.assertGreater(len(calls), 0)
 
+    def test_an_event_that_cannot_be_asked_ends_it_with_its_exception(self):
+        class Event:
+            answer = "no"
+
+            def is_set(self):
+                return self.answer
+
+        event = Event()
+        problem = codesign.Problem(FREE, LONG)
+        self.assertEqual(problem.optimize(cancel=event).status.code, "cancelled", "a string is true")
+        event.answer = np.array([0, 1])
+        with self.assertRaisesRegex(ValueError, "ambiguous"):
+            problem.optimize(cancel=event)
+
+        def fail():
+            raise ZeroDivisionError("mine")
+
+        event.is_set = fail
+        with self.assertRaisesRegex(ZeroDivisionError, "mine"):
+            problem.optimize(cancel=event)
+
+    def test_a_search_inside_progress_ends_alone(self):
+        problem, ends = codesign.Problem(PENDULUM, SWING), []
+
+        def fail(trial):
+            raise ZeroDivisionError("mine")
+
+        def progress(trial):
+            event = threading.Event()
+            event.set()
+            ends.append(problem.optimize(lambda trial: time.sleep(0.1), event).status.code)
+            try:
+                problem.optimize(fail)
+            except ZeroDivisionError as error:
+                ends.append(str(error))
+
+        self.assertEqual(problem.optimize(progress).status.code, problem.optimize().status.code)
+        self.assertEqual(set(ends), {"cancelled", "mine"})
+
     def test_nothing_to_tune(self):
         with self.assertRaisesRegex(codesign.InputError, "tune"):
             codesign.Problem(PENDULUM, SWING.replace("parameters: {length: {}}\n", "")).optimize()
@@ -188,6 +227,25 @@ class Identification(Files):
         self.assertEqual(set(os.listdir(self.path("job"))), {n for n in os.listdir(self.path("line")) if not n.endswith(".bag")})
         self.assertIn("mass", from_file.report())
 
+    def test_the_columns_of_a_table_go_by_their_names(self):
+        class Frame:
+            """As a pandas.DataFrame."""
+
+            def __init__(self, **columns):
+                self._columns, self.columns = columns, list(columns)
+
+            def __getitem__(self, name):
+                return self._columns[name]
+
+            def __array__(self, *_arguments, **_options):
+                return np.column_stack(list(self._columns.values()))
+
+        t, q, effort = recorded()
+        model = ARM.replace("</robot>", """<link name="tip"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+          <joint name="free" type="continuous"><parent link="ground"/><child link="tip"/><axis xyz="1 0 0"/></joint></robot>""")
+        fit = codesign.Problem(model, FIT).identify(t, Frame(free=0.0 * q, shoulder=q), Frame(free=0.0 * q, shoulder=effort))
+        self.assertAlmostEqual(fit.numbers["mass"].value, 2.0, delta=1e-3)
+
     def test_bad_arrays(self):
         problem = codesign.Problem(ARM, FIT)
         t, q, effort = recorded()
@@ -205,6 +263,12 @@ class Identification(Files):
             problem.identify(t, {"shoulde": q}, {"shoulde": effort})
         with self.assertRaisesRegex(TypeError, "times"):
             problem.identify(position=q, effort=effort)
+        masked = np.ma.masked_greater(q, 0.5)
+        for given, words in (((t.astype("timedelta64[s]"), q, effort), "time has the type timedelta64"), ((t.astype("datetime64[s]"), q, effort), "datetime64"),
+                             ((t, masked, effort), "position has masked values"), ((t, {"shoulder": masked}, effort), "position has masked values"),
+                             ((t, q[:, np.newaxis] + 0j, effort), "position has the type complex128"), ((t, {1: q}, effort), "joints needs names, not 1")):
+            with self.assertRaisesRegex(TypeError, words):
+                problem.identify(*given)
         with self.assertRaisesRegex(codesign.InputError, "no recordings"):
             problem.identify()
         with self.assertRaisesRegex(codesign.InputError, "tune"):

@@ -95,8 +95,8 @@ class Values(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "overlay.urdf"
             path.write_text(overlay, encoding="utf-8")
-            for given in (path, str(path)):
-                self.assertEqual(pendulum(overlays=[given]).gradient(payload=1.5)[0], problem.gradient(payload=1.5)[0])
+            for given in ([path], [str(path)], path, str(path)):
+                self.assertEqual(pendulum(overlays=given).gradient(payload=1.5)[0], problem.gradient(payload=1.5)[0])
 
     def test_a_model_alone(self):
         self.assertEqual(codesign.Problem(PENDULUM).duration, 0.0)
@@ -129,6 +129,7 @@ class Values(unittest.TestCase):
         self.assertEqual(list(run), ["pivot/position", "rod/position/x"])
         self.assertEqual(run.time.tolist(), [0.0, 1.0, 2.0])
         self.assertEqual(list(pendulum().simulate(signals="pivot/velocity")), ["pivot/velocity"])
+        self.assertEqual(list(pendulum().simulate(signals=np.array(["pivot/velocity", "pivot/position"]))), ["pivot/velocity", "pivot/position"])
         with self.assertRaisesRegex(KeyError, "pivot/friction.*recorded are pivot/position"):
             run["pivot/friction"]
 
@@ -245,6 +246,12 @@ class Errors(unittest.TestCase):
         for bad in ([[0.4]], "a", object()):
             with self.assertRaises((TypeError, ValueError)):
                 problem.gradient(bad)
+        for call in (problem.gradient, problem.residuals):
+            for bad, words in ((np.array([0.4 + 1j]), "complex128"), (np.ma.array([0.4], mask=[True]), "rho has masked values")):
+                with self.assertRaisesRegex(TypeError, words):
+                    call(bad)
+        with self.assertRaisesRegex(TypeError, "signals needs names, not 1"):
+            problem.simulate(signals=[1])
         with self.assertRaisesRegex(TypeError, "length needs a number, not 'long'"):
             problem.gradient(length="long")
         with self.assertRaisesRegex(codesign.InputError, "samples"):

@@ -34,6 +34,11 @@ def table(*options):
 
 
 class CompareAlgorithms(unittest.TestCase):
+    def test_a_missing_file_is_a_sentence(self):
+        done = subprocess.run([os.path.join(ROOT, "scripts", "compare_algorithms"), "a.urdf", "nowhere.yaml"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("a.urdf: there is no such file", done.stderr)
+
     def test_a_row_per_algorithm(self):
         lines, left = table("--unconstrained")
         self.assertEqual([line[1] for line in lines[2:]], ["lbfgs", "slsqp", "levenberg_marquardt"])

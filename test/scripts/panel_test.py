@@ -11,7 +11,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from panel_fixture import PANEL, PanelTestCase, server  # noqa: E402
-from codesign_panel import board  # noqa: E402
+from codesign_panel import board, nodes  # noqa: E402
 
 
 class CurvesTest(unittest.TestCase):
@@ -55,6 +55,14 @@ class CurvesTest(unittest.TestCase):
         self.assertEqual(self.curves.since(["gravity/energy", "unknown"], None)[0], {"gravity/energy": [[0.0, 3.0]]})
 
 
+class TopicsTest(unittest.TestCase):
+    def test_set_points_have_the_topics_of_the_node(self):
+        # As in command_inbox_test.cc.
+        topics = nodes.setpoint_topics(["a b", "1c", "a_b", "_servo", "\u00e9lan", "arm/servo", "~x", "a-b"])
+        self.assertEqual(list(topics.values()), [f"{topic}/command" for topic in (
+            "a_b", "controller_1c", "a_b_2", "controller__servo", "controller___lan", "arm/servo", "controller__x", "a_b_3")])
+
+
 class RequestsTest(PanelTestCase):
     def test_the_page_loads_nothing_from_elsewhere_and_nobody_frames_it(self):
         code, headers, page = self.ask("GET", "/")
@@ -94,7 +102,7 @@ class RequestsTest(PanelTestCase):
         for kind in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data", ""):
             code, _, _ = self.ask("POST", "/do", b'{"do": "pause"}', Content_Type=kind)
             self.assertEqual(code, 415, kind)
-        for length in (str(server.MOST_BYTES + 1), "-1", "1e3", ""):
+        for length in (str(server.MOST_BYTES + 1), "-1", "1e3", "", "9" * 5000, "\u00b2"):
             self.assertEqual(self.ask("POST", "/do", b"", Content_Type="application/json", Content_Length=length)[0], 413, length)
         for method in ("PUT", "OPTIONS", "DELETE"):
             self.assertEqual(self.ask(method, "/do")[0], 501)
@@ -149,6 +157,7 @@ class RequestsTest(PanelTestCase):
         self.assertEqual(self.ask("GET", "/events?" + "signal=x&" * (server.MOST_CURVES + 1))[0], 400)
         for path in ("/other", "/../panel", "/do"):
             self.assertEqual(self.ask("GET", path)[0], 404)
+        self.assertEqual(self.ask("GET", "http://[")[0], 400)
         self.assertEqual(self.ask("POST", "/", b"{}", Content_Type="application/json")[0], 404)
 
     def test_a_report_that_is_not_there_is_a_sentence(self):

@@ -79,6 +79,16 @@ SolverOptions read_solver_options(const YamlValue& solver) {
   return options;
 }
 
+LimitOptions read_limit_options(const YamlValue& limits) {
+  LimitOptions options;
+  read_options(limits, &options);
+  for (const char* key : {"stiffness", "dissipation", "width"})
+    if (const auto value = limits.find(key); value && !limits.find("position"))
+      value->fail("an option of the stops, which the study does not have",
+                  "position: true beside it");
+  return options;
+}
+
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer) {
   OptimizerOptions options;
   read_options(optimizer, &options);

@@ -59,10 +59,13 @@ void read_options(const YamlValue& block, Options* options,
   visit_options(OptionReader{block}, options);
 }
 
-// Both throw InputError for unknown keys and values out of range.
+// All throw InputError for unknown keys, values out of range, and keys without effect.
 
 /// Reads the map `solver:`.
 SolverOptions read_solver_options(const YamlValue& solver);
+
+/// Reads the map `limits:`.
+LimitOptions read_limit_options(const YamlValue& limits);
 
 /// Reads the map `optimizer:`.
 OptimizerOptions read_optimizer_options(const YamlValue& optimizer);

@@ -154,6 +154,13 @@ std::vector<RunDescription> read_table_of_runs(const YamlValue& runs, const Stud
                       "no column has the names of the runs",
                       "",
                       "a first row of names: run, parameters, and weight if runs differ in it"});
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw InputError({{source.name, table.first_line()},
+                        "runs",
+                        "two columns have the same name",
+                        *name,
+                        "each parameter once"});
   std::vector<int> columns;
   for (int k = 0; k < table.width(); ++k)
     if (names[to_index(k)] != "run") columns.push_back(k);

@@ -149,8 +149,25 @@ void check_prefix(const std::string& name, const SourceLocation& where, const Xm
       {where, element.label(), "unknown prefix, did you mean \"codesign\"?", name, "codesign:"});
 }
 
-void check_prefixes_in(const XmlElement& element) {
+/// Elements of xacro that are left would be lost, with what they stand for. Generated files keep
+/// the declaration of the namespace alone.
+/// @param xacro prefixes of xacro's namespace at the parent
+void refuse_xacro(const XmlElement& element, Names* xacro) {
+  const std::string declaration = "xmlns:";
+  for (const std::string& attribute : element.attributes())
+    if (attribute.rfind(declaration, 0) == 0 &&
+        element.find(attribute).value_or("").find("ros.org/") != std::string::npos &&
+        element.find(attribute).value_or("").find("xacro") != std::string::npos)
+      xacro->push_back(attribute.substr(declaration.size()));
+  if (contains(*xacro, prefix_of(element.tag())))
+    element.fail("xacro has not been run on this file, whose elements of xacro would be lost",
+                 "<" + element.tag() + ">", "plain URDF: xacro FILE.xacro > FILE.urdf");
+}
+
+/// @param xacro prefixes of xacro's namespace at the parent
+void check_prefixes_in(const XmlElement& element, Names xacro) {
   check_prefix(element.tag(), element.where(), element);
+  refuse_xacro(element, &xacro);
   for (const std::string& attribute : element.attributes()) {
     check_prefix(attribute, element.where(attribute), element);
     const bool declares = attribute.rfind("xmlns", 0) == 0 && attribute != "xmlns:codesign";
@@ -159,7 +176,7 @@ void check_prefixes_in(const XmlElement& element) {
                       "the namespace urn:mechanism_codesign must have the prefix codesign",
                       "xmlns:codesign=\"urn:mechanism_codesign\"");
   }
-  for (const XmlElement& child : element.children()) check_prefixes_in(child);
+  for (const XmlElement& child : element.children()) check_prefixes_in(child, xacro);
 }
 
 Warning after_robot(const SourceLocation& where, const std::string& what,
@@ -197,7 +214,7 @@ void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
 }
 
 void check_prefixes(const XmlDocument& document) {
-  check_prefixes_in(XmlElement(document.robot(), &document));
+  check_prefixes_in(XmlElement(document.robot(), &document), {"xacro"});
 }
 
 Warnings check_surroundings(const XmlDocument& document) {

@@ -4,6 +4,7 @@
 #include <yaml-cpp/depthguard.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -52,10 +53,13 @@ void check_extent(const YAML::Node& root, const std::string& file) {
   count_values(root, 0, file, &count);
 }
 
-/// Whether a text that parse_number() rejects looks like a number that is out of the range of
-/// doubles.
+/// Whether a text that parse_number() rejects is a number out of the range of doubles.
 bool is_out_of_range(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("+-.eE0123456789") == std::string::npos;
+  const char* const end = text.data() + text.size();
+  double value = 0.0;
+  const auto [last, error] =
+      std::from_chars(text.data() + (text.rfind('+', 0) == 0 ? 1 : 0), end, value);
+  return last == end && error == std::errc::result_out_of_range;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {

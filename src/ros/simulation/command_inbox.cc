@@ -22,11 +22,26 @@ ros::Time answered_stamp(const Message&) {
 
 }  // namespace
 
-std::string legal_name(const std::string& text) {
-  std::string name = text;
-  for (char& letter : name)
+std::string legal_name(const std::string& text, std::set<std::string>* taken) {
+  std::string legal = text;
+  for (char& letter : legal)
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '/') letter = '_';
+  std::string name = legal;
+  for (int suffix = 2; !taken->insert(name).second; ++suffix)
+    name = legal + "_" + std::to_string(suffix);
   return name;
+}
+
+std::vector<std::string> setpoint_topics(const std::vector<std::string>& controllers) {
+  std::set<std::string> taken;
+  std::vector<std::string> topics;
+  for (const std::string& controller : controllers) {
+    const unsigned char first =
+        controller.empty() ? '_' : static_cast<unsigned char>(controller[0]);
+    const char* const before = std::isalpha(first) != 0 || first == '/' ? "" : "controller_";
+    topics.push_back(legal_name(before + controller, &taken) + "/command");
+  }
+  return topics;
 }
 
 CommandInbox::CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node,
@@ -44,8 +59,14 @@ CommandInbox::CommandInbox(ros::NodeHandle node, ros::NodeHandle private_node,
                                            [this](const auto& topic, const auto& message) {
                                              return read_trajectory(inputs_, topic, message);
                                            });
+  // Counted among all controllers of the study, which are those of controller_states: the topic of
+  // one does not depend on whether others are connected.
+  std::vector<std::string> names;
+  for (std::size_t c = inputs.joints.size(); c < inputs.study.controllers.size(); ++c)
+    names.push_back(inputs.study.controllers[c].name);
+  const std::vector<std::string> topics = setpoint_topics(names);
   for (std::size_t k = 0; k < inputs.controllers.size(); ++k)
-    listen<std_msgs::Float64>(node, legal_name(inputs.controllers[k]) + "/command",
+    listen<std_msgs::Float64>(node, topics[inputs.indices[k]],
                               [this, k](const auto& topic, const auto& message) {
                                 return read_setpoint(inputs_, topic, k, message);
                               });

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,7 +70,14 @@ void CommandInbox::receive(const std::string& topic, const ros::Time& stamp, con
   bell_->ring();
 }
 
-/// `text` with an underscore for each letter that a name of ROS must not have; slashes stay.
-std::string legal_name(const std::string& text);
+/// `text` with an underscore for each letter that a name of ROS must not have; slashes stay. A name
+/// that is in `taken` gets a number behind it: `a_b_2`. The result is added to `taken`.
+std::string legal_name(const std::string& text, std::set<std::string>* taken);
+
+/// The topic of each controller's set-point, `CONTROLLER/command`, legal and all different:
+/// `controller_1c/command` for a name that does not begin with a letter, as names of ROS must. The
+/// panel has the same rule.
+/// @param controllers all of a study, in its order
+std::vector<std::string> setpoint_topics(const std::vector<std::string>& controllers);
 
 }  // namespace codesign

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "math/arrays.h"
 #include "text/nearest_name.h"
@@ -27,8 +28,9 @@ dynamic_reconfigure::Config config_by(const std::vector<Parameter>& parameters,
   return config;
 }
 
-void want(const std::vector<Parameter>& parameters, const std::string& name, double number,
-          WantedParameters* wanted) {
+/// @param number nullopt: the request has a text or a truth value.
+void want(const std::vector<Parameter>& parameters, const std::string& name,
+          std::optional<double> number, const std::string& text, WantedParameters* wanted) {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](const Parameter& each) { return each.name == name; });
   if (found == parameters.end()) {
@@ -40,22 +42,19 @@ void want(const std::vector<Parameter>& parameters, const std::string& name, dou
          {}});
     return;
   }
-  if (!std::isfinite(number)) {
-    wanted->warnings.push_back({"parameter_refused",
-                                InputError({{"set_parameters", 0},
-                                            name,
-                                            "not a finite number",
-                                            to_decimal(number),
-                                            "a finite number"})
-                                    .what(),
-                                {}});
+  if (!number || !std::isfinite(*number)) {
+    wanted->warnings.push_back(
+        {"parameter_refused",
+         InputError({{"set_parameters", 0}, name, "not a finite number", text, "a finite number"})
+             .what(),
+         {}});
     return;
   }
   double& value = wanted->values[to_index(found - parameters.begin())];
-  value = std::clamp(number, found->lower, found->upper);
-  if (value != number)
+  value = std::clamp(*number, found->lower, found->upper);
+  if (value != *number)
     wanted->warnings.push_back({"parameter_bounded",
-                                "set_parameters: " + name + " = " + to_decimal(number) +
+                                "set_parameters: " + name + " = " + text +
                                     " is out of bounds and became " + to_decimal(value),
                                 {}});
 }
@@ -90,9 +89,13 @@ WantedParameters wanted_parameters(const std::vector<Parameter>& parameters,
                                    const dynamic_reconfigure::Config& request) {
   WantedParameters wanted{values, {}};
   for (const dynamic_reconfigure::DoubleParameter& entry : request.doubles)
-    want(parameters, entry.name, entry.value, &wanted);
+    want(parameters, entry.name, entry.value, to_decimal(entry.value), &wanted);
   for (const dynamic_reconfigure::IntParameter& entry : request.ints)
-    want(parameters, entry.name, entry.value, &wanted);
+    want(parameters, entry.name, entry.value, std::to_string(entry.value), &wanted);
+  for (const dynamic_reconfigure::StrParameter& entry : request.strs)
+    want(parameters, entry.name, std::nullopt, entry.value, &wanted);
+  for (const dynamic_reconfigure::BoolParameter& entry : request.bools)
+    want(parameters, entry.name, std::nullopt, entry.value != 0 ? "true" : "false", &wanted);
   return wanted;
 }
 

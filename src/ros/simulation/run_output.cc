@@ -37,11 +37,7 @@ FrameNumbers::FrameNumbers(const FrameNames& names) {
   std::set<std::string> texts, taken;
   const auto add = [&](const std::string& text, const std::function<double(const Frame&)>& number) {
     texts.insert(text);
-    const std::string legal = legal_name(text);
-    std::string topic = legal;
-    for (int suffix = 2; !taken.insert(topic).second; ++suffix)
-      topic = legal + "_" + std::to_string(suffix);
-    topics.push_back(topic);
+    topics.push_back(legal_name(text, &taken));
     read.push_back(number);
   };
   const auto add_all = [&add](const std::vector<std::string>& objects, std::size_t count,

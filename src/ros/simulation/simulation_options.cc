@@ -152,7 +152,8 @@ void check_duration(const ros::NodeHandle& private_node, const SimulationOptions
   const bool is_paced = options.time_scale > 0.0;
   if (duration <= kLongestRun && (!is_paced || duration / options.time_scale <= kLongestRun))
     return;
-  const std::string key = duration > kLongestRun ? "study/duration" : "time_scale";
+  const char* const of_run = options.duration > 0.0 ? "duration" : "study/duration";
+  const std::string key = duration > kLongestRun ? of_run : "time_scale";
   throw InputError({{private_node.resolveName(key), 0},
                     key,
                     "the run is longer than ROS time can represent",

@@ -124,6 +124,10 @@ TEST(StudyOptions, RefusesBadLimits) {
   expect_fault(with_line("limits: {stiffness: 0}"), "limits.stiffness", "out of range", 3);
   expect_fault(with_line("limits: {dissipation: -1}"), "limits.dissipation", "out of range", 3);
   expect_fault(with_line("limits: {width: 0}"), "limits.width", "out of range", 3);
+  for (const char* key : {"stiffness", "dissipation", "width"})
+    expect_fault(with_line("limits: {effort: true, " + std::string(key) + ": 5}"),
+                 "limits." + std::string(key), "an option of the stops", 3);
+  EXPECT_FALSE(read_text(with_line("limits: {position: false, stiffness: 5}")).limits.position);
   expect_fault(with_line("limits: {positions: true}"), "limits.positions", "unknown key", 3);
 }
 

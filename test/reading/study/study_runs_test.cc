@@ -213,6 +213,7 @@ TEST(StudyRuns, BadTablesNameTheirLine) {
   expect("run,mass\na,nan\n", "runs.csv:2: column \"mass\": the value lies outside the bounds");
   expect("run,mass\na,x\n", "runs.csv:2: column \"mass\": not a number");
   expect("run,mass\na\n", "runs.csv:2: a row of 1 cells");
+  expect("run,mass,mass\na,5,4\n", "runs.csv:1: runs: two columns have the same name");
   expect("run,Kp\na,1\n", "runs.csv:2: column \"Kp\": this parameter is tuned");
   expect("run,mas\na,1\n", "did you mean \"mass\"?");
   expect("run,weight\na,0\n", "the weight of a run must be positive");

@@ -96,7 +96,23 @@ TEST(VocabularyCheck, PrefixesThatAreNearlyOurs) {
                {overlay_text("<joint name=\"hinge\"><cdesign:friction/></joint>")});
   expect_no_warning({"a.urdf",
                      "<robot name=\"a\" xmlns:xacro=\"urn:y\"><link name=\"l\" "
-                     "drake:ignore=\"1\"/><xacro:if value=\"1\"/></robot>"});
+                     "drake:ignore=\"1\"/></robot>"});
+}
+
+TEST(VocabularyCheck, XacroThatWasNotRunIsRefused) {
+  const auto robot = [](const std::string& prefix, const std::string& uri,
+                        const std::string& body) {
+    return SourceText{"a.urdf", "<robot name=\"a\" xmlns:" + prefix + "=\"" + uri +
+                                    "\">\n<link name=\"l\"/>" + body + "</robot>"};
+  };
+  const std::string uri = "http://www.ros.org/wiki/xacro", hint = "xacro FILE.xacro > FILE.urdf";
+  expect_error(robot("xacro", uri, "\n<xacro:if value=\"1\"><link name=\"m\"/></xacro:if>"),
+               {"a.urdf:3: <xacro:if>: xacro has not been run", hint});
+  expect_error(robot("x", "http://ros.org/wiki/xacro",
+                     "<link name=\"m\"><x:cylinder_inertial mass=\"1\"/></link>"),
+               {"a.urdf:2: <link name=\"m\"> <x:cylinder_inertial>: ", hint});
+  expect_error(robot("y", "urn:y", "<xacro:leg/>"), {"<xacro:leg>: ", hint});
+  expect_no_warning(robot("xacro", uri, ""));
 }
 
 TEST(VocabularyCheck, WhatStandsBesideTheRobot) {

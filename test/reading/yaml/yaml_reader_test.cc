@@ -50,6 +50,12 @@ TEST(YamlReader, RefusesOtherKinds) {
             "expected a map of keys and values, found nothing");
   EXPECT_EQ(fault_of([&] { root.at("huge").number(); }).message, "not finite");
   EXPECT_EQ(fault_of([&] { root.at("half").integer(); }).message, "not an integer");
+  for (const char* no_number : {"1.2.3", "2024-01-01", "1e", "--1"})
+    EXPECT_EQ(fault_of([&] { parse(std::string("x: ") + no_number).at("x").number(); }).message,
+              "not a number");
+  for (const char* huge : {"1e999", "+1e999", "-1.5e999"})
+    EXPECT_EQ(fault_of([&] { parse(std::string("x: ") + huge).at("x").number(); }).message,
+              "the number is out of the range of floating point");
   const InputFault fault = fault_of([&] { root.at("word").number(); });
   EXPECT_EQ(fault.message, "not a number");
   EXPECT_EQ(fault.element, "word");

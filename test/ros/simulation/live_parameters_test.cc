@@ -61,8 +61,15 @@ TEST(LiveParameters, ARequestChangesWhatItNamesWithinItsBounds) {
 }
 
 TEST(LiveParameters, UnknownNamesAndNumbersThatAreNotFiniteAreLeftOut) {
+  dynamic_reconfigure::Config text, truth;
+  text.strs.emplace_back();
+  text.strs.back().name = "length";
+  text.strs.back().value = "0.4";
+  truth.bools.emplace_back();
+  truth.bools.back().name = "length";
   for (const auto& request :
-       {asking("lenght", 0.4), asking("length", std::numeric_limits<double>::quiet_NaN())}) {
+       {asking("lenght", 0.4), asking("length", std::numeric_limits<double>::quiet_NaN()), text,
+        truth}) {
     const WantedParameters wanted = wanted_parameters(two_parameters(), {0.5, 2.0}, request);
     EXPECT_EQ(wanted.values, (std::vector<double>{0.5, 2.0}));
     ASSERT_EQ(wanted.warnings.size(), 1U);
