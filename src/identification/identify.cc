@@ -125,7 +125,7 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
   if (status.ok()) status = residuals->evaluate(variables.start(), &at_start, nullptr);
   if (status.ok()) status = residuals->evaluate(result->x, &at_end, nullptr);
   if (!status.ok()) return status;
-  result->holdout = judge_outputs(*residuals, residuals->recorded(), at_start, at_end);
+  result->holdout = judge_outputs(*residuals, at_start, at_end, fit.spreads, loss);
   result->holdout_series = series_of(*residuals, at_end);
   result->holdout_samples = residuals->rows();
   return status;
@@ -142,18 +142,17 @@ Status not_identifiable(const std::vector<std::string>& sentences) {
   return status;
 }
 
-/// Warnings about efforts or motions that the fit does not explain; only then mistakes in the
-/// recordings are looked for.
+/// Warnings about efforts or motions that the fit does not explain, and about recordings that
+/// contradict the model as it stands although the fit explains them.
 Warnings warnings_of_unexplained(const Problem& problem,
                                  const std::vector<JointRecording>& recordings,
                                  const IdentificationResult& result,
                                  const std::atomic<bool>* cancel, Status* failure) {
   const IdentificationDescription& options = *study_of(problem).identification;
-  const bool is_doubtful =
-      std::any_of(result.data.begin(), result.data.end(),
-                  [](const OutputFit& fit) { return fit.explained < kExplainedHalf; });
+  double explained = 1.0;
+  for (const OutputFit& fit : result.data) explained = std::min(explained, fit.explained);
   std::vector<EffortDoubt> doubts;
-  if (is_doubtful && !is_set(cancel)) doubts = find_effort_doubts(problem, recordings);
+  if (!is_set(cancel)) doubts = find_effort_doubts(problem, recordings, explained);
   return unexplained_outputs(options, result, doubts, failure);
 }
 
@@ -245,10 +244,10 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& giv
   result.x = fit.x;
   result.parameters = variables.parameters(fit.x);
   result.samples = residuals.rows();
-  result.data = judge_outputs(residuals, residuals.recorded(), fit.start_residuals, fit.residuals);
+  result.data =
+      judge_outputs(residuals, fit.start_residuals, fit.residuals, fit.spreads, options.loss);
   result.data_series = series_of(residuals, fit.residuals);
-  judge_numbers(variables, options, residuals.lengths(), residuals.delay_signals(fit.x), fit,
-                &result);
+  judge_numbers(variables, options, residuals, residuals.delay_signals(fit.x), fit, &result);
   if (options.intervals.profiles && !is_set(cancel))
     add_profiles(limits, options, fit, &residuals, observer, cancel, &result);
   if (options.intervals.profiles && is_set(cancel) && result.status.ok())

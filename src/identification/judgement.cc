@@ -56,29 +56,35 @@ WeightedResiduals weighted_columns(const ResidualFit& fit, const LossOptions& lo
   return weighted;
 }
 
+EliminatedUnknowns eliminated_from(const ResidualSource& source) {
+  if (source.own_unknowns() == 0) return {};
+  return {source.own_unknowns(), source.pieces()};
+}
+
 /// The covariance of the free numbers, by the noise model of `intervals`.
 ParameterCovariance covariance_of(const ResidualFit& fit, const LossOptions& loss,
-                                  const SeriesLengths& lengths, const IntervalOptions& intervals,
+                                  const ResidualSource& source, const IntervalOptions& intervals,
                                   const std::vector<DelaySignal>& delays,
                                   const std::vector<int>& columns) {
   const WeightedResiduals weighted = weighted_columns(fit, loss, delays, columns);
-  return parameter_covariance(weighted.residuals, weighted.jacobian, lengths, intervals,
-                              fit.own_unknowns);
+  return parameter_covariance(weighted.residuals, weighted.jacobian, source.lengths(), intervals,
+                              eliminated_from(source));
 }
 
 /// What the data determine of numbers that they do not determine each, and the sentences about
 /// those. Free inertias appear by the numbers in which efforts are linear: combinations of these
 /// are the same for all values.
 void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fit,
-                        const SeriesLengths& lengths, const IntervalOptions& intervals,
+                        const ResidualSource& source, const IntervalOptions& intervals,
                         const std::vector<int>& columns, const std::vector<std::string>& names,
                         const ParameterCovariance& plain, IdentificationResult* result) {
   if (plain.identifiability.dependent.empty()) return;  // each is determined
   const LinearNumbers numbers = with_inertial_numbers(names, fit.x(columns), weighted.jacobian);
   const ParameterCovariance changed =
-      numbers.is_changed ? parameter_covariance(weighted.residuals, numbers.jacobian, lengths,
-                                                intervals, fit.own_unknowns)
-                         : plain;
+      numbers.is_changed
+          ? parameter_covariance(weighted.residuals, numbers.jacobian, source.lengths(), intervals,
+                                 eliminated_from(source))
+          : plain;
   const Identifiability& found = changed.identifiability;
   result->undetermined = describe_undetermined(found, numbers.names);
   for (Eigen::Index i = 0; i < numbers.x.size(); ++i) {
@@ -92,6 +98,28 @@ void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fi
         {combination_of(found, numbers.names, i), value, changed.combination_deviation[i],
          value - changed.combination_below[i], value + changed.combination_above[i]});
   }
+}
+
+/// A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`.
+std::string joint_of(const IdentificationDescription& options, const OutputFit& fit) {
+  return options.residual == ResidualKind::kMotion ? fit.joint.substr(0, fit.joint.rfind('/'))
+                                                   : fit.joint;
+}
+
+/// Doubts about joints that the fit explains. Numbers without bounds near them follow an effort in
+/// another unit, so that the fit is no answer to such a doubt.
+std::vector<EffortDoubt> doubts_despite_fit(const IdentificationDescription& options,
+                                            const IdentificationResult& result,
+                                            const std::vector<EffortDoubt>& doubts) {
+  std::vector<EffortDoubt> left;
+  for (const EffortDoubt& doubt : doubts) {
+    double explained = 1.0;
+    for (const OutputFit& fit : result.data)
+      if (joint_of(options, fit) == doubt.joint) explained = std::min(explained, fit.explained);
+    if (explained < kExplainedHalf) continue;  // told with what the fit does not explain
+    if (doubt.is_unit || doubt.mended >= explained + kClearly) left.push_back(doubt);
+  }
+  return left;
 }
 
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
@@ -124,10 +152,13 @@ void release_undetermined(const ResidualFit& fit, const LossOptions& loss,
 
 }  // namespace
 
-std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded,
-                                     const Eigen::MatrixXd& start,
-                                     const Eigen::MatrixXd& residuals) {
+std::vector<OutputFit> judge_outputs(const RecordingResiduals& source, const Eigen::MatrixXd& start,
+                                     const Eigen::MatrixXd& residuals,
+                                     const Eigen::VectorXd& spreads, const LossOptions& loss) {
   std::vector<OutputFit> fits;
+  const Eigen::MatrixXd& recorded = source.recorded();
+  const Eigen::MatrixXd variation = source.variation();
+  const double least = source.own_unknowns() > 0 ? kLeastOfSegments : kLeastVariation;
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
     OutputFit fit;
     fit.joint = source.outputs()[to_index(k)];
@@ -135,7 +166,11 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
     fit.start = rms_of(start.col(k));
     fit.rms = rms_of(residuals.col(k));
     fit.worst = residuals.col(k).cwiseAbs().maxCoeff();
-    fit.explained = explained_share(recorded.col(k), residuals.col(k));
+    const Eigen::ArrayXd roots = residuals.col(k).array().unaryExpr(
+        [&](double r) { return std::sqrt(loss_of(loss, r / spreads[k]).weight); });
+    fit.explained =
+        explained_share(roots * recorded.col(k).array(), roots * variation.col(k).array(),
+                        roots * residuals.col(k).array(), least);
     fit.whiteness = ljung_box(residuals.col(k), source.lengths());
     fits.push_back(std::move(fit));
   }
@@ -143,7 +178,7 @@ std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::
 }
 
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options,
-                   const SeriesLengths& lengths, const std::vector<DelaySignal>& delays,
+                   const ResidualSource& source, const std::vector<DelaySignal>& delays,
                    const ResidualFit& fit, IdentificationResult* result) {
   begin_numbers(variables, fit, result);
   for (const DelaySignal& delay : delays)
@@ -153,8 +188,9 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
   result->covariance.setZero(variables.size(), variables.size());
   if (columns.empty()) return;
   const WeightedResiduals weighted = weighted_columns(fit, options.loss, delays, columns);
-  const ParameterCovariance known = parameter_covariance(
-      weighted.residuals, weighted.jacobian, lengths, options.intervals, fit.own_unknowns);
+  const ParameterCovariance known =
+      parameter_covariance(weighted.residuals, weighted.jacobian, source.lengths(),
+                           options.intervals, eliminated_from(source));
   std::vector<std::string> names;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto i = to_signed(k);
@@ -169,7 +205,7 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
   }
   result->rank = known.identifiability.rank;
   result->lag = known.lag;
-  judge_combinations(weighted, fit, lengths, options.intervals, columns, names, known, result);
+  judge_combinations(weighted, fit, source, options.intervals, columns, names, known, result);
 }
 
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
@@ -178,8 +214,9 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
   const std::vector<int> columns = free_columns(*result);
   IntervalOptions white = options.intervals;
   white.noise = NoiseModel::kWhite;
-  const ParameterCovariance plain =
-      covariance_of(fit, options.loss, source->lengths(), white, {}, columns);
+  const ParameterCovariance plain = covariance_of(fit, options.loss, *source, white, {}, columns);
+  const double degrees =
+      covariance_of(fit, options.loss, *source, options.intervals, {}, columns).degrees;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     IdentifiedNumber& number = result->numbers[to_index(columns[k])];
     if (!number.is_determined || is_set(cancel)) continue;
@@ -188,8 +225,8 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
     ProfileProblem profile;
     profile.optimum = number.value;
     profile.cost = fit.cost;
-    profile.threshold = profile_threshold(options.intervals.level, plain.residual_variance,
-                                          inflation, plain.degrees);
+    profile.threshold =
+        profile_threshold(options.intervals.level, plain.residual_variance, inflation, degrees);
     profile.step = 0.5 * (number.high - number.low);
     profile.lower = number.lower;
     profile.upper = number.upper;
@@ -216,11 +253,10 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
                              const IdentificationResult& result,
                              const std::vector<EffortDoubt>& doubts, Status* failure) {
   Warnings warnings;
+  const bool is_motion = options.residual == ResidualKind::kMotion;
   for (const OutputFit& fit : result.data) {
     if (!(fit.explained < kExplainedHalf)) continue;
-    // A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`.
-    const bool is_motion = options.residual == ResidualKind::kMotion;
-    const std::string joint = is_motion ? fit.joint.substr(0, fit.joint.rfind('/')) : fit.joint;
+    const std::string joint = joint_of(options, fit);
     const auto doubt = std::find_if(doubts.begin(), doubts.end(),
                                     [&joint](const EffortDoubt& of) { return of.joint == joint; });
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
@@ -240,6 +276,7 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
     if (failure->ok() && (fit.explained < kExplainsNothing || !mistake.empty()))
       *failure = {StatusCode::kNotIdentifiable, 0.0, sentence};
   }
+  append(warnings_of(options, doubts_despite_fit(options, result, doubts)), &warnings);
   return warnings;
 }
 

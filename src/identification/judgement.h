@@ -10,16 +10,18 @@
 
 namespace codesign {
 
-/// One OutputFit per output. @param recorded, start, residuals rows x outputs
-std::vector<OutputFit> judge_outputs(const ResidualSource& source, const Eigen::MatrixXd& recorded,
-                                     const Eigen::MatrixXd& start,
-                                     const Eigen::MatrixXd& residuals);
+/// One OutputFit per output. @param start, residuals rows x outputs. @param spreads, loss of the
+/// fit, by which outliers count less in the share that it explains
+std::vector<OutputFit> judge_outputs(const RecordingResiduals& source, const Eigen::MatrixXd& start,
+                                     const Eigen::MatrixXd& residuals,
+                                     const Eigen::VectorXd& spreads, const LossOptions& loss);
 
 /// Sets numbers, covariance, rank, lag and the sentences about numbers that the data do not
 /// determine, from a fit with a best point.
-/// @param delays their columns count without the noise of recorded efforts, doc/theory.md (33a)
+/// @param source of the fit. @param delays their columns count without the noise of recorded
+/// efforts, doc/theory.md (33a)
 void judge_numbers(const FitVariables& variables, const IdentificationDescription& options,
-                   const SeriesLengths& lengths, const std::vector<DelaySignal>& delays,
+                   const ResidualSource& source, const std::vector<DelaySignal>& delays,
                    const ResidualFit& fit, IdentificationResult* result);
 
 /// Computes intervals of the profile likelihood of all numbers that the data determine: each number
@@ -31,9 +33,10 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
                   const std::atomic<bool>* cancel, IdentificationResult* result);
 
 /// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit
-/// explains less than half. @param doubts about the recordings as the model stands. @param failure
-/// set if the fit explains less than a tenth of an output, or if a mistake in the recording
-/// explains more
+/// explains less than half; `recording_effort` for the other doubts about a unit, and for those
+/// whose mended mistake explains clearly more than the fit. @param doubts about the recordings as
+/// the model stands. @param failure set if the fit explains less than a tenth of an output, or if a
+/// mistake in the recording explains more
 Warnings unexplained_outputs(const IdentificationDescription& options,
                              const IdentificationResult& result,
                              const std::vector<EffortDoubt>& doubts, Status* failure);

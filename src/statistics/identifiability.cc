@@ -21,6 +21,12 @@ Eigen::VectorXd column_lengths(const Eigen::MatrixXd& R) {
   return lengths;
 }
 
+/// The effect of a value of each number as large as it is; of zero, of one.
+Eigen::VectorXd effects_of_values(const Eigen::VectorXd& lengths, const Eigen::VectorXd& x) {
+  return lengths.cwiseProduct(
+      x.unaryExpr([](double value) { return value == 0.0 ? 1.0 : std::abs(value); }));
+}
+
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& A, const std::vector<int>& indices) {
   Eigen::MatrixXd result(A.rows(), to_signed(indices.size()));
   for (std::size_t k = 0; k < indices.size(); ++k) result.col(to_signed(k)) = A.col(indices[k]);
@@ -46,12 +52,16 @@ std::string joined(const std::vector<std::string>& words) {
 
 void clear_rounding(const Eigen::VectorXd& x, Eigen::MatrixXd* jacobian, double magnitude) {
   constexpr double kLeastEffect = 1e-12;
-  const Eigen::VectorXd effects =
-      jacobian->colwise().norm().transpose().cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
-  if (effects.size() == 0) return;
-  const double least = kLeastEffect * std::max(magnitude, effects.maxCoeff());
-  for (Eigen::Index k = 0; k < effects.size(); ++k)
-    if (effects[k] <= least) jacobian->col(k).setZero();
+  if (x.size() == 0) return;
+  // By the value itself, which is free of its unit, and by at least one unit, since a value may be
+  // near zero by chance. Rounding is negligible by both.
+  const Eigen::VectorXd lengths = jacobian->colwise().norm(),
+                        by_value = effects_of_values(lengths, x),
+                        by_unit = lengths.cwiseProduct(x.cwiseAbs().cwiseMax(1.0));
+  const double least_by_value = kLeastEffect * std::max(magnitude, by_value.maxCoeff()),
+               least_by_unit = kLeastEffect * std::max(magnitude, by_unit.maxCoeff());
+  for (Eigen::Index k = 0; k < x.size(); ++k)
+    if (by_value[k] <= least_by_value && by_unit[k] <= least_by_unit) jacobian->col(k).setZero();
 }
 
 Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {

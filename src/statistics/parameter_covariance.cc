@@ -19,6 +19,10 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDraws = 2000;
 constexpr std::uint32_t kSeed = 1;
+// At least this many sums, fewer than twice as many, stand for the times of recordings.
+constexpr Eigen::Index kSums = 500;
+// More pieces than parameters, without which the sums over pieces do not tell a variance.
+constexpr Eigen::Index kLeastDegrees = 3;
 
 /// (J^T J)^-1 with zeros for the parameters that depend on others: these are held fixed while the
 /// others are determined.
@@ -91,6 +95,31 @@ void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, d
   }
 }
 
+/// The contributions of single times do not matter, only their sums over longer times: over pieces
+/// with unknowns of their own, to which each contribution of a piece is tied, else over equal parts
+/// of so many times that the rate of the samples does not matter. A lag that is given counts times.
+/// @param correction of the covariance for degrees of freedom, without pieces
+void use_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+              const EliminatedUnknowns& eliminated, double correction,
+              const IntervalOptions& options, ParameterCovariance* result) {
+  const auto use = options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap;
+  if (options.lag > 0) return use(terms, lengths, correction, options, result);
+  const Eigen::Index pieces = to_signed(eliminated.pieces.size()),
+                     left = pieces - result->identifiability.rank;
+  const bool is_by_piece = left >= kLeastDegrees;
+  const SummedSeries sums = sums_over(
+      terms, lengths,
+      is_by_piece ? eliminated.pieces
+                  : equal_parts(lengths, std::max<Eigen::Index>(1, terms.rows() / kSums)));
+  if (is_by_piece) result->degrees = static_cast<double>(left);
+  use(sums.terms, sums.lengths,
+      is_by_piece ? static_cast<double>(pieces) / static_cast<double>(left) : correction, options,
+      result);
+  const double times_per_sum =
+      static_cast<double>(terms.rows()) / static_cast<double>(sums.terms.rows());
+  result->lag = static_cast<int>(std::lround(result->lag * times_per_sum));
+}
+
 /// With the dependent parameters held, an independent one stands for its combination with them.
 void mark_undetermined(ParameterCovariance* result) {
   result->combination_deviation = result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -141,23 +170,22 @@ ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen:
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
                                          const Eigen::MatrixXd& jacobian,
                                          const SeriesLengths& lengths,
-                                         const IntervalOptions& options, Eigen::Index eliminated) {
+                                         const IntervalOptions& options,
+                                         const EliminatedUnknowns& eliminated) {
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
   const auto rows = static_cast<double>(residuals.size());
-  result.degrees =
-      std::max(1.0, rows - static_cast<double>(result.identifiability.rank + eliminated));
+  const Eigen::Index rank = result.identifiability.rank;
+  result.degrees = std::max(1.0, rows - static_cast<double>(rank + eliminated.count));
   result.residual_variance = residuals.squaredNorm() / result.degrees;
   const Eigen::MatrixXd inverse = inverse_of_normal_matrix(R, result.identifiability);
   if (options.noise == NoiseModel::kWhite) {
     result.covariance = result.residual_variance * inverse;
     set_symmetric_intervals(options.level, &result);
   } else {
-    const Eigen::MatrixXd terms = contributions(residuals, jacobian, inverse);
-    const double correction = rows / result.degrees;
-    (options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap)(
-        terms, lengths, correction, options, &result);
+    use_sums(contributions(residuals, jacobian, inverse), lengths, eliminated,
+             rows / result.degrees, options, &result);
   }
   mark_undetermined(&result);
   return result;

@@ -31,6 +31,14 @@ struct ParameterCovariance {
   Eigen::MatrixXd correlation() const;
 };
 
+/// Unknowns that were fitted beside the parameters, and whose columns were projected out of the
+/// Jacobian, doc/theory.md (43); they take degrees of freedom.
+struct EliminatedUnknowns {
+  Eigen::Index count = 0;
+  SeriesLengths pieces = {};  ///< rows of each piece with unknowns of its own; a piece lies within
+                              ///< one recording. Empty without such unknowns
+};
+
 /// @param residuals at the fit, one row per time and one column per output (joint), N x m; several
 /// recordings stand below each other
 /// @param jacobian of the residuals, N m x p: the rows of output 0 in the order of time, then those
@@ -39,13 +47,11 @@ struct ParameterCovariance {
 /// @param lengths of the recordings, with the sum N. Outputs at one time may depend on each other,
 /// recordings do not.
 /// @param options level, noise and lag
-/// @param eliminated unknowns that were fitted beside the parameters and whose columns were
-/// projected out of the Jacobian, doc/theory.md (43); they take degrees of freedom.
 ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
                                          const Eigen::MatrixXd& jacobian,
                                          const SeriesLengths& lengths,
                                          const IntervalOptions& options,
-                                         Eigen::Index eliminated = 0);
+                                         const EliminatedUnknowns& eliminated = {});
 
 /// The covariance that a fit is expected to have, before there are data: parameter_covariance() for
 /// residuals that are white noise of variance one.

@@ -84,6 +84,30 @@ void add_series(const Eigen::MatrixXd& sums, Eigen::Index block, std::mt19937* g
 
 }  // namespace
 
+SummedSeries sums_over(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                       const SeriesLengths& parts) {
+  SummedSeries sums{Eigen::MatrixXd(to_signed(parts.size()), terms.cols()), {}};
+  Eigen::Index begin = 0, end = 0, sum = 0;
+  for (const Eigen::Index length : lengths) {
+    end += length;
+    const Eigen::Index first = sum;
+    for (; begin < end; ++sum) {
+      sums.terms.row(sum) = terms.middleRows(begin, parts[to_index(sum)]).colwise().sum();
+      begin += parts[to_index(sum)];
+    }
+    sums.lengths.push_back(sum - first);
+  }
+  return sums;
+}
+
+SeriesLengths equal_parts(const SeriesLengths& lengths, Eigen::Index size) {
+  SeriesLengths parts;
+  for (const Eigen::Index length : lengths)
+    for (Eigen::Index begin = 0; begin < length; begin += size)
+      parts.push_back(std::min(size, length - begin));
+  return parts;
+}
+
 int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths) {
   const auto rows = static_cast<double>(terms.rows());
   double lag = 1.3 * std::sqrt(rows);

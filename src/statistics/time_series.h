@@ -11,6 +11,20 @@ namespace codesign {
 /// their sum is the number of rows.
 using SeriesLengths = std::vector<Eigen::Index>;
 
+/// Sums over neighbours in time.
+struct SummedSeries {
+  Eigen::MatrixXd terms;  ///< one sum per row
+  SeriesLengths lengths;  ///< sums of each series
+};
+
+/// @param parts numbers of rows that are summed, in the order of the rows; none crosses from one
+/// series to the next, and their sum is the number of rows
+SummedSeries sums_over(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                       const SeriesLengths& parts);
+
+/// Parts of `size` rows; the last one of each series may be shorter.
+SeriesLengths equal_parts(const SeriesLengths& lengths, Eigen::Index size);
+
 /// The covariance of a sum over correlated times.
 struct LongRunCovariance {
   Eigen::MatrixXd covariance;  ///< p x p

@@ -122,6 +122,21 @@ TEST(ClearRounding, LeavesWhatHasAnEffect) {
   EXPECT_EQ(cleared.col(3), J.col(3)) << "a number of this magnitude has an effect";
 }
 
+TEST(ClearRounding, OfOtherNumbersDoesNotDependOnAUnit) {
+  // A mass of 2 kg, written as 2 or, in units of 1e12 kg, as 2e-12.
+  for (const double unit : {1.0, 1e12, 1e-12}) {
+    Eigen::MatrixXd J(2, 4);
+    J << 4.0 * unit, 0.5, 1e-16, 0.3,  //
+        3.0 * unit, 0.7, 1e-16, 0.1;
+    Eigen::MatrixXd cleared = J;
+    clear_rounding(Eigen::Vector4d(2.0 / unit, 0.1, 0.2, 0.0), &cleared);
+    EXPECT_TRUE(cleared.col(2).isZero(0.0));
+    EXPECT_EQ(cleared.col(0), J.col(0));
+    EXPECT_EQ(cleared.col(1), J.col(1));
+    EXPECT_EQ(cleared.col(3), J.col(3));
+  }
+}
+
 TEST(ClearRounding, AColumnAloneIsComparedWithWhatIsMeasured) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Constant(2, 1, 1e-14), alone = J;
   clear_rounding(Eigen::VectorXd::Ones(1), &alone);

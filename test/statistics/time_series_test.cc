@@ -46,6 +46,16 @@ TEST(BartlettSum, IsTheDefinition) {
   }
 }
 
+TEST(SumsOver, PartsOfEachSeries) {
+  Eigen::MatrixXd x(7, 1);
+  x << 1.0, 2.0, 3.0, 4.0, 10.0, 20.0, 30.0;
+  const SeriesLengths parts = equal_parts({4, 3}, 2);
+  EXPECT_EQ(parts, (SeriesLengths{2, 2, 2, 1}));
+  const SummedSeries sums = sums_over(x, {4, 3}, parts);
+  EXPECT_EQ(sums.lengths, (SeriesLengths{2, 2}));
+  EXPECT_EQ(sums.terms, Eigen::Vector4d(3.0, 7.0, 30.0, 30.0));
+}
+
 TEST(LongRun, OfWhiteNoiseIsTheSumOfSquares) {
   const Eigen::MatrixXd x = noise(20000, 1, 0.0, 2);
   const LongRunCovariance result = long_run_covariance(x, {20000});

@@ -17,12 +17,9 @@
 namespace codesign {
 namespace {
 
-constexpr int kSamples = 400;     // per recording
-constexpr double kClearly = 0.2;  // by which a mended mistake must explain more
+constexpr int kSamples = 400;  // per recording
 // A model as it stands may be wrong by this factor without a doubt about units.
 constexpr double kUsualScale = 4.0;
-// Variation below this share of the root mean square counts as this much.
-constexpr double kSmallestMean = 0.1;
 
 /// Efforts of all joints as recorded and as the model as it stands needs them, with the motion;
 /// rows x joints.
@@ -31,10 +28,8 @@ struct EffortEvidence {
   Eigen::MatrixXd recorded, computed, velocity, acceleration;
 };
 
-double reference_of(const Eigen::VectorXd& recorded) {
-  const double all = recorded.squaredNorm(),
-               about_mean = (recorded.array() - recorded.mean()).matrix().squaredNorm();
-  return std::max(about_mean, kSmallestMean * kSmallestMean * all);
+Eigen::VectorXd about_mean_of(const Eigen::VectorXd& recorded) {
+  return recorded.array() - recorded.mean();
 }
 
 /// Unfiltered efforts at few samples.
@@ -69,6 +64,19 @@ std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVaria
   return evidence;
 }
 
+/// As evidence_of(). What inverse dynamics refuse, such as friction with states, is no error of a
+/// study with residuals in motion.
+std::optional<EffortEvidence> usable_evidence(const Problem& problem, const FitVariables& variables,
+                                              const std::vector<JointRecording>& recordings) {
+  if (study_of(problem).identification->residual != ResidualKind::kMotion)
+    return evidence_of(problem, variables, recordings);
+  try {
+    return evidence_of(problem, variables, recordings);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 DriveLineFit fit_of(const EffortEvidence& evidence, std::size_t joint,
                     const Eigen::VectorXd& recorded) {
   const auto k = to_signed(joint);
@@ -101,6 +109,7 @@ EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool
     if (is_scale_known && scale > 0.0 && (scale > kUsualScale || scale < 1.0 / kUsualScale)) {
       doubt.mistake = "divided by about " + readable(scale, 4);
       doubt.mended = as_recorded.share;
+      doubt.is_unit = true;
       // As recorded, without a free scale.
       doubt.share = explained_share(evidence.recorded.col(own),
                                     evidence.computed.col(own) - evidence.recorded.col(own));
@@ -154,20 +163,27 @@ std::vector<std::pair<Order, std::string>> orders_of(const std::vector<EffortDou
   return orders;
 }
 
-/// Whole joints under other names, which is judged by the efforts of all joints together.
+/// Whole joints under other names, which is judged by the efforts of all joints together. It counts
+/// if it explains more than all columns that were found.
 void doubt_order(const Problem& problem, const FitVariables& variables,
                  const std::vector<JointRecording>& recordings, const EffortEvidence& as_recorded,
                  std::vector<EffortDoubt>* doubts) {
+  const auto count = static_cast<double>(as_recorded.joints.size());
   const double usual = mean_share(as_recorded);
+  double with_columns = usual;
+  for (const EffortDoubt& doubt : *doubts)
+    if (!doubt.mistake.empty() && !doubt.is_unit)
+      with_columns += (doubt.mended - doubt.share) / count;
   EffortDoubt best{"", usual, "", 0.0};
   for (const auto& [order, name] : orders_of(*doubts, as_recorded.joints)) {
     const std::optional<EffortEvidence> evidence =
         evidence_of(problem, variables, renamed(recordings, as_recorded.joints, order));
-    if (evidence && evidence->joints == as_recorded.joints)
+    if (evidence && std::is_permutation(evidence->joints.begin(), evidence->joints.end(),
+                                        as_recorded.joints.begin(), as_recorded.joints.end()))
       take_if_better(mean_share(*evidence), name, &best);
   }
   for (EffortDoubt& doubt : *doubts) {
-    if (best.mistake.empty() || !doubt.mistake.empty()) continue;
+    if (doubt.is_unit || !(best.mended > with_columns)) continue;
     doubt.mistake = best.mistake;
     doubt.mended = best.mended;
   }
@@ -175,9 +191,15 @@ void doubt_order(const Problem& problem, const FitVariables& variables,
 
 }  // namespace
 
-double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& residuals) {
-  const double reference = reference_of(recorded);
+double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& variation,
+                       const Eigen::VectorXd& residuals, double least) {
+  const double reference =
+      std::max(variation.squaredNorm(), least * least * recorded.squaredNorm());
   return reference > 0.0 ? 1.0 - residuals.squaredNorm() / reference : 1.0;
+}
+
+double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& residuals) {
+  return explained_share(recorded, about_mean_of(recorded), residuals, kLeastVariation);
 }
 
 // Least squares of the recorded column by a constant of any sign and four columns with factors that
@@ -194,7 +216,7 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
   columns.rowwise() -= columns.colwise().mean().eval();
   const Eigen::VectorXd lengths = columns.colwise().norm().cwiseMax(1e-300);
   columns = columns * lengths.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd about_mean = recorded.array() - recorded.mean();
+  const Eigen::VectorXd about_mean = about_mean_of(recorded);
   const Eigen::MatrixXd squares = transposed_product(columns, columns);
   const Eigen::VectorXd products = columns.transpose() * about_mean;
   DriveLineFit best;
@@ -212,32 +234,34 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
     const bool has_part = chosen.front() == 0 && factors[0] * products[0] >= kLeastPart * explained;
     best.scale = has_part ? factors[0] / lengths[0] : 0.0;
   }
-  const double reference = reference_of(recorded);
-  best.share =
-      reference > 0.0 ? 1.0 - std::max(0.0, about_mean.squaredNorm() - most) / reference : 1.0;
+  const double left = std::max(0.0, about_mean.squaredNorm() - most);
+  best.share = explained_share(recorded, about_mean, Eigen::VectorXd::Constant(1, std::sqrt(left)),
+                               kLeastVariation);
   return best;
 }
 
 std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
-                                            const std::vector<JointRecording>& recordings) {
+                                            const std::vector<JointRecording>& recordings,
+                                            double explained) {
   if (recordings.empty()) return {};
   if (!study_of(problem).motion.empty())
     if (const auto completed = with_given_motions(problem, {recordings, {}}))
-      return find_effort_doubts(problem, completed->data);
+      return find_effort_doubts(problem, completed->data, explained);
   const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
   if (std::none_of(joints.begin(), joints.end(),
                    [](const MeasuredJoint& joint) { return joint.with_effort; }))
     return {};
   const FitVariables variables(study_of(problem), &robot_of(problem));
-  const std::optional<EffortEvidence> evidence = evidence_of(problem, variables, recordings);
+  const std::optional<EffortEvidence> evidence = usable_evidence(problem, variables, recordings);
   std::vector<EffortDoubt> doubts;
   for (std::size_t k = 0; evidence && k < evidence->joints.size(); ++k) {
     const bool is_scale_known = variables.columns(evidence->joints[k]).scale < 0;
     EffortDoubt doubt = doubt_column(*evidence, k, is_scale_known);
     if (doubt.share < kExplainedHalf || !doubt.mistake.empty()) doubts.push_back(std::move(doubt));
   }
-  if (std::any_of(doubts.begin(), doubts.end(),
-                  [](const EffortDoubt& doubt) { return doubt.mistake.empty(); }))
+  if (explained + kClearly <= 1.0 &&
+      std::any_of(doubts.begin(), doubts.end(),
+                  [](const EffortDoubt& doubt) { return !doubt.is_unit; }))
     doubt_order(problem, variables, recordings, *evidence, &doubts);
   return doubts;
 }

@@ -14,10 +14,20 @@ namespace codesign {
 /// Below this share of a joint's effort, a fit counts as one that does not explain it.
 constexpr double kExplainedHalf = 0.5;
 
+/// A variation below this share of the recorded root mean square counts as this much: efforts, and
+/// motions in segments.
+constexpr double kLeastVariation = 0.1, kLeastOfSegments = 0.01;
+
 /// The share of a recorded column that the computed one explains: one minus the sum of squares of
-/// the residuals over that of the recorded values about their mean; a mean of more than ten times
-/// the variation counts with a hundredth of its square. Negative: worse than nothing.
+/// the residuals over that of the variation, which is at least `least` times that of the recorded
+/// values. Negative: worse than nothing.
+double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& variation,
+                       const Eigen::VectorXd& residuals, double least);
+/// With the variation about the mean, at least kLeastVariation.
 double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& residuals);
+
+/// By how much more a mended mistake must explain than the recording as it is, or than a fit.
+constexpr double kClearly = 0.2;
 
 /// What the efforts of a joint, inverse dynamics and a drive's friction and inertia, say about a
 /// recorded column; doc/theory.md (39c).
@@ -38,16 +48,22 @@ struct EffortDoubt {
   double share = 0.0;  ///< DriveLineFit::share of the effort as recorded
   std::string
       mistake;  ///< what would explain it: `with the other sign`; empty if no simple mistake does
-  double mended = 0.0;  ///< share with the mistake mended
+  double mended = 0.0;   ///< share with the mistake mended
+  bool is_unit = false;  ///< whether the mistake is a unit: with one, a fit explains the recording
+                         ///< by wrong numbers
 };
 
 /// Compares recorded efforts with inverse dynamics of the model as it stands and looks for the
 /// mistake that explains a contradiction: another sign, another unit, exchanged columns, exchanged
 /// or reversed joints. About 400 samples of each recording are used. Empty if nothing contradicts,
-/// if no joint has efforts in all recordings, or if the model cannot follow the recorded motion.
+/// if no joint has efforts in all recordings, if the model cannot follow the recorded motion, or if
+/// inverse dynamics cannot compute its efforts while residuals are in motion.
+/// @param explained least share that a fit explains of a joint: orders of joints are only looked
+/// for if one could explain clearly more
 /// @throws InputError as identify()
 std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
-                                            const std::vector<JointRecording>& recordings);
+                                            const std::vector<JointRecording>& recordings,
+                                            double explained = 0.0);
 
 /// Warnings `recording_effort` for the doubts whose mistake is known.
 Warnings warnings_of(const IdentificationDescription& options,

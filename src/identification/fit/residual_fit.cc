@@ -158,7 +158,6 @@ void search(const FitProblem& problem, ResidualSource* source, const FitObserver
   const Eigen::Index rows =
       std::accumulate(source->lengths().begin(), source->lengths().end(), Eigen::Index{0});
   source->count_by(fit->spreads, problem.loss);
-  fit->own_unknowns = source->own_unknowns();
   WeightedCost cost(problem, fit->spreads, source, observer, fit);
   LevenbergMarquardtOptions options;
   options.max_evaluations =

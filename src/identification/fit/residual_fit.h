@@ -71,7 +71,6 @@ struct ResidualFit {
   double cost = 0.0;        ///< sum of rho(r / s) at x, and of the prior
   Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
   Eigen::MatrixXd start_residuals;
-  Eigen::Index own_unknowns = 0;  ///< number of unknowns of the source's own
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
   Status last_failure;  ///< status of the last failed evaluation; ok if none failed
 };

@@ -10,6 +10,7 @@ StackedResiduals::StackedResiduals(std::vector<Part> parts) : parts_(std::move(p
   for (const Part& part : parts_) {
     lengths_.insert(lengths_.end(), part.residuals->lengths().begin(),
                     part.residuals->lengths().end());
+    pieces_.insert(pieces_.end(), part.residuals->pieces().begin(), part.residuals->pieces().end());
     rows += part.residuals->rows();
   }
   recorded_.resize(rows, parts_.front().residuals->recorded().cols());
@@ -27,6 +28,17 @@ std::vector<double> StackedResiduals::times() const {
     times.insert(times.end(), more.begin(), more.end());
   }
   return times;
+}
+
+Eigen::MatrixXd StackedResiduals::variation() const {
+  if (own_unknowns() == 0) return RecordingResiduals::variation();
+  Eigen::MatrixXd result(recorded_.rows(), recorded_.cols());
+  Eigen::Index row = 0;
+  for (const Part& part : parts_) {
+    result.middleRows(row, part.residuals->rows()) = part.residuals->variation();
+    row += part.residuals->rows();
+  }
+  return result;
 }
 
 Status StackedResiduals::begin(const Eigen::VectorXd& x) {

@@ -63,6 +63,9 @@ class ResidualSource {
   virtual void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss);
   /// Number of unknowns of its own; they take degrees of freedom from the residuals.
   virtual Eigen::Index own_unknowns() const { return 0; }
+  /// Number of residuals of each piece with unknowns of its own, in the order of the rows; pieces
+  /// do not cross from one recording to the next. lengths() without such unknowns.
+  virtual const SeriesLengths& pieces() const { return lengths(); }
   /// Decrease of the sum of rho(r / s) by the best unknowns at the last point evaluated with a
   /// Jacobian, to first order.
   virtual double inner_decrease() const { return 0.0; }
@@ -94,10 +97,17 @@ class RecordingResiduals : public ResidualSource {
   virtual std::vector<double> times() const = 0;
   /// The recorded outputs; rows() x outputs. Residuals are computed minus recorded.
   virtual const Eigen::MatrixXd& recorded() const = 0;
+  /// The part of recorded() that says something about x: without its mean; without what unknowns of
+  /// the source's own fit for any x.
+  virtual Eigen::MatrixXd variation() const;
   /// Returns one entry per fitted delay whose column of the Jacobian is the slope of a recorded
   /// effort. @param x a point at which residuals can be computed
   virtual std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x);
 };
+
+inline Eigen::MatrixXd RecordingResiduals::variation() const {
+  return recorded().rowwise() - recorded().colwise().mean();
+}
 
 inline std::vector<DelaySignal> RecordingResiduals::delay_signals(const Eigen::VectorXd& /*x*/) {
   return {};
@@ -118,9 +128,11 @@ class StackedResiduals final : public RecordingResiduals {
     return parts_.front().residuals->outputs();
   }
   const SeriesLengths& lengths() const override { return lengths_; }
+  const SeriesLengths& pieces() const override { return pieces_; }
   Eigen::Index rows() const override { return recorded_.rows(); }
   std::vector<double> times() const override;
   const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  Eigen::MatrixXd variation() const override;
   Status begin(const Eigen::VectorXd& x) override;
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
                   Eigen::MatrixXd* jacobian) override;
@@ -132,7 +144,7 @@ class StackedResiduals final : public RecordingResiduals {
 
  private:
   std::vector<Part> parts_;
-  SeriesLengths lengths_;
+  SeriesLengths lengths_, pieces_;
   Eigen::MatrixXd recorded_;
 };
 

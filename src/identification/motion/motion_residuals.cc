@@ -72,6 +72,16 @@ Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
   return variation;
 }
 
+/// Values without their mean, and without their slope over time if `has_slope`.
+Eigen::VectorXd without_line(const std::vector<double>& times, const Eigen::VectorXd& values,
+                             bool has_slope) {
+  const Eigen::VectorXd about_mean = values.array() - values.mean();
+  if (!has_slope || times.size() < 2) return about_mean;
+  const Eigen::Map<const Eigen::VectorXd> t(times.data(), to_signed(times.size()));
+  const Eigen::VectorXd from_middle = t.array() - t.mean();
+  return about_mean - from_middle * (from_middle.dot(about_mean) / from_middle.squaredNorm());
+}
+
 double value_of(const std::vector<SegmentSolution>& solutions) {
   double value = 0.0;
   for (const SegmentSolution& solution : solutions) value += solution.value;
@@ -114,7 +124,8 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
     const Eigen::Index begin = rows;
     for (std::size_t k = 0; k < segments_.back().size(); ++k) {
       places_.push_back({r, k, rows});
-      rows += segments_.back()[k].recorded.rows();
+      pieces_.push_back(segments_.back()[k].recorded.rows());
+      rows += pieces_.back();
     }
     lengths_.push_back(rows - begin);
   }
@@ -136,6 +147,20 @@ std::vector<double> MotionResiduals::times() const {
     for (const double time : segments_[place.recording][place.segment].times)
       times.push_back(time + systems_[place.recording].epoch);
   return times;
+}
+
+Eigen::MatrixXd MotionResiduals::variation() const {
+  Eigen::MatrixXd result = RecordingResiduals::variation();
+  for (const SegmentRow& place : places_) {
+    const Segment& segment = segments_[place.recording][place.segment];
+    const std::vector<MotionOutput>& outputs = systems_[place.recording].outputs;
+    for (std::size_t k = 0; k < outputs.size(); ++k)
+      if (outputs[k].quantity != MeasuredQuantity::kEffort)
+        result.col(to_signed(k)).segment(place.row, segment.recorded.rows()) =
+            without_line(segment.times, segment.recorded.col(to_signed(k)),
+                         outputs[k].quantity == MeasuredQuantity::kPosition);
+  }
+  return result;
 }
 
 Eigen::Index MotionResiduals::own_unknowns() const {

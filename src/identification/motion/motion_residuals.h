@@ -33,9 +33,14 @@ class MotionResiduals final : public RecordingResiduals {
   /// `elbow_joint/position`, and so on.
   const std::vector<std::string>& outputs() const override { return names_; }
   const SeriesLengths& lengths() const override { return lengths_; }
+  /// The segments.
+  const SeriesLengths& pieces() const override { return pieces_; }
   Eigen::Index rows() const override { return recorded_.rows(); }
   std::vector<double> times() const override;
   const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  /// A start alone, without any force, moves on a straight line: positions of each segment without
+  /// their line, velocities without their mean; efforts without the mean of all.
+  Eigen::MatrixXd variation() const override;
   Status begin(const Eigen::VectorXd& x) override;
   /// A segment that cannot be simulated fails the evaluation; the status names it.
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
@@ -101,7 +106,7 @@ class MotionResiduals final : public RecordingResiduals {
   std::vector<std::vector<Segment>> segments_;          ///< [recording]
   std::vector<SegmentRow> places_;                      ///< of all segments
   std::vector<std::unique_ptr<MotionWorker>> workers_;  ///< one per thread
-  SeriesLengths lengths_;
+  SeriesLengths lengths_, pieces_;
   Eigen::MatrixXd recorded_;
   BestPoint best_;
   bool is_recounted_ =

@@ -9,6 +9,7 @@
 #include "description/study.h"
 #include "identification/identify.h"
 #include "identification/motion_rig.h"
+#include "identification/simulated_recording.h"
 #include "identification/swinging_arm.h"
 #include "problem/load_problem.h"
 
@@ -28,12 +29,15 @@ constexpr const char* kTwo = R"(<robot name="two" xmlns:codesign="https://mechan
   <joint name="b" type="continuous"><parent link="base"/><child link="short"/><axis xyz="0 -1 0"/></joint>
 </robot>)";
 
-Problem two_pendulums() {
-  return load_problem({"two.urdf", kTwo}, {},
-                      {"study.yaml",
-                       "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: "
-                       "20.0}\nparameters: {long_mass: {}, short_mass: {}}\n"
-                       "optimizer: {algorithm: levenberg_marquardt}\n"});
+/// @param more lines of the block `identify`. @param upper bound of both masses
+Problem two_pendulums(const std::string& more = "", const std::string& upper = "10") {
+  return load_problem(
+      {"two.urdf", kTwo}, {},
+      {"study.yaml", "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 20.0}\n" + more +
+                         "parameters: {long_mass: {upper: " + upper +
+                         "}, short_mass: {upper: " + upper +
+                         "}}\n"
+                         "optimizer: {algorithm: levenberg_marquardt}\n"});
 }
 
 /// Both swing, with masses of 5 kg and 1.2 kg.
@@ -68,17 +72,19 @@ IdentificationResult fit(const Problem& problem, const JointRecording& recording
   return identify(problem, recordings, {}, nullptr);
 }
 
+/// Whether a warning has this code and these words.
+bool warns(const IdentificationResult& result, const std::string& code, const std::string& words) {
+  return std::any_of(result.warnings.begin(), result.warnings.end(), [&](const Warning& warning) {
+    return warning.code == code && warning.message.find(words) != std::string::npos;
+  });
+}
+
 /// The fit is a failure, and one of its warnings has these words; so has one of `codesign check`.
 void expect_named(const Problem& problem, const JointRecording& recording,
                   const std::string& words) {
   const IdentificationResult result = fit(problem, recording);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable) << words;
-  const auto has = [&words](const Warning& warning) {
-    return warning.code == "effort_not_explained" &&
-           warning.message.find(words) != std::string::npos;
-  };
-  EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), has))
-      << words << ": " << result.status.cause;
+  EXPECT_TRUE(warns(result, "effort_not_explained", words)) << words << ": " << result.status.cause;
   const Warnings checked =
       warnings_of(*study_of(problem).identification, find_effort_doubts(problem, {recording}));
   ASSERT_FALSE(checked.empty()) << words;
@@ -107,6 +113,30 @@ TEST(EffortDoubts, AnotherUnitIsNamed) {
   expect_named(two_pendulums(), recording, "divided by about 1");
 }
 
+TEST(EffortDoubts, AUnitThatTheNumbersFollowIsDoubtedToo) {
+  for (const double factor : {1000.0, 8.85}) {
+    JointRecording recording = both_swing();
+    for (double& effort : recording.joints[1].effort) effort *= factor;
+    const IdentificationResult result = fit(two_pendulums("", "1e5"), recording);
+    EXPECT_TRUE(result.status.ok()) << result.status.cause;
+    EXPECT_GT(result.data[1].explained, 0.95);
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_TRUE(warns(result, "recording_effort", "effort of b contradicts")) << factor;
+    EXPECT_TRUE(warns(result, "recording_effort", "divided by about 1")) << factor;
+  }
+}
+
+TEST(EffortDoubts, OutliersThatALossLeavesOutDoNotCount) {
+  JointRecording recording = both_swing();
+  for (std::size_t k = 10; k < recording.times.size(); k += 200)
+    recording.joints[0].effort[k] += k % 400 == 10 ? 400.0 : -400.0;
+  const IdentificationResult robust = fit(two_pendulums("  loss: {type: huber}\n"), recording);
+  EXPECT_TRUE(robust.warnings.empty());
+  EXPECT_GT(robust.data[0].explained, 0.9);
+  EXPECT_NEAR(robust.numbers[0].value, 5.0, 0.05);
+  EXPECT_TRUE(warns(fit(two_pendulums(), recording), "effort_not_explained", " % of a:"));
+}
+
 TEST(EffortDoubts, ExchangedEffortsAreNamed) {
   JointRecording recording = both_swing();
   std::swap(recording.joints[0].effort, recording.joints[1].effort);
@@ -119,6 +149,38 @@ TEST(EffortDoubts, JointsInReversedOrderAreNamed) {
   for (double& effort : recording.joints[0].effort) effort = -effort;
   const Problem problem = two_pendulums();
   EXPECT_EQ(fit(problem, recording).status.code, StatusCode::kNotIdentifiable);
+}
+
+/// One pendulum hangs on the other: the effort of one looks like that of the other.
+constexpr const char* kHanging =
+    R"(<robot name="hanging" xmlns:codesign="https://mechanism-codesign.org">
+  <codesign:parameter name="upper_mass" value="1.6" lower="0.1" upper="10"/>
+  <codesign:parameter name="lower_mass" value="1.1" lower="0.1" upper="10"/>
+  <link name="ground"/>
+  <link name="top"><inertial><origin xyz="0 0 -0.25"/><mass value="1.6" codesign:value="${upper_mass}"/>
+    <inertia ixx="0.05" iyy="0.05" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="tip"><inertial><origin xyz="0 0 -0.2"/><mass value="1.1" codesign:value="${lower_mass}"/>
+    <inertia ixx="0.02" iyy="0.02" izz="0.005" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="shoulder" type="continuous"><parent link="ground"/><child link="top"/><axis xyz="0 1 0"/></joint>
+  <joint name="elbow" type="continuous"><parent link="top"/><child link="tip"/><origin xyz="0 0 -0.5"/><axis xyz="0 1 0"/></joint>
+</robot>)";
+
+TEST(EffortDoubts, WholeJointsAreNamedRatherThanAColumn) {
+  const Problem problem = load_problem(
+      {"hanging.urdf", kHanging}, {},
+      {"study.yaml",
+       "duration: 8.0\n"
+       "controllers:\n"
+       "  a: {type: pid, input: shoulder/position, output: shoulder, gains: {p: 40.0, d: 4.0},"
+       " setpoint: {type: sine, amplitude: 0.9, frequency: 0.5}}\n"
+       "  b: {type: pid, input: elbow/position, output: elbow, gains: {p: 20.0, d: 2.0},"
+       " setpoint: {type: sine, amplitude: 1.1, frequency: 0.8}}\n"
+       "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 20.0}\n"
+       "parameters: {upper_mass: {}, lower_mass: {}}\n"});
+  JointRecording recording = record_run(problem, {}, {"shoulder", "elbow"}, 100.0);
+  EXPECT_TRUE(find_effort_doubts(problem, {recording}).empty());
+  std::swap(recording.joints[0].joint, recording.joints[1].joint);
+  expect_named(problem, recording, "with the joints in reversed order");
 }
 
 TEST(EffortDoubts, ADriveLineIsFittedWithoutNegativeFactors) {
@@ -161,6 +223,36 @@ TEST(EffortDoubts, InMotionTheMistakeOfTheRecordedEffortIsNamed) {
   const std::string words =
       " % of hinge/position: sign, unit, order? the recorded effort of hinge: with the other sign";
   EXPECT_NE(found->message.find(words), std::string::npos) << found->message;
+}
+
+// The start of a segment alone explains most of a motion, whatever drives it.
+TEST(EffortDoubts, InMotionTheShareIsThatWithinSegments) {
+  StudyRecordings recordings;
+  recordings.data = {record_pendulum({})};
+  const Problem problem = motion_problem("", "  segment: 0.5\n  filter: {cutoff: 20.0}\n",
+                                         "inertia: {}, viscous: {}, dry: {}");
+  const IdentificationResult right = identify(problem, recordings, {}, nullptr);
+  EXPECT_TRUE(right.status.ok() && right.warnings.empty()) << right.status.cause;
+  EXPECT_GT(right.data[0].explained, 0.999);
+  for (double& effort : recordings.data[0].joints[0].effort) effort = -effort;
+  const IdentificationResult wrong = identify(problem, recordings, {}, nullptr);
+  EXPECT_EQ(wrong.status.code, StatusCode::kNotIdentifiable);
+  EXPECT_TRUE(warns(wrong, "motion_not_explained", "with the other sign"));
+  EXPECT_GT(1.0 - std::pow(wrong.data[0].rms / wrong.data[0].recorded, 2.0), kExplainedHalf)
+      << "of the whole recording";
+}
+
+TEST(EffortDoubts, WhatInverseDynamicsRefuseIsNoErrorInMotion) {
+  std::string model = motion_pendulum();
+  model.insert(model.find("<dynamics"),
+               "<codesign:friction model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0.2\" "
+               "transition_velocity=\"0.02\" joint_length=\"0.1\" pin_radius=\"0.05\"/>");
+  const Problem problem =
+      load_problem({"pendulum.urdf", model}, {},
+                   {"study.yaml",
+                    "identify:\n  data: [{csv: data.csv}]\n  residual: motion\n  filter: {cutoff: "
+                    "20.0}\nparameters: {inertia: {}}\n"});
+  EXPECT_TRUE(find_effort_doubts(problem, {record_pendulum({})}).empty());
 }
 
 }  // namespace
