@@ -25,6 +25,7 @@ constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
 constexpr double kLeastTolerance = 1e-15;
 constexpr double kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
+constexpr double kTiny = 1e-6;     // smaller slopes are below absolute tolerances within NLopt
 // A failed line search has converged if the scaled gradient fell below this fraction of the first.
 constexpr double kSlopeLeft = 1e-2;
 
@@ -66,8 +67,7 @@ class Minimization {
     optimizer->set_upper_bounds(upper);
     optimizer->set_min_objective(&Minimization::objective_callback, this);
     optimizer->set_ftol_rel(options_.relative_tolerance);
-    // NLopt counts calls, and asks for some points several times: evaluate() keeps to the limit of
-    // evaluations, and this one ends an algorithm that asks for the same points only.
+    // NLopt counts calls: this limit ends an algorithm that asks for the same points only.
     optimizer->set_maxeval(static_cast<int>(
         std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
     for (Constraint& constraint : constraints_)
@@ -160,10 +160,9 @@ class Minimization {
 
   /// Whether a failed line search ended at an optimum: its points hardly differ, nor do they slope.
   bool has_converged() {
-    const double difference = std::abs(last_.total.objective - result_.best.objective);
-    if (!last_.total.status.ok() ||
-        difference > options_.relative_tolerance * std::abs(result_.best.objective))
-      return false;
+    const double difference = std::abs(last_.total.objective - result_.best.objective),
+                 small = options_.relative_tolerance * std::abs(result_.best.objective);
+    if (!last_.total.status.ok() || difference > small) return false;
     return trials_.best_keeps_bounds() && trials_.slope_left() <= kSlopeLeft;
   }
 
@@ -260,17 +259,17 @@ class Minimization {
 
   void evaluate(const Eigen::VectorXd& rho) {
     is_at_limit_ = result_.cost.evaluations >= options_.max_evaluations;
-    if (is_at_limit_) throw nlopt::forced_stop();
-    if (!trials_.evaluate(rho, Derivatives::kGradient)) throw nlopt::forced_stop();
+    if (is_at_limit_ || !trials_.evaluate(rho, Derivatives::kGradient)) throw nlopt::forced_stop();
     if (moves_inside_ && trials_.best_violation() == 0.0) throw nlopt::forced_stop();
     if (result_.cost.evaluations == 1) take_unit();
   }
 
-  // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, it is at
-  // most 1 in scaled variables, (24).
+  // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, at
+  // most 1.
   void take_unit() {
-    if (trials_.have_best())
-      unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial.gradient));
+    if (!trials_.have_best()) return;
+    const double slope = scaling_.gradient_norm(result_.initial.gradient);
+    unit_ = slope > 0.0 && slope < kTiny ? slope : std::max(1.0, slope);
   }
 
   // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger
@@ -356,10 +355,11 @@ class Search {
       result_.algorithm += (result_.algorithm.empty() ? "" : ", ") + algorithm;
     last_ = algorithm;
     failure_.clear();
+    const Scaling scaling = trials_.have_best() ? trials_.judged_scaling() : scaling_;
     if (is_least_squares(algorithm))
-      search_squares(*attempt, rho, scaling_, &trials_);
+      search_squares(*attempt, rho, scaling, &trials_);
     else
-      failure_ = Minimization(study_, *attempt, scaling_, &program_, &trials_).run(rho);
+      failure_ = Minimization(study_, *attempt, scaling, &program_, &trials_).run(rho);
   }
 
   /// Whether the search may not end at the stop of the attempt, and has evaluations left.
@@ -369,7 +369,7 @@ class Search {
     // A weight of this start is negative, so that the objective is no sum of squares.
     if (!trials_.have_best()) return trials_.first_failure().code == StatusCode::kInvalidDesign;
     if (!trials_.best_keeps_bounds()) return algorithms_.size() > 1;
-    return !trials_.is_stationary();
+    return !trials_.is_stationary() || trials_.finds_lower_point();
   }
 
   const Study& study_;

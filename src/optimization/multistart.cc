@@ -16,6 +16,7 @@
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
 #include "optimization/search_trials.h"
+#include "optimization/smooth_program.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "sampling/sampler.h"
@@ -243,6 +244,9 @@ class Multistart {
     best->initial.rho = problem_.start();
     best->initial.objective = start.total.objective;
     best->initial.gradient = start.total.gradient;
+    SmoothProgram program(ensemble_);
+    best->initial.slope =
+        optimality(start, problem_.start(), scaling_, parameter_rows_, &program, cancel_).slope;
     best->initial.values = start.values;
     best->initial.failed = start.failed;
   }

@@ -6,10 +6,19 @@
 
 namespace codesign {
 
+struct Parameter;
 struct Study;
 
+/// The range of a parameter between its bounds; where one is missing, the magnitude of its start or
+/// of `value`, the larger of the two.
+double extent(const Parameter& parameter, double value);
+/// The largest range of a parameter without bounds, in its extent: farther ones follow from slopes
+/// that are rounding.
+constexpr double kFarthest = 1e6;
+
 /// Scaled variables of the optimizer, doc/theory.md (24): x = (rho - lower) / (upper - lower), or
-/// rho over the magnitude of its start value where a bound is missing.
+/// rho over the magnitude of its start value where a bound is missing, or over its reach() once a
+/// search has stopped short.
 ///
 /// Parameters differ by orders of magnitude (a length in metres beside a gain). Quasi-Newton
 /// methods start from a unit Hessian and would fail without scaling. All vectors have p entries in
@@ -25,6 +34,10 @@ class Scaling {
   std::vector<double> upper() const { return upper_; }
   /// d rho_k / d x_k.
   double range(std::size_t k) const { return range_[k]; }
+  /// Takes a range for a parameter without one, from its extent() at `rho` to kFarthest times that.
+  /// @param reach the distance over which the slope of the objective is worth the objective itself.
+  /// @returns whether the range has changed.
+  bool reach(std::size_t k, double rho, double reach);
 
   std::vector<double> to_scaled(const Eigen::VectorXd& rho) const;
   /// The result is clipped to the bounds, which rounding could exceed.

@@ -10,6 +10,7 @@
 #include "math/dense.h"
 #include "optimization/algorithm.h"
 #include "optimization/local_search.h"
+#include "optimization/scaling.h"
 #include "optimization/search_trials.h"
 #include "problem/load_problem.h"
 #include "sampling/measure.h"
@@ -123,11 +124,22 @@ void add_bound_warning(const Parameter& parameter, double value, double multipli
       "parameter_on_bound",
       {parameter.where, parameter.name,
        std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
-           " bound; to widen the bound by 1 % of the range would lower the objective by about " +
-           readable(worth, 2) + " (" + readable(100.0 * share, 2) +
-           " %); widen it if it was a guess",
+           " bound; to widen the bound by " + readable(kWidening * extent(parameter, value), 2) +
+           " would lower the objective by about " + readable(worth, 2) + " (" +
+           readable(100.0 * share, 2) + " %); widen it if it was a guess",
        to_decimal(value),
        "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
+}
+
+/// The parameters without a bound along which a negative objective fell until they were large.
+std::string endless(const Study& study, const OptimizationResult& result) {
+  std::string names;
+  for (std::size_t k = 0; k < study.tuned.size() && result.best.objective < 0.0; ++k) {
+    const Parameter& parameter = study.parameters[to_index(study.tuned[k])];
+    if (std::abs(result.best.rho[to_signed(k)]) > kFarthest * extent(parameter, 0.0))
+      names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  return names.empty() ? "" : ", and the objective falls without end along " + names;
 }
 
 void add_stop_warning(const Study& study, const OptimizerOptions& options,
@@ -136,7 +148,10 @@ void add_stop_warning(const Study& study, const OptimizerOptions& options,
   warnings->push_back(warn(
       "not_stationary",
       {where_of(options, study), "optimizer",
-       stop_sentence(result) +
+       (std::isfinite(result.optimality.stationarity)
+            ? stop_sentence(result)
+            : "stopped early, where the slope is not finite") +
+           endless(study, result) +
            "; no algorithm gains from there, so that it may not be an optimum; try another start "
            "or another algorithm, a smaller "
            "solver.relative_tolerance if the objective is rough, or narrower bounds",
@@ -173,7 +188,6 @@ void add_flat_warning(const Study& study, const OptimizerOptions& options,
 
 using Eigen::Index;
 
-constexpr double kFlat = 1e-4;      // singular value of R over the largest one: its square is 1e-8
 constexpr double kBalances = 1e-6;  // smaller entries of a direction are rounding
 
 /// The rows of a basis reduced so that each has one parameter of its own, the one that moves most.
@@ -186,6 +200,36 @@ void reduce(Eigen::MatrixXd* rows) {
     for (Index other = 0; other < rows->rows(); ++other)
       if (other != k) rows->row(other) -= ((*rows)(other, column) * rows->row(k)).eval();
   }
+}
+
+/// The parameters that move, and the singular values and vectors of R and the active rows by them.
+struct Stacked {
+  std::vector<Index> moving;
+  SingularValues svd;
+  Index flat = 0;  ///< number of the last vectors whose values count as zero
+};
+
+Stacked decompose(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
+                  const std::vector<bool>& held) {
+  Stacked result;
+  for (Index k = 0; k < root.cols(); ++k)
+    if (!held[to_index(k)]) result.moving.push_back(k);
+  const auto count = static_cast<Index>(result.moving.size());
+  Eigen::MatrixXd stacked(root.rows() + active.cols(), count);
+  for (Index k = 0; k < count; ++k) {
+    stacked.col(k).head(root.rows()) = root.col(result.moving[to_index(k)]);
+    stacked.col(k).tail(active.cols()) = active.row(result.moving[to_index(k)]).transpose();
+  }
+  // A constraint holds its direction whatever its unit.
+  const double size = stacked.topRows(root.rows()).norm();
+  for (Index k = root.rows(); k < stacked.rows(); ++k)
+    if (const double norm = stacked.row(k).norm(); norm > 0.0) stacked.row(k) *= size / norm;
+  if (count == 0 || !(size > 0.0)) return {};
+  result.svd = singular_values(stacked, SingularVectors::kRight);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
+  values.head(result.svd.values.size()) = result.svd.values;
+  result.flat = (values.array().square() < kFlatShare * values[0] * values[0]).count();
+  return result;
 }
 
 }  // namespace
@@ -241,12 +285,13 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options,
     add_bound_warning(parameter, result.best.rho[i], result.optimality.bound_multipliers[i],
                       result.best.objective, &warnings);
     if (!result.optimality.influences[k])
-      warnings.push_back(warn("parameter_without_influence",
-                              {parameter.where, parameter.name,
-                               "the objective did not change with this parameter at any trial "
-                               "point, so its value is not tuned; remove it from the "
-                               "study's parameters, or give {tune: false}",
-                               to_decimal(result.best.rho[i]), ""}));
+      warnings.push_back(
+          warn("parameter_without_influence",
+               {parameter.where, parameter.name,
+                "the derivative of the objective by it was zero at every trial point, "
+                "so its value is not tuned; remove it from the study's parameters, "
+                "give {tune: false}, or another start",
+                to_decimal(result.best.rho[i]), ""}));
   }
   add_flat_warning(study, options, result, &warnings);
   return warnings;
@@ -254,31 +299,27 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options,
 
 Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
                                 const std::vector<bool>& held) {
-  std::vector<Index> moving;
-  for (Index k = 0; k < root.cols(); ++k)
-    if (!held[to_index(k)]) moving.push_back(k);
-  const auto count = static_cast<Index>(moving.size());
-  Eigen::MatrixXd stacked(root.rows() + active.cols(), count);
-  for (Index k = 0; k < count; ++k) {
-    stacked.col(k).head(root.rows()) = root.col(moving[to_index(k)]);
-    stacked.col(k).tail(active.cols()) = active.row(moving[to_index(k)]).transpose();
-  }
-  // A constraint holds its direction whatever its unit.
-  const double size = stacked.topRows(root.rows()).norm();
-  for (Index k = root.rows(); k < stacked.rows(); ++k)
-    if (const double norm = stacked.row(k).norm(); norm > 0.0) stacked.row(k) *= size / norm;
-  if (count == 0 || !(size > 0.0)) return Eigen::MatrixXd(root.cols(), 0);
-  const SingularValues svd = singular_values(stacked, SingularVectors::kRight);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
-  values.head(svd.values.size()) = svd.values;
-  const Index flat = (values.array() < kFlat * values[0]).count();
+  const auto [moving, svd, flat] = decompose(root, active, held);
+  if (moving.empty()) return Eigen::MatrixXd(root.cols(), 0);
   Eigen::MatrixXd rows = svd.V.rightCols(flat).transpose();
   reduce(&rows);
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(root.cols(), flat);
-  for (Index k = 0; k < count; ++k)
+  for (Index k = 0; k < rows.cols(); ++k)
     for (Index d = 0; d < flat; ++d)
       if (std::abs(rows(d, k)) > kBalances) directions(moving[to_index(k)], d) = rows(d, k);
   return directions;
+}
+
+double valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
+                    const Eigen::MatrixXd& active, const std::vector<bool>& held) {
+  const auto [moving, svd, flat] = decompose(root, active, held);
+  for (Index i = 0; i + flat < to_signed(moving.size()); ++i) {
+    double slope = 0.0;
+    for (std::size_t k = 0; k < moving.size(); ++k)
+      slope += svd.V(to_signed(k), i) * gradient[moving[k]];
+    value -= std::pow(0.5 * slope / svd.values[i], 2);
+  }
+  return value;
 }
 
 }  // namespace codesign

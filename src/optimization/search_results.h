@@ -29,15 +29,23 @@ Warnings search_warnings(const Study& study, const OptimizerOptions& options,
 /// start's"; empty without a point.
 std::string stop_sentence(const OptimizationResult& result);
 
-/// The directions in which the objective is flat at a design: eigenvectors of the Gauss-Newton
-/// matrix with eigenvalues below 1e-8 of the largest one, doc/theory.md (24i). Each parameter that
-/// gives such a direction its name stands alone in it (entry 1), beside the parameters by which it
-/// is balanced.
+/// Eigenvalues of the Gauss-Newton matrix below this share of the largest one count as zero.
+constexpr double kFlatShare = 1e-8;
+/// The directions in which the objective may be flat at a design: eigenvectors of the Gauss-Newton
+/// matrix with eigenvalues below kFlatShare of the largest one, doc/theory.md (24i). Each parameter
+/// that gives such a direction its name stands alone in it (entry 1), beside the parameters by
+/// which it is balanced.
 /// @param root R by the scaled parameters, R^T R the Gauss-Newton matrix. @param active gradients
 /// of active constraints by the scaled parameters, one per column: a flat direction does not change
 /// them. @param held parameters that do not move, such as those on a bound.
 /// @returns one direction per column, by the scaled parameters; no columns without any.
 Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
                                 const std::vector<bool>& held);
+
+/// The least value of psi + g^T p + |R p|^2 over steps p of the parameters that are not held: of a
+/// sum of squares beside a design of a curved valley, its floor there. @param value, gradient,
+/// root: psi, g and R. @param active, held as above.
+double valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
+                    const Eigen::MatrixXd& active, const std::vector<bool>& held);
 
 }  // namespace codesign

@@ -12,18 +12,15 @@
 #include "optimization/lagrangian.h"
 #include "optimization/search_results.h"
 #include "problem/margins.h"
-#include "sensitivity/gradient_engine.h"
 
 namespace codesign {
 namespace {
 
-// Most columns of the root, which is computed for flat directions alone where gradients go
-// backward.
-constexpr Eigen::Index kMostRootColumns = 40;
 constexpr double kStartCounts = 1e-3;  // the share of the slope at the start in the scale of (24j)
-constexpr double kMostSlope = 1e-3;    // beyond which a loose tolerance does not let a search end
-// Least multiplier that counts, in that scale: to widen a bound by 1 % is then worth a millionth.
-constexpr double kLeastMultiplier = 1e-4;
+// The share of the change of a sum of squares over the ranges that counts at least: stationary
+// to 0.001, its last step would be 1e-13 of a range, which is rounding.
+constexpr double kLeastOfSquares = 1e-10;
+constexpr double kMostSlope = 1e-3;  // beyond which a loose tolerance does not let a search end
 
 }  // namespace
 
@@ -37,6 +34,9 @@ SearchTrials::SearchTrials(const Study& study, const OptimizerOptions& options,
       observer_(observer),
       cancel_(cancel),
       scaling_(scaling),
+      judged_(scaling),
+      reaches_(Eigen::VectorXd::Constant(to_signed(study.tuned.size()),
+                                         std::numeric_limits<double>::infinity())),
       program_(*program),
       parameter_rows_(study, ensemble.scenarios()) {}
 
@@ -62,6 +62,7 @@ void SearchTrials::conclude(const std::string& failure) {
   result_.constraints.watched = watched_at_best();
   for (std::size_t k = 0; k < study_.tuned.size(); ++k)
     if (program_.bounds_read(study_.tuned[k])) result_.optimality.influences[k] = true;
+  if (have_best_ && !interrupted() && is_stationary()) finds_lower_point();
   if (have_best_) judge_stop();
   if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
   append(lost_branches_, &result_.warnings);
@@ -80,7 +81,7 @@ void SearchTrials::conclude(const std::string& failure) {
 // The range of a signal takes a run.
 const std::vector<WatchedResult>& SearchTrials::watched_at_best() {
   if (!best_watched_) {
-    best_watched_ = program_.describe(best_.extremes, initial_extremes_, result_.best.rho);
+    best_watched_ = program_.describe(best_.extremes, initial_.extremes, result_.best.rho);
     count_range_of_run(ensemble_.scenarios().front(), result_.best.rho, cancel_, &*best_watched_);
   }
   return *best_watched_;
@@ -117,15 +118,36 @@ void SearchTrials::judge_end(const std::string& failure) {
 }
 
 Optimality SearchTrials::optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
-  Optimality result = optimality(all, rho, scaling_, parameter_rows_, &program_, cancel_);
+  Optimality result = optimality(all, rho, judged_, parameter_rows_, &program_, cancel_);
   // The algorithms read the program at the last point.
   if (last_.total.status.ok()) program_.take(last_, last_rho_);
   return result;
 }
 
 const Optimality& SearchTrials::best_optimality() {
-  if (!best_optimality_) best_optimality_ = optimality_at(best_, result_.best.rho);
+  if (best_optimality_) return *best_optimality_;
+  judged_scaling();
+  if (!initial_slope_) initial_slope_ = optimality_at(initial_, result_.initial.rho).slope;
+  result_.initial.slope = *initial_slope_;
+  best_optimality_ = optimality_at(best_, result_.best.rho);
   return *best_optimality_;
+}
+
+const Scaling& SearchTrials::judged_scaling() {
+  for (Eigen::Index k = 0; k < reaches_.size(); ++k) {
+    const double reach = std::isfinite(reaches_[k]) ? reaches_[k] : 0.0;
+    if (!judged_.reach(to_index(k), result_.best.rho[k], reach)) continue;
+    best_optimality_.reset();
+    initial_slope_.reset();
+  }
+  return judged_;
+}
+
+// A slope that is small where it was met tells nothing if a steeper one was met elsewhere.
+void SearchTrials::note_reaches(const Evaluation& evaluation) {
+  for (Eigen::Index k = 0; k < reaches_.size(); ++k)
+    if (const double slope = std::abs(evaluation.gradient[k]); slope > 0.0)
+      reaches_[k] = std::min(reaches_[k], std::abs(evaluation.objective) / slope);
 }
 
 double SearchTrials::slope_left() {
@@ -138,8 +160,14 @@ double SearchTrials::stationarity() {
   return slope > 0.0 ? slope / scale() : 0.0;
 }
 
-double SearchTrials::scale() const {
-  return std::max(std::abs(result_.best.objective), kStartCounts * result_.initial.slope);
+double SearchTrials::scale() {
+  const double psi = std::abs(result_.best.objective), slope = best_optimality().slope,
+               scale = std::max(psi, kStartCounts * result_.initial.slope);
+  if (!(psi > 0.0) || !is_sum_of_squares(study_) ||
+      std::any_of(study_.watched.begin(), study_.watched.end(), is_term))
+    return scale;
+  // Of a sum of squares, at least |R|^2: what the objective changes over the ranges.
+  return std::max(scale, kLeastOfSquares * slope * slope / (4.0 * psi));
 }
 
 // Near an optimum the objective falls with the square of the slope.
@@ -162,34 +190,13 @@ void SearchTrials::judge_stop() {
   // A multiplier far below the objective is what rounding leaves.
   result_.optimality.bound_multipliers =
       (at_best.bounds.array().abs() > kLeastMultiplier * scale()).select(at_best.bounds, 0.0);
+  const Eigen::VectorXd unit = extents();
+  for (Eigen::Index k = 0; k < unit.size(); ++k)
+    if (judged_.range(to_index(k)) != unit[k])
+      result_.optimality.bound_multipliers[k] *= unit[k] / judged_.range(to_index(k));
   if (interrupted()) return;
   if (is_success(result_.termination) && best_keeps_bounds() && !is_stationary())
     result_.termination = "stopped_early";
-  if (is_stationary()) find_flat_directions();
-}
-
-void SearchTrials::find_flat_directions() {
-  const auto size = to_signed(study_.tuned.size());
-  if (size < 2 || !is_sum_of_squares(study_)) return;
-  Eigen::MatrixXd root = best_.total.jacobian_root;
-  if (root.size() == 0) {
-    // The Jacobian of so many parameters costs too much.
-    if (size > kMostRootColumns && prefers_adjoint(*ensemble_.scenarios().front().system)) return;
-    const EnsembleEvaluation again =
-        ensemble_.evaluate(result_.best.rho, Derivatives::kGaussNewton, cancel_);
-    result_.cost.statistics += again.total.statistics;
-    if (!again.total.status.ok()) return;
-    root = again.total.jacobian_root;
-  }
-  std::vector<bool> held(study_.tuned.size());
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    const auto i = to_signed(k);
-    root.col(i) *= scaling_.range(k);
-    held[k] = !result_.optimality.influences[k] || result_.optimality.bound_multipliers[i] != 0.0;
-  }
-  result_.optimality.flat_directions = flat_directions(root, best_optimality().active, held);
-  for (Eigen::Index k = 0; k < size; ++k)
-    result_.optimality.flat_directions.row(k) *= scaling_.range(to_index(k));
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
@@ -206,8 +213,10 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     trial.objective = evaluation.objective;
     trial.gradient = evaluation.gradient;
     trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
+    note_reaches(evaluation);
     note_influences(all.gradients);
     for (const Extremes& extremes : all.extremes) note_influences(extremes.gradients);
+    note_change(all, rho);
     take_best(all, rho);
   } else {
     ++result_.cost.failed_evaluations;
@@ -225,6 +234,16 @@ void SearchTrials::note_influences(const Eigen::MatrixXd& gradients) {
     if ((gradients.row(to_signed(k)).array() != 0.0).any()) result_.optimality.influences[k] = true;
 }
 
+/// The objective of a point that differs from the best one in one parameter may differ where the
+/// derivative is zero, as of a step.
+void SearchTrials::note_change(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
+  if (!have_best_ || all.total.objective == result_.best.objective) return;
+  const auto differs = (rho.array() != result_.best.rho.array()).eval();
+  if (differs.count() != 1) return;
+  for (std::size_t k = 0; k < result_.optimality.influences.size(); ++k)
+    if (differs[to_signed(k)]) result_.optimality.influences[k] = true;
+}
+
 double SearchTrials::violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
   double largest = program_.violation(all.extremes, rho);
   if (largest <= kMostViolation) largest = 0.0;
@@ -240,12 +259,11 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   const bool first = !have_best_;
   const double outside = violation(all, rho);
   if (first) {
-    initial_extremes_ = all.extremes;
+    initial_ = all;
     result_.initial.objective = evaluation.objective;
     result_.initial.values = all.values;
     result_.initial.failed = all.failed;
     result_.initial.gradient = evaluation.gradient;
-    result_.initial.slope = optimality_at(all, rho).slope;
   }
   const bool better = first || outside < best_violation_ ||
                       (outside == best_violation_ && evaluation.objective < result_.best.objective);
@@ -258,6 +276,8 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   best_ = all;
   best_optimality_.reset();
   best_watched_.reset();
+  looked_beside_ = false;
+  result_.optimality.flat_directions.resize(0, 0);
   result_.best.failed = all.failed;
   result_.best.gradient = evaluation.gradient;
   result_.warnings = evaluation.warnings;

@@ -14,6 +14,10 @@
 
 namespace codesign {
 
+/// Least multiplier that counts, in the scale of (24j): to widen a bound by 1 % is then worth a
+/// millionth.
+constexpr double kLeastMultiplier = 1e-4;
+
 /// The status of a search that ended because one of its evaluations was interrupted.
 inline Status with_best_kept(const Status& interruption) {
   return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
@@ -51,6 +55,11 @@ class SearchTrials {
   /// Whether the search may end here: stationarity() is at most the root of the relative tolerance
   /// of the objective, and at most 0.001.
   bool is_stationary() { return stationarity() <= most_slope(); }
+  /// Evaluates the objective beside a stationary best point, where its slope tells nothing: to both
+  /// sides along the directions in which the residuals do not change to first order, and of
+  /// parameters without influence; doc/theory.md (24i). The directions that are flat are kept for
+  /// the result. @returns whether a lower point was found, at a saddle; it is then the best one.
+  bool finds_lower_point();
   /// Largest violation of a constraint at the best point, beyond its tolerance; 0 if all
   /// constraints are met.
   double best_violation() const { return best_violation_; }
@@ -59,21 +68,32 @@ class SearchTrials {
   /// The watched signals of the best point; empty without one.
   const std::vector<WatchedResult>& watched_at_best();
   const ParameterRows& parameter_rows() const { return parameter_rows_; }
+  /// The scaling by which stops are judged: it differs from that of the search in the ranges of
+  /// parameters without bounds, which follow from the slopes that the search has met, (24j).
+  const Scaling& judged_scaling();
   /// Whether the search was cancelled, or an evaluation was lost with its worker.
   bool interrupted() const { return !interruption_.ok(); }
 
  private:
   Trial note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   void note_influences(const Eigen::MatrixXd& gradients);
+  void note_reaches(const Evaluation& evaluation);
+  void note_change(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const;
   void judge_end(const std::string& failure);
   void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   double most_slope() const;
-  double scale() const;
+  double scale();
   const Optimality& best_optimality();
   Optimality optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   void judge_stop();
-  void find_flat_directions();
+  /// What lies beside the best point along a direction.
+  enum class Beside { kLower, kSame, kChanged };
+  struct Side;
+  Beside look_beside(const Eigen::VectorXd& direction, const Side& side);
+  Beside look_at(const Eigen::VectorXd& rho, const Side& side, double share);
+  bool has_lower_along_flat();
+  Eigen::VectorXd extents() const;
 
   const Study& study_;
   const OptimizerOptions& options_;
@@ -81,14 +101,17 @@ class SearchTrials {
   const TrialObserver& observer_;
   const std::atomic<bool>* cancel_;
   const Scaling& scaling_;
+  Scaling judged_;  ///< judged_scaling() of the best point, once its optimality was asked for
+  Eigen::VectorXd reaches_;  ///< the least |psi / psi_rho| so far; infinite without a slope
   SmoothProgram& program_;
   const ParameterRows parameter_rows_;
   Eigen::VectorXd last_rho_;
-  EnsembleEvaluation last_, best_;
+  EnsembleEvaluation last_, best_, initial_;
   // Of `best_`, once they were asked for.
   std::optional<Optimality> best_optimality_;
   std::optional<std::vector<WatchedResult>> best_watched_;
-  std::vector<Extremes> initial_extremes_;
+  std::optional<double> initial_slope_;
+  bool looked_beside_ = false;
   OptimizationResult result_;
   Warnings lost_branches_;  ///< the first `branch_lost` of all trial points
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"},
