@@ -26,7 +26,6 @@ constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
 constexpr double kLeastTolerance = 1e-15;
 constexpr double kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
-constexpr double kTiny = 1e-6;     // smaller slopes are below absolute tolerances within NLopt
 // A failed line search has converged if the scaled gradient fell below this fraction of the first.
 constexpr double kSlopeLeft = 1e-2;
 
@@ -268,9 +267,8 @@ class Minimization {
   // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, at
   // most 1.
   void take_unit() {
-    if (!trials_.have_best()) return;
-    const double slope = scaling_.gradient_norm(result_.initial.gradient);
-    unit_ = slope > 0.0 && slope < kTiny ? slope : std::max(1.0, slope);
+    if (trials_.have_best())
+      unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial.gradient));
   }
 
   // The value (24) of a point that cannot be evaluated, from which a line search turns back.

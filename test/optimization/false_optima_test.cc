@@ -181,19 +181,6 @@ TEST(FalseOptima, BoundsThatContradictEachOtherAreNotMetFromFarAway) {
   EXPECT_EQ(result.status.code, StatusCode::kInfeasible) << result.best.rho.transpose();
 }
 
-TEST(FalseOptima, ATinyObjectiveIsSearchedLikeALargeOne) {
-  for (const char* algorithm : {"auto", "slsqp", "mma"}) {
-    const OptimizationResult result =
-        tune(a_and_b(-1.2, 1.0),
-             squares({"1e-6*10*(b-a^2)", "1e-6*(1-a)"},
-                     std::string("path: [{signal: \"${a + 0*slide/position}\", at_most: 4}]\n"
-                                 "optimizer: {max_evaluations: 2000, algorithm: ") +
-                         algorithm + "}\n"));
-    EXPECT_NE(result.termination, "stopped_early") << algorithm;
-    EXPECT_NEAR(result.best.rho[0], 1.0, 0.05) << algorithm;
-  }
-}
-
 TEST(FalseOptima, AKinkIsNoFlatDirection) {
   const OptimizationResult result =
       tune(a_and_b(3.2, -1.0), squares({"sqrt(abs(a-1)+1e-300)", "sqrt(abs(b+a-2)+1e-300)"}));
