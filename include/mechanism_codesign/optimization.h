@@ -99,8 +99,8 @@ struct WatchedResult {
          upper = std::numeric_limits<double>::infinity();
   double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for
                                      ///< `final` the end of the run
-  /// The violation up to which the bounds count as met: the study's, or 1e-5 of the range of the
-  /// signal and its bounds, at least 1e-8.
+  /// The violation up to which the bounds count as met: the study's, or 1e-5 of the largest
+  /// magnitude of the signal at the best point and of its bounds, at least 1e-8.
   double tolerance = 1e-8;
 };
 
@@ -121,8 +121,8 @@ struct DesignPoint {
 struct OptimalityResult {
   double stationarity = std::numeric_limits<double>::quiet_NaN();  ///< the slope relative to psi
   /// Per tuned parameter: by how much psi falls, to first order, if the bound on which it lies is
-  /// moved outwards by the range of the parameter; positive at the lower, negative at the upper
-  /// bound, 0 off the bounds.
+  /// moved outwards by the range of the parameter, or without one by its extent, theory (24j);
+  /// positive at the lower, negative at the upper bound, 0 off the bounds.
   Eigen::VectorXd bound_multipliers;
   Eigen::MatrixXd flat_directions;  ///< in which psi does not change, by rho, one per column;
                                     ///< theory (24i)

@@ -64,6 +64,15 @@ bool has_objective(const MotionStudy& study) {
          std::any_of(study.watched.begin(), study.watched.end(), is_term);
 }
 
+bool has_range(const Parameter& p) {
+  return std::isfinite(p.lower) && std::isfinite(p.upper) && p.upper > p.lower;
+}
+
+double extent(const Parameter& p, double value) {
+  if (has_range(p)) return p.upper - p.lower;
+  return std::max(std::abs(value), p.value != 0.0 ? std::abs(p.value) : 1.0);
+}
+
 std::vector<double> start_parameters(const MotionStudy& study) {
   std::vector<double> values;
   values.reserve(study.parameters.size());

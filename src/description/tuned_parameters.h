@@ -48,6 +48,12 @@ const ControllerDescription* find_rounded(const Study& study);
 /// is. Part of require_tuned().
 void require_differentiable(const Study& study);
 
+/// Whether both bounds are finite and differ.
+bool has_range(const Parameter& parameter);
+/// The range of a parameter between its bounds; where one is missing, the magnitude of its start or
+/// of `value`, whichever is larger.
+double extent(const Parameter& parameter, double value);
+
 /// `[lower, upper]`, the bounds of a parameter as messages show them.
 std::string range_of(const Parameter& parameter);
 

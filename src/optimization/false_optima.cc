@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "math/dense.h"

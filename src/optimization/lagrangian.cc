@@ -120,8 +120,7 @@ Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho,
 
 double tolerance_of_range(const WatchedResult& watched) {
   double range = 0.0;
-  for (const double value : {watched.initial_smallest, watched.initial_largest, watched.smallest,
-                             watched.largest, watched.lower, watched.upper})
+  for (const double value : {watched.smallest, watched.largest, watched.lower, watched.upper})
     if (std::isfinite(value)) range = std::max(range, std::abs(value));
   return std::max(kMostViolation, kShareOfRange * range);
 }
@@ -150,8 +149,8 @@ void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho,
   simulate(&simulation, scenario.system->whole_study().duration, kInstants, widen, cancel);
 }
 
-bool meets_constraints(const OptimizationResult& result) {
-  return all_met(result.constraints.margins) &&
+bool meets_constraints(const Study& study, const OptimizationResult& result) {
+  return all_met(study, result.constraints.margins) &&
          std::all_of(
              result.constraints.watched.begin(), result.constraints.watched.end(),
              [](const WatchedResult& watched) { return watched.violation <= watched.tolerance; });

@@ -40,8 +40,8 @@ Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho,
 /// ones do not make a point worse.
 constexpr double kMostViolation = 1e-8;
 /// The violation at which a bound counts as met at the end of a search, where the study gives no
-/// `tolerance`: this share of the largest magnitude of the signal, at the start and at the end of
-/// the search, and of its bounds; at least kMostViolation.
+/// `tolerance`: this share of the largest magnitude of the signal at the end of the search and of
+/// its bounds; at least kMostViolation.
 constexpr double kShareOfRange = 1e-5;
 
 /// The default of WatchedResult::tolerance, from the values at the instants at which the signal is
@@ -56,7 +56,7 @@ void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho,
                         const std::atomic<bool>* cancel, std::vector<WatchedResult>* watched);
 
 /// Whether the best point of a search meets all constraints, on parameters and on signals.
-bool meets_constraints(const OptimizationResult& result);
+bool meets_constraints(const Study& study, const OptimizationResult& result);
 
 /// A sentence that lists the violated bounds of signals, for the status.
 std::string describe_violated(const std::vector<WatchedResult>& watched);

@@ -14,18 +14,18 @@
 #include "optimization/scaling.h"
 #include "optimization/search_trials.h"
 #include "optimization/smooth_program.h"
+#include "problem/margins.h"
 
 namespace codesign {
 namespace {
 
-// Violation of a constraint row that NLopt accepts, in the unit of the row.
-constexpr double kRowTolerance = 1e-9;
+// Violation of a constraint row that NLopt accepts, in the unit of the row and of least_margin().
+constexpr double kRowTolerance = 1e-9, kRowShare = 1e-2;
 constexpr int kMostRestarts = 8, kMostAttempts = 12;
 constexpr std::int64_t kCallsPerEvaluation = 100;
 constexpr const char* kInsideFinder = "mma";
 constexpr double kLeastTolerance = 1e-15;
 constexpr double kTighten = 1e-3;  // the tolerance of a restart over that of the attempt before
-constexpr double kTiny = 1e-6;     // smaller slopes are below absolute tolerances within NLopt
 // A failed line search has converged if the scaled gradient fell below this fraction of the first.
 constexpr double kSlopeLeft = 1e-2;
 
@@ -71,11 +71,12 @@ class Minimization {
     optimizer->set_maxeval(static_cast<int>(
         std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
     for (Constraint& constraint : constraints_)
-      optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint,
-                                           kRowTolerance);
-    const auto tolerances = [](int rows) {
-      return std::vector<double>(to_index(rows), kRowTolerance);
-    };
+      optimizer->add_inequality_constraint(
+          &Minimization::constraint_callback, &constraint,
+          std::min(
+              kRowTolerance,
+              kRowShare * -least_margin(study_, study_.constraints[constraint.row.constraint])));
+    const auto tolerances = [](int n) { return std::vector<double>(to_index(n), kRowTolerance); };
     if (program_.inequalities() > 0)
       optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this,
                                             tolerances(program_.inequalities()));
@@ -111,9 +112,8 @@ class Minimization {
     run_from(result_.best.rho, optimizer);
   }
 
-  /// Looks for a feasible point by the method of moving asymptotes, which finds one from far away,
-  /// but converges slowly: from the start of the search, since the best point may lie in a valley
-  /// of the violation, later from the best point.
+  /// Looks for a feasible point by the method of moving asymptotes, which finds one from far away:
+  /// from the start, since the best point may lie in a valley of the violation, then from the best.
   void move_inside() {
     OptimizerOptions options = options_;
     options.algorithm = kInsideFinder;
@@ -267,13 +267,11 @@ class Minimization {
   // The first step of a quasi-Newton method is as long as the gradient; divided by unit_, at
   // most 1.
   void take_unit() {
-    if (!trials_.have_best()) return;
-    const double slope = scaling_.gradient_norm(result_.initial.gradient);
-    unit_ = slope > 0.0 && slope < kTiny ? slope : std::max(1.0, slope);
+    if (trials_.have_best())
+      unit_ = std::max(1.0, scaling_.gradient_norm(result_.initial.gradient));
   }
 
-  // The value (24) of a point that cannot be evaluated: worse than all values so far, and larger
-  // with growing distance from the best point, so that a line search turns back.
+  // The value (24) of a point that cannot be evaluated, from which a line search turns back.
   double step_back(const std::vector<double>& x, std::vector<double>* gradient) const {
     if (!trials_.have_best()) throw std::runtime_error("the start could not be evaluated");
     const double weight = std::abs(worst_) + std::abs(result_.best.objective) + 1e-300;

@@ -120,7 +120,7 @@ class Multistart {
         results[k].total.status.code = StatusCode::kCancelled;
         return;
       }
-      if (all_met(parameter_rows_.margins(round[k])))
+      if (all_met(study_, parameter_rows_.margins(round[k])))
         results[k] = ensemble_.evaluate(round[k], false, cancel_);
       if (results[k].values.size() > 0) meter_.count_point();
     });
@@ -202,7 +202,8 @@ class Multistart {
     const OptimizationResult* best = nullptr;
     for (const OptimizationResult& result : *found) {
       if (result.best.gradient.size() == 0) continue;
-      const bool met = meets_constraints(result), best_met = best && meets_constraints(*best);
+      const bool met = meets_constraints(study_, result),
+                 best_met = best && meets_constraints(study_, *best);
       if (!best || (met && !best_met) ||
           (met == best_met && result.best.objective < best->best.objective))
         best = &result;

@@ -4,28 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "math/arrays.h"
 
 namespace codesign {
-namespace {
-
-bool is_bounded(const Parameter& p) {
-  return std::isfinite(p.lower) && std::isfinite(p.upper) && p.upper > p.lower;
-}
-
-}  // namespace
-
-double extent(const Parameter& p, double value) {
-  if (is_bounded(p)) return p.upper - p.lower;
-  return std::max(std::abs(value), p.value != 0.0 ? std::abs(p.value) : 1.0);
-}
-
 Scaling::Scaling(const Study& study) : study_(study), start_(to_signed(study.tuned.size())) {
   for (std::size_t k = 0; k < study.tuned.size(); ++k) {
     const Parameter& p = study.parameters[to_index(study.tuned[k])];
     start_[to_signed(k)] = p.value;
-    origin_.push_back(is_bounded(p) ? p.lower : 0.0);
+    origin_.push_back(has_range(p) ? p.lower : 0.0);
     range_.push_back(extent(p, 0.0));
     lower_.push_back((p.lower - origin_[k]) / range_[k]);
     upper_.push_back((p.upper - origin_[k]) / range_[k]);
@@ -34,7 +21,7 @@ Scaling::Scaling(const Study& study) : study_(study), start_(to_signed(study.tun
 
 bool Scaling::reach(std::size_t k, double rho, double reach) {
   const Parameter& p = study_.parameters[to_index(study_.tuned[k])];
-  if (is_bounded(p)) return false;
+  if (has_range(p)) return false;
   const double least = extent(p, rho), before = range_[k];
   range_[k] = std::min(kFarthest * least, std::max(least, reach));
   lower_[k] = p.lower / range_[k];

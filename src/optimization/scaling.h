@@ -6,12 +6,8 @@
 
 namespace codesign {
 
-struct Parameter;
 struct Study;
 
-/// The range of a parameter between its bounds; where one is missing, the magnitude of its start or
-/// of `value`, the larger of the two.
-double extent(const Parameter& parameter, double value);
 /// The largest range of a parameter without bounds, in its extent: farther ones follow from slopes
 /// that are rounding.
 constexpr double kFarthest = 1e6;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "optimization/algorithm.h"
@@ -120,15 +120,17 @@ void add_bound_warning(const Parameter& parameter, double value, double multipli
   const double worth = kWidening * std::abs(multiplier),
                share = objective != 0.0 ? worth / std::abs(objective) : 1.0;
   if (!at_lower && !at_upper) return;
-  warnings->push_back(warn(
-      "parameter_on_bound",
-      {parameter.where, parameter.name,
-       std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
-           " bound; to widen the bound by " + readable(kWidening * extent(parameter, value), 2) +
-           " would lower the objective by about " + readable(worth, 2) + " (" +
-           readable(100.0 * share, 2) + " %); widen it if it was a guess",
-       to_decimal(value),
-       "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
+  warnings->push_back(
+      warn("parameter_on_bound",
+           {parameter.where, parameter.name,
+            std::string("the best value lies on its ") + (at_lower ? "lower" : "upper") +
+                " bound; to widen the bound by " +
+                (has_range(parameter) ? "1 % of the range"
+                                      : readable(kWidening * extent(parameter, value), 2)) +
+                " would lower the objective by about " + readable(worth, 2) + " (" +
+                readable(100.0 * share, 2) + " %); widen it if it was a guess",
+            to_decimal(value),
+            "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]"}));
 }
 
 /// The parameters without a bound along which a negative objective fell until they were large.
@@ -139,7 +141,9 @@ std::string endless(const Study& study, const OptimizationResult& result) {
     if (std::abs(result.best.rho[to_signed(k)]) > kFarthest * extent(parameter, 0.0))
       names += (names.empty() ? "" : ", ") + parameter.name;
   }
-  return names.empty() ? "" : ", and the objective falls without end along " + names;
+  return names.empty()
+             ? ""
+             : ", and the objective falls without end along " + names + ": give it bounds";
 }
 
 void add_stop_warning(const Study& study, const OptimizerOptions& options,

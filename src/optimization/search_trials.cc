@@ -92,7 +92,7 @@ bool SearchTrials::best_keeps_bounds() {
   OptimizationResult best;
   best.constraints.margins = parameter_rows_.margins(result_.best.rho);
   best.constraints.watched = watched_at_best();
-  return !best.constraints.watched.empty() && meets_constraints(best);
+  return !best.constraints.watched.empty() && meets_constraints(study_, best);
 }
 
 // If no point meets the constraints, rounding decides in which way an algorithm ends. The status is
@@ -103,7 +103,7 @@ void SearchTrials::judge_end(const std::string& failure) {
              is_outside = !best_keeps_bounds();
   std::string cause;
   if (is_outside)
-    cause = all_met(result_.constraints.margins)
+    cause = all_met(study_, result_.constraints.margins)
                 ? describe_violated(result_.constraints.watched)
                 : describe_unmet(study_, result_.constraints.margins);
   if (has_failed)
@@ -247,10 +247,13 @@ void SearchTrials::note_change(const EnsembleEvaluation& all, const Eigen::Vecto
 double SearchTrials::violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
   double largest = program_.violation(all.extremes, rho);
   if (largest <= kMostViolation) largest = 0.0;
-  for (const double margin : parameter_rows_.margins(rho))
-    if (!(margin >= kMet))
+  const Eigen::VectorXd margins = parameter_rows_.margins(rho);
+  for (std::size_t k = 0; k < study_.constraints.size(); ++k) {
+    const double margin = margins[to_signed(k)];
+    if (!(margin >= least_margin(study_, study_.constraints[k])))
       largest =
           std::max(largest, std::isnan(margin) ? std::numeric_limits<double>::infinity() : -margin);
+  }
   return largest;
 }
 

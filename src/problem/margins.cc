@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "problem/margins.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -28,9 +29,20 @@ std::vector<ValueRange> ranges_of(const Study& study) {
 
 }  // namespace
 
-bool all_met(const Eigen::VectorXd& margins) {
-  for (double margin : margins)
-    if (!(margin >= kMet)) return false;
+double least_margin(const Study& study, const ParameterConstraint& constraint) {
+  constexpr double kShare = 1e-7;
+  const std::vector<double> start = start_parameters(study);
+  double magnitude = std::abs(constraint.margin->value(start));
+  for (const int k : constraint.margin->dependencies())
+    magnitude += std::abs(constraint.margin->derivative(k, start)) *
+                 extent(study.parameters[to_index(k)], 0.0);
+  // Where it is no number or zero, nothing is known of it.
+  return -kShare * (magnitude > 0.0 ? std::min(1.0, magnitude) : 1.0);
+}
+
+bool all_met(const Study& study, const Eigen::VectorXd& margins) {
+  for (std::size_t k = 0; k < study.constraints.size(); ++k)
+    if (!(margins[to_signed(k)] >= least_margin(study, study.constraints[k]))) return false;
   return true;
 }
 
@@ -38,7 +50,7 @@ std::string describe_unmet(const Study& study, const Eigen::VectorXd& margins) {
   std::string list;
   for (std::size_t k = 0; k < study.constraints.size(); ++k) {
     const double margin = margins[to_signed(k)];
-    if (margin >= kMet) continue;
+    if (margin >= least_margin(study, study.constraints[k])) continue;
     list += (list.empty() ? "\"" : ", \"") + study.constraints[k].text + "\" (margin " +
             to_decimal(margin) + ")";
   }
@@ -57,7 +69,8 @@ Warnings unsatisfiable_constraints(const Study& study) {
   const std::vector<ValueRange> ranges = ranges_of(study);
   Warnings warnings;
   for (const ParameterConstraint& constraint : study.constraints)
-    if (const double most = constraint.margin->range(ranges).upper; most < kMet)
+    if (const double most = constraint.margin->range(ranges).upper;
+        most < least_margin(study, constraint))
       warnings.push_back(
           warn("unsatisfiable_constraint",
                {constraint.where, constraint.element,
@@ -73,7 +86,8 @@ void require_ordered_bounds(const Study& study) {
   for (const ParameterConstraint& constraint : study.constraints) {
     // The sum of the margins e - lower and upper - e.
     if (before && before->element == constraint.element &&
-        before->margin->value(start) + constraint.margin->value(start) < kMet)
+        before->margin->value(start) + constraint.margin->value(start) <
+            least_margin(study, constraint))
       throw InputError({constraint.where, constraint.element,
                         "the lower bound must be less than the upper one at the parameters' start",
                         before->text + ", " + constraint.text, "lower < upper"});

@@ -10,15 +10,18 @@
 
 namespace codesign {
 
+struct ParameterConstraint;
 struct Study;
 
-/// A parameter constraint counts as met if its margin is at least this. It is slightly negative
-/// because NLopt's algorithms end on the boundary of the constraints, where rounding may leave
-/// either sign.
-constexpr double kMet = -1e-7;
+/// The negative margin down to which a parameter constraint counts as met, because NLopt's
+/// algorithms end on the boundary of the constraints, where rounding may leave either sign: -1e-7,
+/// or where that is less 1e-7 of the margin's magnitude, which is what it is at the start and what
+/// its parameters change it, to first order, over their ranges; doc/theory.md (24f).
+double least_margin(const Study& study, const ParameterConstraint& constraint);
 
-/// Whether every margin is at least kMet; a margin that is NaN is not.
-bool all_met(const Eigen::VectorXd& margins);
+/// Whether every margin is at least least_margin(); a margin that is NaN is not. @param margins
+/// order of Study::constraints.
+bool all_met(const Study& study, const Eigen::VectorXd& margins);
 
 /// A sentence that lists the violated constraints with their margins, for the status of an
 /// optimization.

@@ -161,17 +161,24 @@ TEST(FalseOptima, AnOptimumStaysOne) {
   }
 }
 
-TEST(FalseOptima, ATinyObjectiveIsSearchedLikeALargeOne) {
-  for (const char* algorithm : {"auto", "slsqp", "mma"}) {
-    const OptimizationResult result =
-        tune(a_and_b(-1.2, 1.0),
-             squares({"1e-6*10*(b-a^2)", "1e-6*(1-a)"},
-                     std::string("path: [{signal: \"${a + 0*slide/position}\", at_most: 4}]\n"
-                                 "optimizer: {max_evaluations: 2000, algorithm: ") +
-                         algorithm + "}\n"));
-    EXPECT_NE(result.termination, "stopped_early") << algorithm;
-    EXPECT_NEAR(result.best.rho[0], 1.0, 0.05) << algorithm;
-  }
+TEST(FalseOptima, ADesignOutsideASmallConstraintIsNone) {
+  const std::string residuals = squares({"(a-9e-8)*1e8", "b-.3"}, "constraints: [\"a <= 5e-8\"]\n");
+  const OptimizationResult result =
+      tune("<codesign:parameter name=\"a\" value=\"2e-8\" lower=\"0\" upper=\"1e-6\"/>" +
+               parameter("b", 0.5, "lower=\"0\" upper=\"1\""),
+           residuals);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_NEAR(result.best.rho[0], 5e-8, 1e-12);
+}
+
+TEST(FalseOptima, BoundsThatContradictEachOtherAreNotMetFromFarAway) {
+  const OptimizationResult result =
+      tune(parameter("a", 1e4, "lower=\"-1e5\" upper=\"1e5\"") +
+               parameter("b", 0.0, "lower=\"-10\" upper=\"10\""),
+           squares({"b-1"},
+                   "path: [{signal: \"${a + 0*slide/position}\", at_most: 0.05}, "
+                   "{signal: \"${a + 0*slide/position}\", at_least: 0.1}]\n"));
+  EXPECT_EQ(result.status.code, StatusCode::kInfeasible) << result.best.rho.transpose();
 }
 
 TEST(FalseOptima, AKinkIsNoFlatDirection) {

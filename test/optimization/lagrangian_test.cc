@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "ensemble/ensemble_fixture.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/lagrangian.h"
@@ -143,24 +143,29 @@ TEST(ViolatedBounds, AreThoseBeyondTheTolerance) {
 TEST(ViolatedBounds, TheToleranceFollowsTheRangeOfSignalAndBounds) {
   WatchedResult swing;
   EXPECT_EQ(tolerance_of_range(swing), kMostViolation);
-  swing.initial_largest = 2.0;
+  swing.initial_largest = 20.0;
   swing.smallest = -1.0;
   swing.lower = -3.0;
-  EXPECT_DOUBLE_EQ(tolerance_of_range(swing), 3e-5) << "an infinite bound has no magnitude";
+  EXPECT_DOUBLE_EQ(tolerance_of_range(swing), 3e-5)
+      << "an infinite bound has no magnitude, and the start does not count";
 }
 
 TEST(ViolatedBounds, ARestIsNoViolation) {
   OptimizationResult result;
-  EXPECT_TRUE(meets_constraints(result)) << "there are none";
+  Study study;
+  EXPECT_TRUE(meets_constraints(study, result)) << "there are none";
+  study.parameters.resize(1);
+  study.constraints = {parse_constraint("a >= 3", {"a"}, {}, ""),
+                       parse_constraint("a <= 3", {"a"}, {}, "")};
   result.constraints.watched.resize(2);
   result.constraints.watched[1].violation = 1e-9;
   result.constraints.margins = Eigen::Vector2d(0.0, 3.0);
-  EXPECT_TRUE(meets_constraints(result));
+  EXPECT_TRUE(meets_constraints(study, result));
   result.constraints.watched[1].violation = 1e-6;
-  EXPECT_FALSE(meets_constraints(result));
+  EXPECT_FALSE(meets_constraints(study, result));
   result.constraints.watched[1].violation = 0.0;
   result.constraints.margins[0] = -1e-3;
-  EXPECT_FALSE(meets_constraints(result));
+  EXPECT_FALSE(meets_constraints(study, result));
 }
 
 }  // namespace

@@ -42,6 +42,18 @@ TEST(Margins, AConstraintThatNoDesignMeetsIsDoubted) {
   EXPECT_TRUE(warnings_of("\"sqrt(Kp) >= 15\"").empty()) << "not known cheaply";
 }
 
+TEST(Margins, WhatCountsAsMetFollowsFromTheMagnitude) {
+  const Problem problem =
+      block("constraints: [\"Kp <= 30\", \"1e-9*Kp <= 1e-8*Kd\", \"0*Kp >= 0\"]\n");
+  const Study& study = study_of(problem);
+  EXPECT_DOUBLE_EQ(least_margin(study, study.constraints[0]), -1e-7);
+  // 1e-8*5 - 1e-9*20 at the start, 1e-9*200 and 1e-8*50 over the ranges.
+  EXPECT_DOUBLE_EQ(least_margin(study, study.constraints[1]), -1e-7 * (3e-8 + 2e-7 + 5e-7));
+  EXPECT_DOUBLE_EQ(least_margin(study, study.constraints[2]), -1e-7) << "nothing is known of it";
+  EXPECT_TRUE(all_met(study, Eigen::Vector3d(-0.9e-7, 0.0, 0.0)));
+  EXPECT_FALSE(all_met(study, Eigen::Vector3d(0.0, -0.9e-13, 0.0)));
+}
+
 TEST(Margins, BoundsThatSettingsPutOutOfOrderAreRefused) {
   const Problem problem =
       block("constraints: [{expression: \"${Kp}\", between: [\"${10*mass}\", 30]}]\n");
