@@ -59,13 +59,13 @@ TEST(RosenbrockGradient, RoundingIsNoErrorOfASensitivity) {
   replace("ixx='0.0834'", "ixx='0.0834' codesign:ixx='${0.0834*m}'");
   replace("iyy='0.0834'", "iyy='0.0834' codesign:iyy='${0.0834*m}'");
   replace("izz='0.001'", "izz='0.001' codesign:izz='${0.001*m}'");
-  replace("<link name='ground'/>",
-          "<codesign:parameter name='m' value='1'/><link name='ground'/>");
+  replace("<link name='ground'/>", "<codesign:parameter name='m' value='1'/><link name='ground'/>");
   const auto steps = [&scaled](const std::string& solver) {
     const auto system = compile(
         scaled,
         "duration: 2.0\ninitial_state: {shoulder: {position: 1.2}, elbow: {velocity: 3.0}}\n"
-        "parameters: {m: {initial: 1.3}}\nobjective: {integral: [{signal: shoulder/position}]}\nsolver: {" +
+        "parameters: {m: {initial: 1.3}}\nobjective: {integral: [{signal: "
+        "shoulder/position}]}\nsolver: {" +
             solver + "}\n");
     const Evaluation evaluation = evaluator_of(system).evaluate_design({1.3}, true);
     EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
