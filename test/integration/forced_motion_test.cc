@@ -5,6 +5,7 @@
 
 #include "description/solver_names.h"
 #include "integration/equal_steps.h"
+#include "integration/integrator.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/servo.h"
 #include "integration/simulation_of.h"

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "description/study.h"
+#include "equations/equations.h"
 #include "integration/integrator.h"
 #include "integration/servo.h"
 #include "integration/step_control.h"
