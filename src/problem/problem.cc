@@ -76,7 +76,7 @@ void apply_design(const SavedDesign& design, Study* study, Warnings* warnings) {
     misfit.empty() ? static_cast<void>(++fitting) : note(misfit);
   }
   if (fitting == 0 && !(design.values.empty() && study->tuned.empty()))
-    throw InputError({{design.file, 0},
+    throw InputError({{design.file, 1},
                       "result",
                       "no value of this result fits the model and the study: " +
                           (misfits.empty() ? "it has no values of parameters" : misfits),
