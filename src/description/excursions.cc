@@ -74,14 +74,12 @@ class Samples {
   std::vector<double> values_;
 };
 
-/// The start values, changed by a tenth of the range of each tuned parameter.
+/// The start values, changed by a tenth of the extent of each tuned parameter.
 std::vector<double> beside_start(const MotionStudy& study) {
   std::vector<double> values = start_parameters(study);
   for (const int index : study.tuned) {
     const Parameter& parameter = study.parameters[to_index(index)];
-    const double range = parameter.upper - parameter.lower;
-    values[to_index(index)] +=
-        0.1 * (std::isfinite(range) ? range : std::max(1.0, std::abs(parameter.value)));
+    values[to_index(index)] += 0.1 * extent(parameter, parameter.value);
   }
   return values;
 }

@@ -258,7 +258,7 @@ GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, 
 void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,
                  const std::atomic<bool>* cancel, GradientCheck* check) {
   if (!check->status.ok() || check->method != CheckMethod::kComplexStep) return;
-  const EnsembleEvaluation all = ensemble.evaluate(rho, true, cancel);
+  const EnsembleEvaluation all = ensemble.evaluate(rho, false, cancel);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(check->reference.size());
   for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
     const double factor = all.total.status.ok() ? all.by_value[to_signed(k)] : 0.0;
