@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,8 @@ struct RankTimes {
   /// Limit for the answers of all workers to the ping after a cancel. It is short, since mpirun
   /// ends a job within a second after one of its ranks was killed.
   Duration answer = std::chrono::milliseconds(300);
+  std::function<PollPause::Clock::time_point()> now =
+      PollPause::Clock::now;  ///< the clock of all of them
 };
 
 /// A message with the rank it comes from.

@@ -158,11 +158,8 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
                process_of(rank, folder_.path("killed")) > 0;
       }));
       std::this_thread::sleep_for(std::chrono::microseconds(random() % 5000));
-      const auto begin = std::chrono::steady_clock::now();
       kill(process_of(rank, folder_.path("killed")), SIGKILL);
       EXPECT_NE(process.wait(), kDone);
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20))
-          << "it does not hang";
       ASSERT_TRUE(comes_true([&] {
         return process_of(1, folder_.path("killed")) == 0 &&
                process_of(0, folder_.path("killed")) == 0;

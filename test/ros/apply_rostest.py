@@ -22,7 +22,7 @@ from std_msgs.msg import Empty, Float64
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mock_robot import START, MockGains, MockJoints  # noqa: E402
-from node_process import TIMEOUT, NodesTestCase, wait_until  # noqa: E402
+from node_process import PATIENCE, NodesTestCase, wait_until  # noqa: E402
 
 MODEL = """<robot name="arm">
   <link name="base"/>
@@ -90,7 +90,7 @@ class ApplyTest(NodesTestCase):
 
     def apply(self, *words, job=None):
         process = self.start_apply(*words, job=job)
-        out, err = process.communicate(timeout=TIMEOUT)
+        out, err = process.communicate(timeout=PATIENCE)
         return process.returncode, json.loads(out) if out else {}, err
 
     def copy_of_job(self):
@@ -177,7 +177,7 @@ class ApplyTest(NodesTestCase):
         MockGains("/mortal/arm_controller/gains/elbow")
         with subprocess.Popen([sys.executable, path, "/mortal/arm_controller/gains/shoulder", "3"]) as mortal:
             returned, answer, _ = self.apply(*QUICK, "__ns:=/mortal", "--joint-states", "/joint_states")
-            self.assertEqual(mortal.wait(TIMEOUT), 1)
+            self.assertEqual(mortal.wait(PATIENCE), 1)
         self.assertEqual((returned, answer["error"]["code"]), (1, "rollback_failed"))
         self.assertIn("not confirmed their values before: /mortal/arm_controller/gains/shoulder", answer["error"]["message"])
         for change in answer["changes"]:
@@ -258,7 +258,7 @@ class ApplyTest(NodesTestCase):
             process = self.start_apply("--ramp", "60")
             wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
             end(process)
-            out, _ = process.communicate(timeout=TIMEOUT)
+            out, _ = process.communicate(timeout=PATIENCE)
             self.check_taken_back((process.returncode, json.loads(out), ""), "cancelled", "all servers have their values before")
 
     def test_an_end_of_the_node(self):
@@ -275,14 +275,14 @@ class ApplyTest(NodesTestCase):
             self.copy_of_job()
             files = {key: os.path.join(self.root, file) for key, file in (("model", "arm.urdf"), ("study", "arm.yaml"))}
             node = self.start("optimization", name, output_directory=self.folder, **files)
-            rospy.wait_for_service(f"/{name}/apply", TIMEOUT)
+            rospy.wait_for_service(f"/{name}/apply", PATIENCE)
             thread = threading.Thread(target=call, args=(rospy.ServiceProxy(f"/{name}/apply", Apply),))
             thread.start()
             wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
             self.assertNotEqual(self.elbow.has()["p"], START["p"])
             end(node)
-            self.assertEqual(node.process.wait(TIMEOUT), 0, node.output())
-            thread.join(TIMEOUT)
+            self.assertEqual(node.process.wait(PATIENCE), 0, node.output())
+            thread.join(PATIENCE)
             for gains in (self.shoulder, self.elbow):
                 self.assertEqual({one: gains.has()[one] for one in BEFORE}, BEFORE, name)
             shutil.rmtree(self.folder)
@@ -327,7 +327,7 @@ class ApplyTest(NodesTestCase):
     def test_the_service_of_the_node(self):
         study = os.path.join(self.root, "arm.yaml")
         node = self.start("optimization", "tuner", model=os.path.join(self.root, "arm.urdf"), study=study, output_directory=self.folder)
-        rospy.wait_for_service("/tuner/apply", TIMEOUT)
+        rospy.wait_for_service("/tuner/apply", PATIENCE)
         apply = rospy.ServiceProxy("/tuner/apply", Apply)
         self.assertIn("no optimization yet", apply(ApplyRequest()).message)
         result = node.optimize(OptimizeRequest())

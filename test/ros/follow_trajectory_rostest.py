@@ -11,7 +11,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import SHARE, TIMEOUT  # noqa: E402
+from node_process import SHARE, PATIENCE  # noqa: E402
 from robot_node import Robot  # noqa: E402
 
 
@@ -24,7 +24,7 @@ class FollowTrajectoryTest(unittest.TestCase):
         cls.client = re.search(r"```python\n(.*?)```", section, re.DOTALL).group(1)
 
     def run_client(self, text):
-        done = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True, timeout=TIMEOUT, env={**os.environ, "ROS_NAMESPACE": "/robot"})
+        done = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True, timeout=PATIENCE, env={**os.environ, "ROS_NAMESPACE": "/robot"})
         return done.stdout
 
     def test_it_reaches_the_last_point(self):

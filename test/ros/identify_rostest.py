@@ -20,7 +20,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import TIMEOUT, NodesTestCase, files  # noqa: E402
+from node_process import PATIENCE, NodesTestCase, files  # noqa: E402
 
 # An arm on a vertical axis. The rig has the inertia 0.3 and the damping 0.4.
 MODEL = """<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
@@ -92,11 +92,11 @@ class IdentifyTest(NodesTestCase):
 
     def client(self, name):
         client = actionlib.SimpleActionClient(f"/{name}/identify", IdentifyAction)
-        self.assertTrue(client.wait_for_server(rospy.Duration(TIMEOUT)), "no action")
+        self.assertTrue(client.wait_for_server(rospy.Duration(PATIENCE)), "no action")
         return client
 
     def identify(self, name, **fields):
-        rospy.wait_for_service(f"/{name}/identify", TIMEOUT)
+        rospy.wait_for_service(f"/{name}/identify", PATIENCE)
         return rospy.ServiceProxy(f"/{name}/identify", Identify)(IdentifyRequest(**fields))
 
     def test_goal_feedback_and_result(self):
@@ -104,7 +104,7 @@ class IdentifyTest(NodesTestCase):
         self.start_node("told", "  intervals: {profiles: true}\n")
         client, told = self.client("told"), []
         client.send_goal(IdentifyGoal(), feedback_cb=lambda feedback: told.append(feedback.progress))
-        self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)))
+        self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
         result = client.get_result()
         self.assertEqual(client.get_state(), GoalStatus.SUCCEEDED, result.message)
         found = {number.name: number for number in result.numbers}
@@ -117,9 +117,9 @@ class IdentifyTest(NodesTestCase):
         self.assertEqual([fit.joint for fit in result.holdout], ["hinge"])
         self.check_progress(told, result)
         self.check_files(result)
-        last = rospy.wait_for_message("/told/identification_progress", IdentificationProgress, TIMEOUT)
+        last = rospy.wait_for_message("/told/identification_progress", IdentificationProgress, PATIENCE)
         self.assertEqual((last.job, last.seconds_left), (result.job, 0.0))
-        urdf = rospy.wait_for_message("/told/identified/robot_description", String, TIMEOUT).data
+        urdf = rospy.wait_for_message("/told/identified/robot_description", String, PATIENCE).data
         self.assertIn(f'name="inertia" value="{found["inertia"].value!r}"', urdf)
         # The service takes the same request; chosen parameters alone are fitted.
         reply = self.identify("told", parameters=["viscous"], start=[1.0])
@@ -163,11 +163,11 @@ class IdentifyTest(NodesTestCase):
         client, begun = self.client("ended"), threading.Event()
         client.send_goal(IdentifyGoal(parameters=["inertia", "viscous"], start=[4.0, 9.0]),
                          feedback_cb=lambda feedback: begun.set() if feedback.progress.stage == "fitting" else None)
-        self.assertTrue(begun.wait(TIMEOUT))
+        self.assertTrue(begun.wait(PATIENCE))
         reply = rospy.ServiceProxy("/ended/cancel", Trigger)()
         self.assertTrue(reply.success)
         self.assertIn("cancelled the identification", reply.message)
-        self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)))
+        self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
         result = client.get_result()
         self.assertEqual(result.code, "cancelled")
         self.assertTrue(os.path.isfile(result.bag))
@@ -181,12 +181,12 @@ class IdentifyTest(NodesTestCase):
                 client, begun = self.client("cancelled"), threading.Event()
                 client.send_goal(IdentifyGoal(parameters=["inertia", "viscous"], start=[4.0, 9.0]),
                                  feedback_cb=lambda feedback, at=stage: begun.set() if feedback.progress.stage == at else None)
-                self.assertTrue(begun.wait(TIMEOUT))
+                self.assertTrue(begun.wait(PATIENCE))
                 # Meanwhile another request is refused, and the node answers.
                 self.assertEqual(self.identify("cancelled").code, "busy")
                 begin = time.monotonic()
                 client.cancel_goal()
-                self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)))
+                self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
                 seconds = time.monotonic() - begin
                 result = client.get_result()
                 print(f"{stage}: cancelled in {seconds:.3f} s, {result.evaluations} evaluations", flush=True)

@@ -18,7 +18,7 @@ from actionlib_msgs.msg import GoalID
 from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, Node, NodesTestCase, files, wait_until  # noqa: E402
+from node_process import SHARE, PATIENCE, Node, NodesTestCase, files, wait_until  # noqa: E402
 
 LONG = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000)
 SHORT = OptimizeRequest(max_evaluations=1)

@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import Node, SHARE, TIMEOUT, state_of, values_of, wait_until  # noqa: E402
+from node_process import Node, SHARE, PATIENCE, state_of, values_of, wait_until  # noqa: E402
 from robot_node import Latest, Robot, settled  # noqa: E402
 
 NAME = "/robot/simulation"
@@ -31,8 +31,8 @@ class LiveParametersTest(unittest.TestCase):
         cls.loops = Latest("/robot/loop_errors", LoopErrors)
         cls.descriptions = Latest("/robot/robot_description", String)
         cls.updates = []
-        cls.client = Client(NAME, timeout=TIMEOUT, config_callback=cls.updates.append)
-        cls.initial = dict(cls.client.get_configuration(TIMEOUT))
+        cls.client = Client(NAME, timeout=PATIENCE, config_callback=cls.updates.append)
+        cls.initial = dict(cls.client.get_configuration(PATIENCE))
         for _ in range(10):
             cls.robot.step()
 
@@ -42,7 +42,7 @@ class LiveParametersTest(unittest.TestCase):
         settled(self.robot.joints.messages)
 
     def test_every_parameter_has_its_bounds(self):
-        described = {each["name"]: each for each in self.client.get_parameter_descriptions(TIMEOUT)}
+        described = {each["name"]: each for each in self.client.get_parameter_descriptions(PATIENCE)}
         self.assertEqual(set(described), {"crank_length", "rod_length", "slider_length", "slider_width", "Kp"})
         crank, gain = described["crank_length"], described["Kp"]
         self.assertEqual((crank["type"], crank["min"], crank["max"], crank["default"]), ("double", 0.06, 0.1, 0.08))
@@ -97,7 +97,7 @@ class LiveParametersTest(unittest.TestCase):
         for thread in threads:
             thread.start()
         for thread in threads:
-            thread.join(TIMEOUT)
+            thread.join(PATIENCE)
         self.assertEqual(len(answers), 8)
         self.robot.step()
 
@@ -111,7 +111,7 @@ class LiveParametersTest(unittest.TestCase):
             node = Node("simulation", "wide", model=path, study=f"{SHARE}/config/slider_crank.yaml", rate=100.0, duration=1000.0,
                         mode="as_fast_as_possible", start_paused=True)
             try:
-                client = Client("/wide", timeout=TIMEOUT)
+                client = Client("/wide", timeout=PATIENCE)
                 step = rospy.ServiceProxy("/wide/step", Trigger)
                 # The crank turns by some 0.1 rad in each; at 1 rad a rod of 0.3 m does not reach the slider from a crank of 0.9 m.
                 for _ in range(10):
@@ -129,7 +129,7 @@ class LiveParametersTest(unittest.TestCase):
     def test_a_restart_keeps_the_values(self):
         self.client.update_configuration({"Kp": 3.0})
         self.assertTrue(self.robot.call("restart").success)
-        self.assertEqual(self.client.get_configuration(TIMEOUT)["Kp"], 3.0)
+        self.assertEqual(self.client.get_configuration(PATIENCE)["Kp"], 3.0)
         self.robot.step()
         state = self.robot.controller_states()
         self.assertAlmostEqual(state.output[0], 3.0 * state.error[0], delta=1e-9)

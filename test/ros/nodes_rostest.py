@@ -14,7 +14,7 @@ import tf2_ros
 from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
+from node_process import SHARE, PATIENCE, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
 
 
 class NodesTest(NodesTestCase):
@@ -128,13 +128,13 @@ class NodesTest(NodesTestCase):
     def test_the_description_is_that_of_the_mechanism_and_the_rod_ends_in_the_slider(self):
         launch = Launch("simulate.launch", "rviz:=false", "set:={crank_length: 0.1}", "time_scale:=0.2")
         try:
-            text = rospy.wait_for_message("robot_description", String, TIMEOUT).data
+            text = rospy.wait_for_message("robot_description", String, PATIENCE).data
             self.assertEqual(rospy.get_param("robot_description").strip(), text.strip())
             self.assertIn('name="crank_length" value="0.1"', text)
             buffer = tf2_ros.Buffer()
             listener = tf2_ros.TransformListener(buffer)
             for _ in range(10):
-                pin = buffer.lookup_transform("slider", "rod", rospy.Time(0), rospy.Duration(TIMEOUT)).transform
+                pin = buffer.lookup_transform("slider", "rod", rospy.Time(0), rospy.Duration(PATIENCE)).transform
                 r, p = pin.rotation, pin.translation
                 axis = (1 - 2 * (r.y**2 + r.z**2), 2 * (r.x * r.y + r.w * r.z), 2 * (r.x * r.z - r.w * r.y))
                 for end in (p.x + 0.3 * axis[0], p.y + 0.3 * axis[1], p.z + 0.3 * axis[2]):
@@ -159,9 +159,9 @@ class NodesTest(NodesTestCase):
         buffer = tf2_ros.Buffer()
         listener = tf2_ros.TransformListener(buffer)
         for side, length in (("left", 0.09), ("right", 0.07)):
-            tip = buffer.lookup_transform(f"{side}/crank", f"{side}/rod", rospy.Time(0), rospy.Duration(TIMEOUT)).transform.translation
+            tip = buffer.lookup_transform(f"{side}/crank", f"{side}/rod", rospy.Time(0), rospy.Duration(PATIENCE)).transform.translation
             self.assertAlmostEqual((tip.x**2 + tip.y**2 + tip.z**2) ** 0.5, length, delta=1e-9)
-            buffer.lookup_transform("world", f"{side}/slider", rospy.Time(0), rospy.Duration(TIMEOUT))
+            buffer.lookup_transform("world", f"{side}/slider", rospy.Time(0), rospy.Duration(PATIENCE))
         listener.unregister()
 
 

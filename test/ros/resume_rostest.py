@@ -17,7 +17,7 @@ from mechanism_codesign.msg import OptimizeAction, OptimizeGoal
 from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, NodesTestCase, files, wait_until  # noqa: E402
+from node_process import SHARE, PATIENCE, NodesTestCase, files, wait_until  # noqa: E402
 
 # Searches over two runs at three samples, on two threads: 36 runs of screening, then searches, then 400 runs of validation.
 BLOCKS = """
@@ -50,7 +50,7 @@ class Job:
     def __init__(self, name, goal):
         self.progress, self.changed = [], threading.Event()
         self.client = actionlib.SimpleActionClient(f"/{name}/optimize", OptimizeAction)
-        assert self.client.wait_for_server(rospy.Duration(TIMEOUT)), "no action"
+        assert self.client.wait_for_server(rospy.Duration(PATIENCE)), "no action"
         self.client.send_goal(goal, feedback_cb=self.receive)
 
     def receive(self, feedback):
@@ -59,7 +59,7 @@ class Job:
 
     def wait_for(self, condition):
         """Waits for feedback that meets the condition, and returns it."""
-        end = time.monotonic() + TIMEOUT
+        end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             for progress in list(self.progress):
                 if condition(progress):
@@ -69,7 +69,7 @@ class Job:
         raise AssertionError("no such progress")
 
     def result(self):
-        assert self.client.wait_for_result(rospy.Duration(5 * TIMEOUT)), "no result"
+        assert self.client.wait_for_result(rospy.Duration(5 * PATIENCE)), "no result"
         return self.client.get_result()
 
 
