@@ -87,12 +87,11 @@ class Optimization(Files):
         self.assertFalse(os.path.exists(self.path("job")))
 
     def test_an_event_ends_it_with_the_best_point(self):
-        event = threading.Event()
+        event = Asked()
 
         def progress(trial):
             if isinstance(trial, codesign.Trial) and trial.evaluation == 3:
-                event.set()
-                time.sleep(0.2)  # the event is asked every 50 ms
+                event.set_and_seen()
 
         result = codesign.Problem(PENDULUM, SWING).optimize(progress, event)
         self.assertEqual((result.status.code, result.termination), ("cancelled", "cancelled"))
@@ -147,9 +146,8 @@ class Optimization(Files):
             raise ZeroDivisionError("mine")
 
         def progress(trial):
-            event = threading.Event()
-            event.set()
-            ends.append(problem.optimize(lambda trial: time.sleep(0.1), event).status.code)
+            event = Asked()
+            ends.append(problem.optimize(lambda trial: event.set_and_seen(), event).status.code)
             try:
                 problem.optimize(fail)
             except ZeroDivisionError as error:

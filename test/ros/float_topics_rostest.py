@@ -26,7 +26,8 @@ def published():
 
 class FloatTopicsTest(unittest.TestCase):
     def test_the_topics_of_the_layout_exist(self):
-        wait_until(lambda: "/signals/crank_joint/position" in published(), "no topics of numbers")
+        # The node makes them before its first frame.
+        rospy.wait_for_message("/signals/crank_joint/position", Float64, PATIENCE)
         root = xml.etree.ElementTree.parse(LAYOUT).getroot()
         curves = [curve.get("name") for curve in root.iter("curve")]
         self.assertGreaterEqual(len(curves), 6)

@@ -6,7 +6,6 @@ import math
 import os
 import sys
 import threading
-import time
 
 import actionlib
 import rosbag
@@ -20,7 +19,8 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, NodesTestCase, files  # noqa: E402
+from node_process import PATIENCE, NodesTestCase, files, listeners, wait_until  # noqa: E402
+from robot_node import Latest  # noqa: E402
 
 # An arm on a vertical axis. The rig has the inertia 0.3 and the damping 0.4.
 MODEL = """<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
@@ -102,7 +102,9 @@ class IdentifyTest(NodesTestCase):
     def test_goal_feedback_and_result(self):
         write_bag(self.bag)
         self.start_node("told", "  intervals: {profiles: true}\n")
-        client, told = self.client("told"), []
+        # The client drops feedback that the result has overtaken; the topic has all of it.
+        client, told, topic = self.client("told"), [], Latest("/told/identification_progress", IdentificationProgress)
+        wait_until(lambda: topic.subscriber.get_num_connections() > 0 and listeners("/told", "/told/identification_progress") > 0, "no progress")
         client.send_goal(IdentifyGoal(), feedback_cb=lambda feedback: told.append(feedback.progress))
         self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
         result = client.get_result()
@@ -115,7 +117,9 @@ class IdentifyTest(NodesTestCase):
         self.assertEqual((result.rank, result.noise, result.level), (2, "correlated", 0.95))
         self.assertLess(result.data[0].rms, 0.01 * result.data[0].start_rms)
         self.assertEqual([fit.joint for fit in result.holdout], ["hinge"])
-        self.check_progress(told, result)
+        wait_until(lambda: topic.messages and topic.last().seconds_left == 0.0, "no last message")
+        self.assertTrue(told and set(map(str, told)) <= set(map(str, topic.messages)))
+        self.check_progress(topic.messages, result)
         self.check_files(result)
         last = rospy.wait_for_message("/told/identification_progress", IdentificationProgress, PATIENCE)
         self.assertEqual((last.job, last.seconds_left), (result.job, 0.0))
@@ -184,12 +188,10 @@ class IdentifyTest(NodesTestCase):
                 self.assertTrue(begun.wait(PATIENCE))
                 # Meanwhile another request is refused, and the node answers.
                 self.assertEqual(self.identify("cancelled").code, "busy")
-                begin = time.monotonic()
                 client.cancel_goal()
                 self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
-                seconds = time.monotonic() - begin
                 result = client.get_result()
-                print(f"{stage}: cancelled in {seconds:.3f} s, {result.evaluations} evaluations", flush=True)
+                print(f"{stage}: cancelled after {result.evaluations} evaluations", flush=True)
                 self.assertEqual(client.get_state(), GoalStatus.PREEMPTED)
                 # A cancel that was sent while fitting may arrive when the fit has just ended.
                 self.assertEqual(result.code, "cancelled")

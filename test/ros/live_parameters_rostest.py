@@ -19,7 +19,7 @@ from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from node_process import Node, SHARE, PATIENCE, state_of, values_of, wait_until  # noqa: E402
-from robot_node import Latest, Robot, settled  # noqa: E402
+from robot_node import Latest, Robot  # noqa: E402
 
 NAME = "/robot/simulation"
 
@@ -33,13 +33,16 @@ class LiveParametersTest(unittest.TestCase):
         cls.updates = []
         cls.client = Client(NAME, timeout=PATIENCE, config_callback=cls.updates.append)
         cls.initial = dict(cls.client.get_configuration(PATIENCE))
+        wait_until(lambda: cls.loops.subscriber.get_num_connections() > 0, "no errors of loops")
         for _ in range(10):
             cls.robot.step()
 
     def setUp(self):
         names = ("crank_length", "rod_length", "slider_length", "slider_width", "Kp")
         self.client.update_configuration({name: self.initial[name] for name in names})
-        settled(self.robot.joints.messages)
+        # Behind a step there are no more messages about the change.
+        self.robot.step()
+        self.robot.controller_states()
 
     def test_every_parameter_has_its_bounds(self):
         described = {each["name"]: each for each in self.client.get_parameter_descriptions(PATIENCE)}
@@ -72,6 +75,7 @@ class LiveParametersTest(unittest.TestCase):
         wait_until(lambda: "0.095" in self.descriptions.last().data, "robot_description")
         after = self.robot.step()
         self.assertGreater(abs(after.position[crank] - behind.position[crank]), 0.01)
+        wait_until(lambda: self.loops.messages and self.loops.last().header.stamp >= after.header.stamp, "no errors of loops")
         self.assertLess(max(self.loops.last().error), 1e-7)
 
     def test_a_value_beyond_its_bound_becomes_the_bound(self):
@@ -129,7 +133,7 @@ class LiveParametersTest(unittest.TestCase):
     def test_a_restart_keeps_the_values(self):
         self.client.update_configuration({"Kp": 3.0})
         self.assertTrue(self.robot.call("restart").success)
-        self.assertEqual(self.client.get_configuration(PATIENCE)["Kp"], 3.0)
+        wait_until(lambda: self.client.get_configuration(PATIENCE)["Kp"] == 3.0, "another value")
         self.robot.step()
         state = self.robot.controller_states()
         self.assertAlmostEqual(state.output[0], 3.0 * state.error[0], delta=1e-9)

@@ -105,6 +105,17 @@ def state_of(name, wanted):
     return found[0]
 
 
+def study_of(seconds, folder=None):
+    """The study of the slider-crank with runs of so many seconds instead of 2."""
+    with open(f"{SHARE}/config/slider_crank.yaml", encoding="utf-8") as file:
+        text = file.read()
+    assert text.count("duration: 2.0") == 1
+    path = tempfile.mktemp(suffix=".yaml", dir=folder)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace("duration: 2.0", f"duration: {seconds}"))
+    return path
+
+
 def values_of(status):
     return {value.key: value.value for value in status.values}
 

@@ -19,9 +19,9 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, Launch, NodesTestCase, wait_until  # noqa: E402
+from node_process import PATIENCE, Launch, NodesTestCase, listeners, study_of, wait_until  # noqa: E402
 
-LONG = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000)
+LONG, SECONDS = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000), 100.0  # of a run: minutes of computing
 # The pendulum of the README, without a visual.
 MODEL = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <link name="ground"/>
@@ -71,12 +71,13 @@ class SeenTest(NodesTestCase):
         return thread, answers
 
     def test_cancel_ends_a_job_of_the_service_and_keeps_the_best_point(self):
-        node = self.start("optimization", "cancelled", output_directory=self.folder)
+        node = self.start("optimization", "cancelled", study=study_of(SECONDS, self.folder), output_directory=self.folder)
         reply = self.cancel("cancelled")
         self.assertFalse(reply.success)
         self.assertIn("no optimization and no identification is running", reply.message)
         told = []
         rospy.Subscriber("/cancelled/optimization_progress", OptimizationProgress, told.append)
+        wait_until(lambda: listeners("/cancelled", "/cancelled/optimization_progress") > 0, "the test does not listen")
         thread, answers = self.optimize_in_background(node, LONG)
         wait_until(lambda: any(message.evaluation >= 2 for message in told), "no trial point")
         reply = self.cancel("cancelled")
@@ -97,7 +98,7 @@ class SeenTest(NodesTestCase):
         self.assertFalse(self.cancel("bad").success)
 
     def test_watch_shows_the_points_of_the_running_job(self):
-        node = self.start("optimization", "watched", output_directory=self.folder)
+        node = self.start("optimization", "watched", study=study_of(SECONDS, self.folder), output_directory=self.folder)
         watch = Watch("watched")
         try:
             self.assertIn("<svg", watch.get(""))
@@ -105,7 +106,7 @@ class SeenTest(NodesTestCase):
             told = []
             rospy.Subscriber("/watched/optimization_progress", OptimizationProgress, told.append)
             # Points that come before a subscriber is connected are lost.
-            wait_until(lambda: self.listeners("/watched/optimization_progress") >= 2, "watch does not listen")
+            wait_until(lambda: listeners("/watched", "/watched/optimization_progress") == 2, "watch does not listen")
             thread, answers = self.optimize_in_background(node, LONG)
             wait_until(lambda: len(watch.points()["points"]) >= 3, "no points on the page")
             state = watch.points()
@@ -126,11 +127,6 @@ class SeenTest(NodesTestCase):
                     self.assertEqual(objective, trials[evaluation].objective)
         finally:
             watch.end()
-
-    @staticmethod
-    def listeners(topic):
-        subscribers = rospy.get_master().getSystemState()[2][1]
-        return len(dict(subscribers).get(topic, []))
 
     def test_a_run_has_a_scene_and_a_link_without_visual_is_drawn(self):
         for name, text in (("pendulum.urdf", MODEL), ("swing.yaml", STUDY)):
