@@ -125,7 +125,7 @@ class PlayedJob {
 
  private:
   static RankTimes without_goodbye(RankTimes times) {
-    times.goodbye = std::chrono::milliseconds(20);
+    times.goodbye = std::chrono::seconds(0);
     return times;
   }
   void play() {

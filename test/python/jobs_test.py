@@ -5,12 +5,11 @@ import concurrent.futures
 import os
 import tempfile
 import threading
-import time
 import unittest
 
 import numpy as np
 
-from fixture import ARM, FIT, FREE, LONG, PENDULUM, SWING, command_line, recorded
+from fixture import ARM, Asked, FIT, FREE, LONG, PENDULUM, SWING, command_line, recorded
 
 import mechanism_codesign as codesign
 
@@ -181,7 +180,7 @@ class Threads(unittest.TestCase):
                 counted.append(len(counted))
                 if len(counted) == 1000:
                     event.set()  # which ends the search
-                time.sleep(0)
+                os.sched_yield()
 
         thread = threading.Thread(target=count)
         thread.start()
