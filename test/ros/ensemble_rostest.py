@@ -15,7 +15,7 @@ from mechanism_codesign.srv import Optimize, OptimizeRequest
 from sensor_msgs.msg import JointState
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, PATIENCE, NodesTestCase  # noqa: E402
+from node_process import PATIENCE, SHARE, NodesTestCase  # noqa: E402
 
 RUN_TOPICS = ("joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers")
 

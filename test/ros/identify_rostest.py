@@ -19,7 +19,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, NodesTestCase, files, listeners, wait_until  # noqa: E402
+from node_process import PATIENCE, NodesTestCase, content, files, listeners, wait_until  # noqa: E402
 from robot_node import Latest  # noqa: E402
 
 # An arm on a vertical axis. The rig has the inertia 0.3 and the damping 0.4.
@@ -118,7 +118,7 @@ class IdentifyTest(NodesTestCase):
         self.assertLess(result.data[0].rms, 0.01 * result.data[0].start_rms)
         self.assertEqual([fit.joint for fit in result.holdout], ["hinge"])
         wait_until(lambda: topic.messages and topic.last().seconds_left == 0.0, "no last message")
-        self.assertTrue(told and set(map(str, told)) <= set(map(str, topic.messages)))
+        self.assertTrue(told and set(map(content, told)) <= set(map(content, topic.messages)))
         self.check_progress(topic.messages, result)
         self.check_files(result)
         last = rospy.wait_for_message("/told/identification_progress", IdentificationProgress, PATIENCE)

@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import Node, SHARE, PATIENCE, state_of, values_of, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, Node, state_of, values_of, wait_until  # noqa: E402
 from robot_node import Latest, Robot  # noqa: E402
 
 NAME = "/robot/simulation"

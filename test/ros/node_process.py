@@ -116,6 +116,12 @@ def study_of(seconds, folder=None):
     return path
 
 
+def content(message):
+    """All but the number that each topic gives to its messages."""
+    message.header.seq = 0
+    return str(message)
+
+
 def values_of(status):
     return {value.key: value.value for value in status.values}
 

@@ -13,7 +13,7 @@ import tf2_ros
 from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, PATIENCE, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
 
 
 class NodesTest(NodesTestCase):

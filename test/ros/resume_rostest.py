@@ -16,7 +16,7 @@ from mechanism_codesign.msg import OptimizationProgress, OptimizeAction, Optimiz
 from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, SHARE, NodesTestCase, files, listeners, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, NodesTestCase, content, files, listeners, wait_until  # noqa: E402
 from robot_node import Latest  # noqa: E402
 
 # Searches over two runs at three samples, on two threads: 36 runs of screening, then searches, then 400 runs of validation.
@@ -145,7 +145,7 @@ class ResumeTest(NodesTestCase):
         result = job.result()
         self.assertTrue(result.success, result.message)
         wait_until(lambda: topic.messages and topic.last().seconds_left == 0.0, "no last message")
-        self.assertTrue(job.progress and set(map(str, job.progress)) <= set(map(str, topic.messages)))
+        self.assertTrue(job.progress and set(map(content, job.progress)) <= set(map(content, topic.messages)))
         stages = [progress.stage for progress in topic.messages]
         self.assertEqual(sorted(set(stages), key=stages.index), ["screening", "searching", "validating"])
         runs = [progress.runs for progress in topic.messages]
