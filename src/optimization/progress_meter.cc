@@ -7,8 +7,7 @@
 namespace codesign {
 
 ProgressMeter::ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer,
-                             Clock::duration period,
-                             std::function<Clock::time_point()> read_clock)
+                             Clock::duration period, std::function<Clock::time_point()> read_clock)
     : most_evaluations_(most_evaluations),
       observer_(std::move(observer)),
       period_(period),

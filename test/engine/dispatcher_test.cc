@@ -155,8 +155,7 @@ TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
     job.wait_for_hello();
     PlayedBatch batch(job.ranks(), problem, 1, &cancel);
     EXPECT_TRUE(batch.run().empty());
-    EXPECT_EQ(batch.batch.ended.code,
-              answers ? StatusCode::kCancelled : StatusCode::kWorkerLost);
+    EXPECT_EQ(batch.batch.ended.code, answers ? StatusCode::kCancelled : StatusCode::kWorkerLost);
     EXPECT_TRUE(job.ranks()->lost().ok()) << "it may have been busy otherwise";
   }
 }

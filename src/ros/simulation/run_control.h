@@ -75,7 +75,7 @@ class RunControl {
   std::int64_t step_frames_ = 1, steps_left_ = 0;
   std::uint64_t runs_ = 0;
   double time_ = 0.0;  ///< [s] of the last frame
-  std::string why_;  ///< why no run is there; empty while the node starts
+  std::string why_;    ///< why no run is there; empty while the node starts
   std::vector<ros::ServiceServer> servers_;
 };
 
