@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Two launch files that overlap may end in either order."""
+"""Launch files that overlap may end in any order."""
 import os
 import sys
 
@@ -36,6 +36,13 @@ class LaunchOverlappingTest(LaunchTestCase):
                     self.end(launches[0])
                 with self.subTest(first=first, second=second, is_first_to_end_first=is_first_to_end_first):
                     self.assert_left_as_found()
+
+    def test_three_of_which_the_second_ends_first_and_two_at_once(self):
+        bag = self.bag()
+        launches = [self.launch(*FAST), self.replay(bag), self.launch(*REAL_TIME)]
+        self.end(launches[1])
+        self.end(launches[0], launches[2])
+        self.assert_left_as_found()
 
 
 if __name__ == "__main__":

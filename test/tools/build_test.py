@@ -122,6 +122,23 @@ class SanitizeTest(unittest.TestCase):
     def test_threads_have_a_program_of_their_own(self):
         self.assertEqual(self.sanitize("thread"), ("test_threads", r"build/thread -R ^threads\."))
 
+    def test_every_case_that_is_left_out_exists(self):
+        """Names of cases without the shards and prefixes of parameters: test/slow_cases.txt, for tools/test --quick, and tools/sanitize."""
+        sources = ""
+        for folder, _, files in os.walk(os.path.join(ROOT, "test")):
+            for name in files:
+                if name.endswith((".cc", ".h")):
+                    with open(os.path.join(folder, name)) as file:
+                        sources += file.read()
+        cases = {".".join(words) for words in re.findall(r"TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)", sources)}
+        with open(os.path.join(ROOT, "test", "slow_cases.txt")) as file:
+            names = file.read().split() + words_of(r"unfit=\(([^)]*)\)", "tools", "sanitize")
+        self.assertGreater(len(names), 20)
+        suites = {case.split(".")[0] for case in cases}
+        for name in names:
+            suite, case = name.lstrip("*").split("/")[0].split(".")
+            self.assertTrue(suite in suites if case == "*" else f"{suite}.{case}" in cases, name)
+
     def test_every_test_of_threads_exists(self):
         names = words_of(r"set\(thread_tests ([^)]*)\)", "cmake", "Tests.cmake")
         self.assertIn("ros/common/worker", names)
