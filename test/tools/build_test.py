@@ -94,6 +94,12 @@ class JobsTest(unittest.TestCase):
     def test_a_wish_is_respected(self):
         self.assertEqual(self.jobs(4, 2, JOBS="7"), 7)
 
+    def test_in_continuous_integration_compilers_give_way(self):
+        for variables, words in (({"CI": "true"}, "nice -n 10"), ({}, "")):
+            result = subprocess.run(["bash", "-ec", '. tools/jobs; echo "${niced[*]}"'], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True,
+                                    env={"PATH": os.environ["PATH"], **variables})
+            self.assertEqual(result.stdout.strip(), words)
+
 
 class SanitizeTest(unittest.TestCase):
     @staticmethod

@@ -123,8 +123,8 @@ class ToolsCiTest(unittest.TestCase):
         self.assertEqual([line for line in lines if "no time" in line],
                          [f"tools/ci: no time was left for: {words}" for words in
                           ("env -u CI tools/test -R " + SKIPPED, "tools/check format layering scripts", "tools/tour --built --quick", "tools/check tidy",
-                           "nice -n 10 tools/sanitize thread", "env -u CI tools/test --release",
-                           "nice -n 10 tools/sanitize address --report build/test_results/sanitized.xml")])
+                           "tools/sanitize thread", "env -u CI tools/test --release",
+                           "tools/sanitize address --report build/test_results/sanitized.xml")])
 
 
 if __name__ == "__main__":
