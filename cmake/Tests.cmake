@@ -11,15 +11,22 @@ target_compile_definitions(codesign_test_paths PRIVATE CODESIGN_SOURCE_DIR="${PR
   CODESIGN_MPIRUN="$<$<BOOL:${MPI_C_FOUND}>:${MPIEXEC_EXECUTABLE}>")
 codesign_warnings(codesign_test_paths)
 
+# All programs of tests and what they start, for tools/sanitize.
+add_custom_target(unit_tests)
 # Registers an executable as a few tests, each of which runs its share of the cases in one process. For one case:
 # build/test/test_ROOM --gtest_filter=NAME
 function(codesign_add_test name target shards timeout)
+  add_dependencies(unit_tests ${target})
   math(EXPR last "${shards} - 1")
+  # Sanitized code takes several times as long.
+  if(CODESIGN_SANITIZE)
+    math(EXPR timeout "${timeout} * 4")
+  endif()
   foreach(shard RANGE ${last})
     math(EXPR number "${shard} + 1")
     add_test(NAME ${name}.${number}_of_${shards} COMMAND ${target})
     set_tests_properties(${name}.${number}_of_${shards} PROPERTIES
-      TIMEOUT ${timeout} ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+      TIMEOUT ${timeout} LABELS unit ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
 
@@ -52,6 +59,10 @@ foreach(folder IN LISTS codesign_rooms ITEMS mpi cli ros benchmark cases allocat
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*.cc)
   list(FILTER test_sources INCLUDE REGEX "_test\\.cc$|/allocation/")
   if(NOT test_sources OR (folder STREQUAL ros AND NOT TARGET codesign_ros))
+    continue()
+  endif()
+  # It counts with a malloc() of its own, in the place of the sanitizer's.
+  if(folder STREQUAL allocation AND CODESIGN_SANITIZE)
     continue()
   endif()
   set(target test_${folder})
@@ -168,39 +179,28 @@ else()
 endif()
 add_test(NAME api_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/api/api_page_test.py ${PROJECT_SOURCE_DIR} ${codesign_api_place})
 
-foreach(tool build check ci clone debian_packages doc fresh image measured_data packages)
+foreach(tool build check ci clone debian_packages doc fresh image measured_data packages run_tests)
   add_test(NAME tools_${tool} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/tools/${tool}_test.py)
 endforeach()
 # Skipped, with a message, where there is no sphinx; without chromium the pages are built, but not looked at.
 set_tests_properties(tools_doc PROPERTIES SKIP_REGULAR_EXPRESSION "no sphinx on this machine")
 
-# What tools/test --quick leaves out: whole jobs, processes of MPI, builds of other programs; below also what starts a ROS master.
-get_property(codesign_tests DIRECTORY PROPERTY TESTS)
-foreach(test IN LISTS codesign_tests)
-  if(test MATCHES "^(mpi\\.|fuzz|two_hosts|identify_|compare_algorithms|command_line|json_schema|features|gallery|tutorial_pages|report$|python_(jobs|interruption|tutorial|features)|corpus_table|api_page|tools_doc)")
-    set_tests_properties(${test} PROPERTIES LABELS slow)
-  endif()
-endforeach()
+if(TARGET codesign_ros)
+  add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
+  add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
+  add_test(NAME example_controller COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/example_controller_test.py)
+  add_test(NAME panel COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_test.py)
+  # Skipped, with a message, where there is no chromium.
+  add_test(NAME panel_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_page_test.py)
+  set_tests_properties(panel_page PROPERTIES SKIP_REGULAR_EXPRESSION "no chromium on this machine")
+  add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
+  add_test(NAME show_in_rviz COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/show_in_rviz_test.py)
 
-if(NOT TARGET codesign_ros)
-  return()
+  find_package(rostest REQUIRED)
+  file(GLOB rostests RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
+  foreach(file IN LISTS rostests)
+    add_rostest(${file} DEPENDENCIES ${codesign_nodes})
+  endforeach()
 endif()
-add_test(NAME launch_files COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/ros/launch_files_test.py ${PROJECT_SOURCE_DIR})
-add_test(NAME trajectory_from_bag COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/trajectory_from_bag_test.py)
-add_test(NAME example_controller COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/example_controller_test.py)
-add_test(NAME panel COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_test.py)
-# Skipped, with a message, where there is no chromium.
-add_test(NAME panel_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/panel_page_test.py)
-set_tests_properties(panel_page PROPERTIES SKIP_REGULAR_EXPRESSION "no chromium on this machine")
-add_test(NAME figures COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/figures_test.py)
-add_test(NAME show_in_rviz COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/show_in_rviz_test.py)
 
-find_package(rostest REQUIRED)
-file(GLOB rostests RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.test)
-foreach(file IN LISTS rostests)
-  add_rostest(${file} DEPENDENCIES ${codesign_nodes})
-  string(REPLACE / _ rostest ${file})
-  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_${rostest} PROPERTIES LABELS slow)
-endforeach()
-# The longest test first, so that the others run beside it.
-set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_launch_files.test PROPERTIES COST 1000)
+include(${PROJECT_SOURCE_DIR}/cmake/TestLabels.cmake)

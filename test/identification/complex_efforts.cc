@@ -43,7 +43,7 @@ Eigen::VectorXcd ComplexEfforts::solve(const Eigen::VectorXcd& right) {
   for (int row = 0; row < right.size(); ++row)
     for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
       matrix(row, pattern.column(e)) = derivatives_.rate[to_index(e)];
-  return matrix.fullPivLu().solve(right);
+  return matrix.partialPivLu().solve(right);
 }
 
 void ComplexEfforts::correct_rates() {
