@@ -15,7 +15,6 @@ namespace {
 using Code = ExpressionStep::Code;
 using Complex = std::complex<double>;
 
-
 /// The change of the stack's size by a step.
 int growth(const ExpressionStep& step) {
   switch (step.code) {

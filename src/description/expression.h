@@ -161,8 +161,9 @@ class Expression {
     return values;
   }
 
-  /// A range that contains the value wherever all parameters lie in theirs, description/value_range.h.
-  /// All numbers if there may be none. @param parameters in the order of the names.
+  /// A range that contains the value wherever all parameters lie in theirs,
+  /// description/value_range.h. All numbers if there may be none. @param parameters in the order of
+  /// the names.
   ValueRange range(const std::vector<ValueRange>& parameters) const;
 
  private:

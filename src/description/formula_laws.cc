@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr int kMostOfDesign = 64;           // the largest whole exponent of a design that is looked for
+constexpr int kMostOfDesign = 64;  // the largest whole exponent of a design that is looked for
 constexpr double kMostFactors = 1 << 20;  // of a literal one
 
 Traced whole_power(const Traced& base, int exponent) {

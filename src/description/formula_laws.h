@@ -267,8 +267,7 @@ Taylor<T> constant_power(const Taylor<T>& x, const T& n, std::size_t terms) {
 }
 template <class T>
 Taylor<T> power(const Taylor<T>& base, const Taylor<T>& exponent) {
-  if (is_constant(base) && is_constant(exponent))
-    return Taylor<T>(power(base.c[0], exponent.c[0]));
+  if (is_constant(base) && is_constant(exponent)) return Taylor<T>(power(base.c[0], exponent.c[0]));
   if (is_constant(exponent)) return constant_power(base, exponent.c[0], Taylor<T>::kTerms);
   return exp(exponent * smooth_function(FunctionKind::kLogarithm, base));
 }

@@ -8,11 +8,11 @@ namespace codesign {
 enum class FunctionKind : unsigned char;
 
 /// Numbers from `lower` to `upper`, both included; by default all. As the scalar of expressions
-/// (description/formula.h) it computes by interval arithmetic (Moore 1966): each operation gives the
-/// range of its results over all values of its operands, as if these were independent. So the range
-/// of an expression contains all its values, and more where a variable appears twice. An operation
-/// that may have no result, such as a quotient by a range with zero, gives all numbers. Rounding is
-/// not taken into account.
+/// (description/formula.h) it computes by interval arithmetic (Moore 1966): each operation gives
+/// the range of its results over all values of its operands, as if these were independent. So the
+/// range of an expression contains all its values, and more where a variable appears twice. An
+/// operation that may have no result, such as a quotient by a range with zero, gives all numbers.
+/// Rounding is not taken into account.
 struct ValueRange {
   double lower = -std::numeric_limits<double>::infinity(),
          upper = std::numeric_limits<double>::infinity();
