@@ -104,65 +104,107 @@ T recorded_value(const Expression& expression, const std::vector<T>& variables,
   }
 }
 
-/// Why the scalars do not agree on an expression at a point, empty if they do: numbers with
-/// derivatives have the value of the double to the last bit; the derivatives of the complex step,
-/// lanes, series and recordings agree; the range over a box around the point contains the values.
+/// An expression at a point, of which scalar_disagreement() compares the values.
+struct ScalarPoint {
+  ScalarPoint(const std::string& text, const std::vector<std::string>& names,
+              const std::vector<double>& at)
+      : expression(text, names), value(expression.value(at)) {
+    for (const int index : expression.dependencies()) values.push_back(at[to_index(index)]);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      slopes.push_back(expression.derivative_of(k, values));
+  }
+
+  /// Empty if a number is near the wanted one, or both are not finite; else which one is not.
+  std::string fault(const char* what, double is, double wanted, double tolerance) const {
+    if (is == wanted || std::abs(is - wanted) <= tolerance * (1.0 + std::abs(wanted)) ||
+        (std::isnan(is) && std::isnan(wanted)))
+      return "";
+    return std::string(what) + " is " + std::to_string(is) + ", not " + std::to_string(wanted) +
+           ": " + expression.text();
+  }
+
+  /// Every value as a number with derivatives, the k-th with 1 in lane k.
+  std::vector<Lanes<4>> lanes() const {
+    std::vector<Lanes<4>> result(values.begin(), values.end());
+    for (std::size_t k = 0; k < result.size(); ++k) result[k].v[static_cast<int>(k)] = 1.0;
+    return result;
+  }
+
+  Expression expression;
+  double value = 0.0;
+  std::vector<double> values, slopes;  ///< of the variables that appear, and by them
+};
+
+/// Why the complex step and lanes do not have the value of the double to the last bit, and the same
+/// derivatives; empty if they do. Of any expression of at most four variables.
+inline std::string slope_disagreement(const ScalarPoint& point) {
+  std::string fault;
+  const auto check = [&](const char* what, double is, double wanted, double tolerance) {
+    if (fault.empty()) fault = point.fault(what, is, wanted, tolerance);
+  };
+  const Lanes<4> of_lanes = point.expression.evaluate<Lanes<4>>(point.lanes());
+  check("the value of lanes", of_lanes.a, point.value, 0.0);
+  for (std::size_t k = 0; k < point.values.size(); ++k) {
+    std::vector<std::complex<double>> step(point.values.begin(), point.values.end());
+    step[k] += std::complex<double>(0.0, 1e-30);
+    const std::complex<double> stepped = point.expression.evaluate<std::complex<double>>(step);
+    check("the real part", stepped.real(), point.value, 0.0);
+    check("a lane", of_lanes.v[static_cast<int>(k)], point.slopes[k], 1e-13);
+    if (std::abs(point.slopes[k]) < 1e100)
+      check("the imaginary part", stepped.imag() * 1e30, point.slopes[k], 1e-13);
+  }
+  return fault;
+}
+
+/// Why the range over a box around the point does not contain the values in it.
+inline std::string range_disagreement(const ScalarPoint& point) {
+  constexpr double kBelow = 0.3, kWidth = 0.5, kRounding = 1e-12;
+  constexpr int kSamples = 30;
+  std::vector<ValueRange> box;
+  for (const double x : point.values) box.emplace_back(x - kBelow, x - kBelow + kWidth);
+  const ValueRange range = point.expression.evaluate<ValueRange>(box);
+  std::string fault;
+  for (int sample = 0; sample <= kSamples && fault.empty(); ++sample) {
+    std::vector<double> inside;
+    for (std::size_t k = 0; k < box.size(); ++k)
+      inside.push_back(box[k].lower +
+                       kWidth * std::fmod(0.618 * sample * static_cast<double>(k + 1), 1.0));
+    const double value = point.expression.value_of(inside);
+    fault = point.fault("the range", std::min(std::max(value, range.lower), range.upper), value,
+                        kRounding);
+  }
+  return fault;
+}
+
+/// Why the scalars do not agree on an expression at a point, empty if they do: besides the above
+/// the value and the rate of a series in time, and the value and the tangents of a recording. Of
+/// expressions that do not magnify rounding, such as those of random_formula().
 inline std::string scalar_disagreement(const std::string& text,
                                        const std::vector<std::string>& names,
                                        const std::vector<double>& at) {
   constexpr double kTolerance = 1e-9;  // of composed functions, times their slopes
-  const Expression expression(text, names);
-  const auto size = expression.dependencies().size();
-  std::vector<double> values;
-  for (const int index : expression.dependencies()) values.push_back(at[to_index(index)]);
-  const double value = expression.value(at);
-  const auto near = [](double a, double b, double tolerance) {
-    return a == b || std::abs(a - b) <= tolerance * (1.0 + std::abs(a)) ||
-           (std::isnan(a) && std::isnan(b));
+  const ScalarPoint point(text, names, at);
+  std::string fault = slope_disagreement(point);
+  if (fault.empty()) fault = range_disagreement(point);
+  const auto check = [&](const char* what, double is, double wanted) {
+    if (fault.empty()) fault = point.fault(what, is, wanted, kTolerance);
   };
-  const auto fault = [&](const std::string& what, double is, double wanted) {
-    return what + " is " + std::to_string(is) + ", not " + std::to_string(wanted) + ": " + text;
-  };
-  std::vector<Lanes<4>> lanes(values.begin(), values.end());
-  std::vector<Taylor<double>> series(values.begin(), values.end());
-  double along = 0.0;
+  const std::size_t size = point.values.size();
+  std::vector<Taylor<double>> series(point.values.begin(), point.values.end());
+  double rate = 0.0;
   for (std::size_t k = 0; k < size; ++k) {
-    std::vector<std::complex<double>> step(values.begin(), values.end());
-    step[k] += std::complex<double>(0.0, 1e-30);
-    const double real = expression.evaluate<std::complex<double>>(step).real(),
-                 slope = expression.derivative_of(k, values);
-    if (!near(real, value, 0.0)) return fault("the real part", real, value);
-    lanes[k].v[static_cast<int>(k)] = 1.0;
     series[k].c[1] = 1.0 + 0.5 * static_cast<double>(k);
-    along += slope * series[k].c[1];
+    rate += point.slopes[k] * series[k].c[1];
   }
-  const Lanes<4> of_lanes = expression.evaluate<Lanes<4>>(lanes);
-  const Taylor<double> of_time = evaluate_formula<Taylor<double>>(expression.steps(), series);
-  const Lanes<4> recorded = recorded_value(expression, lanes, std::vector<bool>(size, false));
-  if (!near(of_lanes.a, value, 0.0)) return fault("the value of lanes", of_lanes.a, value);
-  if (!near(of_time.c[0], value, kTolerance)) return fault("a series", of_time.c[0], value);
-  if (!near(of_time.c[1], along, kTolerance)) return fault("a rate", of_time.c[1], along);
-  if (!near(recorded.a, value, kTolerance)) return fault("a recording", recorded.a, value);
-  for (std::size_t k = 0; k < size; ++k) {
-    const double slope = expression.derivative_of(k, values);
-    const int lane = static_cast<int>(k);
-    if (!near(of_lanes.v[lane], slope, 1e-13)) return fault("a lane", of_lanes.v[lane], slope);
-    if (!near(recorded.v[lane], slope, kTolerance))
-      return fault("a tangent of the recording", recorded.v[lane], slope);
-  }
-  std::vector<ValueRange> box;
-  for (const double x : values) box.emplace_back(x - 0.3, x + 0.2);
-  const ValueRange range = expression.evaluate<ValueRange>(box);
-  for (int sample = 0; sample <= 30; ++sample) {
-    std::vector<double> inside;
-    for (std::size_t k = 0; k < size; ++k)
-      inside.push_back(box[k].lower +
-                       0.5 * std::fmod(0.618 * sample * static_cast<double>(k + 1), 1.0));
-    const double there = expression.value_of(inside), slack = 1e-12 * (1.0 + std::abs(there));
-    if (there < range.lower - slack) return fault("the least value", range.lower, there);
-    if (there > range.upper + slack) return fault("the largest value", range.upper, there);
-  }
-  return "";
+  const Taylor<double> in_time = evaluate_formula<Taylor<double>>(point.expression.steps(), series);
+  const Lanes<4> recorded =
+      recorded_value(point.expression, point.lanes(), std::vector<bool>(size, false));
+  check("the value of a series", in_time.c[0], point.value);
+  check("the rate of a series", in_time.c[1], rate);
+  check("the value of a recording", recorded.a, point.value);
+  for (std::size_t k = 0; k < size; ++k)
+    check("a tangent of a recording", recorded.v[static_cast<int>(k)], point.slopes[k]);
+  return fault;
 }
 
 }  // namespace codesign
