@@ -200,8 +200,8 @@ Traced value_at(const Expression& expression, const std::vector<Traced>& paramet
 /// A number of the model: a constant, or an expression of the parameters.
 class Quantity {
  public:
-  Quantity(double constant = 0.0)
-      : nominal_(constant) {}  // NOLINT(google-explicit-constructor): a number is a quantity
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is a quantity.
+  Quantity(double constant = 0.0) : nominal_(constant) {}
   Quantity(double nominal, std::shared_ptr<const Expression> expression)
       : nominal_(nominal), expression_(std::move(expression)) {}
 

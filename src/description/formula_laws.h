@@ -63,7 +63,7 @@ template <class T>
 T product(const T& x, const T& y) {
   if constexpr (kHasSlope<T>) {
     const double a = value_of(x), b = value_of(y);
-    return add_slope(add_slope(T(a * b), x, [b] { return b; }), y, [a] { return a; });
+    return add_slope(add_slope(T{a * b}, x, [b] { return b; }), y, [a] { return a; });
   } else {
     return x * y;
   }
@@ -73,7 +73,7 @@ template <class T>
 T quotient(const T& x, const T& y) {
   if constexpr (kHasSlope<T>) {
     const double a = value_of(x), b = value_of(y), ratio = a / b;
-    return add_slope(add_slope(T(ratio), x, [b] { return 1.0 / b; }), y,
+    return add_slope(add_slope(T{ratio}, x, [b] { return 1.0 / b; }), y,
                      [ratio, b] { return -ratio / b; });
   } else {
     return x / y;
@@ -90,7 +90,7 @@ template <class T>
 T sloped_function(FunctionKind kind, const T& x) {
   using K = FunctionKind;
   const double a = value_of(x);
-  const auto law = [&x](double value, const auto& slope) { return add_slope(T(value), x, slope); };
+  const auto law = [&x](double value, const auto& slope) { return add_slope(T{value}, x, slope); };
   switch (kind) {
     case K::kSquareRoot: {
       const double root = std::sqrt(a);
@@ -187,7 +187,7 @@ template <class T>
 T angle_of(const T& y, const T& x) {
   if constexpr (kHasSlope<T>) {
     const double a = value_of(y), b = value_of(x), square = a * a + b * b;
-    return add_slope(add_slope(T(std::atan2(a, b)), y, [=] { return b / square; }), x,
+    return add_slope(add_slope(T{std::atan2(a, b)}, y, [=] { return b / square; }), x,
                      [=] { return -a / square; });
   } else {
     return arc_tangent(y, x);
@@ -200,7 +200,7 @@ template <class T>
 T power(const T& base, const T& exponent) {
   const double x = value_of(base), n = value_of(exponent), value = std::pow(x, n);
   return add_slope(
-      add_slope(T(value), base, [=] { return n == 0.0 ? 0.0 : n * std::pow(x, n - 1.0); }),
+      add_slope(T{value}, base, [=] { return n == 0.0 ? 0.0 : n * std::pow(x, n - 1.0); }),
       exponent, [=] { return x == 0.0 && n > 0.0 ? 0.0 : value * std::log(x); });
 }
 /// As products where the exponent is a whole number, a literal or one of the design, else
