@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -51,7 +52,7 @@ T formula_extreme(const FormulaNumber<T>* first, int count, bool largest) {
   T best = first[0].value;
   for (int k = 1; k < count; ++k) {
     const T& one = first[k].value;
-    if (largest ? is_less(best, one, false) : is_less(one, best, false)) best = one;
+    if (largest ? is_below(best, one, false) : is_below(one, best, false)) best = one;
   }
   return best;
 }
@@ -59,9 +60,7 @@ T formula_extreme(const FormulaNumber<T>* first, int count, bool largest) {
 /// The next whole number below x, or with `above` the next above.
 template <class T>
 T whole_number(const T& x, bool above) {
-  const T nearest = nearest_integer(x);
-  if (above) return is_less(nearest, x, false) ? T(nearest + T(1.0)) : nearest;
-  return is_less(x, nearest, false) ? T(nearest - T(1.0)) : nearest;
+  return above ? T(-whole_below(T(-x))) : whole_below(x);
 }
 
 /// A function of ExpressionFunction, for any scalar that formulas are evaluated or recorded with.
@@ -103,9 +102,9 @@ T formula_function(FunctionKind kind, const FormulaNumber<T>* z, int count) {
     case K::kPower:
       return formula_power(z[0], z[1]);
     case K::kMagnitude:
-      return is_less(x, zero, false) ? T(-x) : x;
+      return is_below(x, zero, false) ? T(-x) : x;
     case K::kSign:
-      return is_less(x, zero, false) ? T(-1.0) : is_less(zero, x, true) ? one : zero;
+      return is_below(x, zero, false) ? T(-1.0) : is_below(zero, x, true) ? one : zero;
     case K::kLeast:
     case K::kGreatest:
       return formula_extreme(z, count, kind == K::kGreatest);
@@ -125,15 +124,15 @@ bool formula_comparison(ExpressionStep::Code code, const T& a, const T& b) {
   using Code = ExpressionStep::Code;
   switch (code) {
     case Code::kLess:
-      return is_less(a, b, false);
+      return is_below(a, b, false);
     case Code::kLessOrEqual:
-      return !is_less(b, a, false);
+      return !is_below(b, a, false);
     case Code::kGreater:
-      return is_less(b, a, false);
+      return is_below(b, a, false);
     case Code::kGreaterOrEqual:
-      return !is_less(a, b, false);
+      return !is_below(a, b, false);
     default: {
-      const bool equal = !is_less(a, b, false) && !is_less(b, a, false);
+      const bool equal = !is_below(a, b, false) && !is_below(b, a, false);
       return (code == Code::kEqual) == equal;
     }
   }
@@ -162,8 +161,21 @@ FormulaNumber<T> formula_operation(ExpressionStep::Code code, const FormulaNumbe
   }
 }
 
+/// Whether an expression has a comparison or a function with a kink or a jump.
+inline bool has_switches(const ExpressionSteps& steps) {
+  using Code = ExpressionStep::Code;
+  using K = FunctionKind;
+  return std::any_of(steps.begin(), steps.end(), [](const ExpressionStep& step) {
+    if (step.code == Code::kJumpUnless) return true;
+    if (step.code != Code::kCall) return false;
+    const K kind = expression_function_table()[to_index(step.index)].kind;
+    return kind == K::kMagnitude || kind == K::kSign || kind == K::kLeast ||
+           kind == K::kGreatest || kind == K::kFloor || kind == K::kCeiling;
+  });
+}
+
 /// The value of an expression for any scalar: double for observers, Traced to record it, Taylor for
-/// functions of time. Comparisons and functions with branches decide by is_less().
+/// functions of time. Comparisons and functions with branches decide by is_below().
 /// @param variables their values, by index.
 template <class T>
 T evaluate_formula(const ExpressionSteps& steps, const std::vector<T>& variables) {
@@ -215,7 +227,7 @@ Taylor<T> time_series(const Expression& formula, int time, const std::vector<T>&
   std::vector<Taylor<T>> variables;
   variables.reserve(used.size());
   for (std::size_t k = 0; k < used.size(); ++k)
-    variables.push_back(formula.dependencies()[k] == time ? Taylor<T>::time(t)
+    variables.push_back(formula.dependencies()[k] == time ? Taylor<T>::time(T(t))
                                                           : Taylor<T>(used[k]));
   return evaluate_formula<Taylor<T>>(formula.steps(), variables);
 }
