@@ -112,9 +112,10 @@ const std::vector<bool>& CompiledEquations<T>::mode_of(const State<T>& state) {
 }
 
 template <class T>
-void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differences) {
-  differences->resize(to_signed(mode_.size()));
-  run(EquationFunction::kSwitches, state, {*differences, {}, {}, {}});
+void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differences,
+                                    VectorX<T>* right) {
+  for (VectorX<T>* results : {differences, right}) results->resize(to_signed(mode_.size()));
+  run(EquationFunction::kSwitches, state, {*differences, *right, {}, {}});
 }
 
 template <class T>

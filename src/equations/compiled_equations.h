@@ -54,8 +54,9 @@ class CompiledEquations {
   void release();
   /// The mode of a state: the outcomes that it decides.
   const std::vector<bool>& mode_of(const State<T>& state);
-  /// The differences of which the switches are the signs, resized to their number in the mode.
-  void switches(const State<T>& state, VectorX<T>* differences);
+  /// The differences y - x of which the switches are the signs, and the numbers y; resized to their
+  /// number in the mode.
+  void switches(const State<T>& state, VectorX<T>* differences, VectorX<T>* right);
   /// The values of the study's expressions of signals in the residual, then the integrand g; for
   /// double. @param values resized.
   void expressions(const State<T>& state, VectorX<T>* values);

@@ -144,15 +144,14 @@ void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
 }
 
 void EquationCode::record_switches(const Traced& g) {
-  VectorX<Traced> differences;
+  std::vector<Traced> differences, right;
   const std::vector<Recording::Guard> guards = recording_->guards();
   for (const Recording::Guard& guard : guards)
     if (guard.is_switch) {
-      differences.conservativeResize(differences.size() + 1);
-      differences[differences.size() - 1] =
-          Traced(recording_, guard.b) - Traced(recording_, guard.a);
+      right.emplace_back(recording_, guard.b);
+      differences.push_back(right.back() - Traced(recording_, guard.a));
     }
-  take_outputs(EquationFunction::kSwitches, {differences});
+  take_outputs(EquationFunction::kSwitches, {vector(differences), vector(right)});
   VectorX<Traced> expressions(to_signed(recording_->noted().size()) + 1);
   for (std::size_t k = 0; k < recording_->noted().size(); ++k)
     expressions[to_signed(k)] = Traced(recording_, recording_->noted()[k]);

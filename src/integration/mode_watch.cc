@@ -37,6 +37,7 @@ void ModeWatch::start(const State<double>& initial, Equations<double>* equations
   mode_ = equations->compiled().mode_of(initial);
   equations->hold(mode_);
   guard_ = -1;
+  sizes_.resize(0);
   returns_ = 0;
   last_change_ = -1.0;
   step_size_ = 0.0;
@@ -59,7 +60,7 @@ void ModeWatch::restart(Equations<double>* equations) {
 
 double ModeWatch::side_at(int k, double theta, RosenbrockStep<double>* step) {
   step->interpolate_attempt(theta, &point_);
-  step->equations().compiled().switches(point_, &residual_);
+  step->equations().compiled().switches(point_, &residual_, &right_);
   return side(k, residual_);
 }
 
@@ -69,11 +70,11 @@ ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) 
   for (int point = 1; point <= kPoints; ++point) {
     const double to = static_cast<double>(point) / kPoints,
                  from = static_cast<double>(point - 1) / kPoints;
-    if (at(point) < 0.0) return {k, from, to};
+    if (has_left(k, at(point))) return {k, from, to};
     if (point == kPoints || at(point) > at(point - 1) || at(point) > at(point + 1)) continue;
     const double place =
         (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints;
-    if (side_at(k, place, step) < 0.0) return {k, from, place};
+    if (has_left(k, side_at(k, place, step))) return {k, from, place};
   }
   return {};
 }
@@ -86,8 +87,11 @@ ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
       point_ = step->unprojected();
     else
       step->interpolate_attempt(static_cast<double>(point) / kPoints, &point_);
-    step->equations().compiled().switches(point_, &residual_);
+    step->equations().compiled().switches(point_, &residual_, &right_);
     samples_.col(point) = residual_;
+    if (sizes_.size() != count) sizes_.setZero(count);
+    sizes_ = sizes_.cwiseMax(kRounding * residual_.cwiseAbs())
+                 .cwiseMax(kCancelled * (right_.cwiseAbs() + (right_ - residual_).cwiseAbs()));
   }
   Crossing first;
   double earliest = 2.0;
@@ -135,7 +139,7 @@ bool ModeWatch::repeat(int guard, double h, RosenbrockStep<double>* step) {
   double before = 0.0, value_before = 0.0;
   for (int k = 0; k < kMost; ++k) {
     if (!step->attempt(h)) return false;
-    step->equations().compiled().switches(step->unprojected(), &residual_);
+    step->equations().compiled().switches(step->unprojected(), &residual_, &right_);
     const double value = side(guard, residual_);
     if (value == 0.0) return true;
     double slope = 0.0;
@@ -164,7 +168,22 @@ bool ModeWatch::cut(RosenbrockStep<double>* step) {
   const double least = smallest_step(step->state().t, system_.study().duration);
   guard_ = crossing.guard;
   is_due_ = true;
+  next_mode_ = mode_beyond(crossing, step);
   return repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
+}
+
+// As near behind the crossing as its guard has another sign: the mode that the motion enters.
+std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
+  constexpr double kNearest = 1e-9, kFarther = 10.0;
+  for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
+    const double place = std::min(1.0, crossing.to + distance);
+    if (side_at(crossing.guard, place, step) >= 0.0) continue;
+    std::vector<bool> mode = step->equations().compiled().mode_of(point_);
+    if (mode != mode_) return mode;
+  }
+  std::vector<bool> mode = mode_;
+  mode[to_index(crossing.guard)] = !mode[to_index(crossing.guard)];
+  return mode;
 }
 
 double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {
@@ -180,8 +199,8 @@ double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>
   seed(at.v, rates.v, &moving_.v);
   seed(at.s, rates.s, &moving_.s);
   seed(at.z, rates.z, &moving_.z);
-  VectorX<Lanes<4>> guards;
-  along_->compiled().switches(moving_, &guards);
+  VectorX<Lanes<4>> guards, right;
+  along_->compiled().switches(moving_, &guards, &right);
   return guards[k].directions()[0];
 }
 
@@ -197,8 +216,8 @@ std::vector<bool> ModeWatch::mode_behind(const State<double>& at, const State<do
 // Both modes drive the motion to the guard: no step can leave it.
 Status ModeWatch::count_return(double t) {
   constexpr int kEnough = 6;
-  const double least = smallest_step(t, system_.study().duration);
-  returns_ = t - last_change_ < 100.0 * least ? returns_ + 1 : 0;
+  constexpr double kAtOnce = 1e-7;  // of the duration
+  returns_ = t - last_change_ < kAtOnce * system_.study().duration ? returns_ + 1 : 0;
   last_change_ = t;
   if (returns_ < kEnough + 2 * static_cast<int>(mode_.size())) return {};
   return {StatusCode::kSwitchHolds, t,
@@ -228,7 +247,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   along_->hold(mode_);
   if (change->guard >= 0)
     change->guard_rate = guard_rate(change->guard, before, rates);
-  change->mode = mode_behind(before, rates, equations);
+  change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
   mode_ = change->mode;
   equations->hold(mode_);
   change->behind = before;

@@ -63,6 +63,8 @@ class ModeWatch {
                ModeChange* change);
 
  private:
+  /// What of a guard counts as zero, relative to its largest value and to the sizes of x and y.
+  static constexpr double kRounding = 1e-10, kCancelled = 1e-13;
   static constexpr int kPoints = 5;  ///< at which guards are evaluated after the start of a step
 
   struct Crossing {
@@ -74,24 +76,29 @@ class ModeWatch {
     return mode_[to_index(k)] ? guards[k] : -guards[k];
   }
   double side_at(int k, double theta, RosenbrockStep<double>* step);
+  /// Whether a value of side() has left its side by more than what rounding makes of the guard,
+  /// which may stay at zero: a bristle at rest.
+  bool has_left(int k, double value) const { return value < -sizes_[k]; }
   Crossing first_crossing(RosenbrockStep<double>* step);
   Crossing crossing_of(int k, RosenbrockStep<double>* step);
   double locate(const Crossing& crossing, RosenbrockStep<double>* step);
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   Status count_return(double t);
+  std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
   std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,
                                 Equations<double>* equations) const;
 
   const CompiledSystem& system_;
-  std::vector<bool> mode_;
+  std::vector<bool> mode_, next_mode_;
   bool is_due_ = false;
   int guard_ = -1;      ///< that cut the last step
   int returns_ = 0;     ///< changes in turn without a step between them
   double last_change_ = -1.0;  ///< [s]
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
+  VectorX<double> sizes_;      ///< of what counts as zero of each guard
   State<double> point_;
-  VectorX<double> residual_;
+  VectorX<double> residual_, right_;
   Eigen::MatrixXd samples_;  ///< a column of guards per point of the step
   std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion
   State<Lanes<4>> moving_;

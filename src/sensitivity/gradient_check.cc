@@ -108,8 +108,8 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
 /// the guard is zero at the time t_e + i tau'.
 void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step,
                    State<Complex>* state) {
-  VectorX<Complex> guards;
-  step->equations().compiled().switches(*state, &guards);
+  VectorX<Complex> guards, right;
+  step->equations().compiled().switches(*state, &guards, &right);
   const Complex tau(0.0, -guards[change.guard].imag() / change.guard_rate);
   const Eigen::Index n = state->v.size(), states = state->s.size();
   const VectorX<double> jump = change.before.z - change.behind.z;

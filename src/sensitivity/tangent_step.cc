@@ -114,7 +114,7 @@ void TangentStep<N>::take_up(const State<double>& at, const State<Lanes<N>>& lan
 
 template <int N>
 void TangentStep<N>::cross(const ModeChange& change) {
-  equations_.equations().compiled().switches(equations_.lanes(change.end, y_), &guards_);
+  equations_.equations().compiled().switches(equations_.lanes(change.end, y_), &guards_, &right_);
   const Vector tau = guards_[change.guard].v * (-1.0 / change.guard_rate);
   const auto grow = [&](int column, double difference) {
     y_.vector(column) += difference * tau;

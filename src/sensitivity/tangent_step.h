@@ -177,7 +177,7 @@ class TangentStep {
       false;  ///< whether the changes of the matrices are those with which the next step begins
   std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
-  VectorX<Lanes<N>> guards_;
+  VectorX<Lanes<N>> guards_, right_;
   State<Lanes<N>> start_;                             ///< with the initial sensitivities
   State<Lanes<N>> point_;                             ///< a point of the dense output
   std::vector<Directions<N>> stages_;                 ///< u' of each stage

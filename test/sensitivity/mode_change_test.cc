@@ -25,7 +25,7 @@ constexpr const char* kSlide = R"(<robot name="cart" xmlns:codesign="urn:mechani
     <axis xyz="1 0 0"/><limit lower="-1000" upper="1000" effort="50" velocity="1000"/></joint>
 </robot>)";
 
-struct Case {
+struct SwitchCase {
   const char* name;
   const char* study;
   double objective;
@@ -35,7 +35,7 @@ struct Case {
 /// x(2) after the force +1 until `ts` and -1 afterwards.
 double switched(double ts) { return ts * ts / 2.0 + ts * (2.0 - ts) - (2.0 - ts) * (2.0 - ts) / 2.0; }
 
-std::vector<Case> cases() {
+std::vector<SwitchCase> switch_cases() {
   const double x = switched(0.8), beyond = 0.7 + 1.3 - 0.25 * 1.69;
   // floor(2 t) N: v = 0, then 0.5 (t - 0.5), ...
   return {
@@ -92,7 +92,7 @@ class ModeChangeTest : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ModeChangeTest, GradientsAreThoseOfClosedForms) {
   const RobotDescription robot = read_urdf({"slide.urdf", kSlide});
-  for (const Case& test : cases()) {
+  for (const SwitchCase& test : switch_cases()) {
     const std::string study = "duration: 2.0\nsolver: " + std::string(GetParam()) + test.study;
     const auto system = make_system(robot, read_study({"study.yaml", study}, robot));
     const GradientCheck check = check_design(system, system->parameters(),
