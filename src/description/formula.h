@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -20,7 +21,7 @@ T formula_extreme(const T* first, int count, bool largest) {
   T best = first[0];
   for (int k = 1; k < count; ++k) {
     const T& one = first[k];
-    if (largest ? is_less(best, one, false) : is_less(one, best, false)) best = one;
+    if (largest ? is_below(best, one, false) : is_below(one, best, false)) best = one;
   }
   return best;
 }
@@ -28,9 +29,7 @@ T formula_extreme(const T* first, int count, bool largest) {
 /// The next whole number below x, or with `above` the next above.
 template <class T>
 T whole_number(const T& x, bool above) {
-  const T nearest = nearest_integer(x);
-  if (above) return is_less(nearest, x, false) ? T(nearest + T(1.0)) : nearest;
-  return is_less(x, nearest, false) ? T(nearest - T(1.0)) : nearest;
+  return above ? T(-whole_below(T(-x))) : whole_below(x);
 }
 
 /// A function of expressions, for any scalar but ranges.
@@ -45,9 +44,9 @@ T formula_function(FunctionKind kind, const T* z, int count) {
     case K::kPower:
       return power(x, z[1]);
     case K::kMagnitude:
-      return is_less(x, zero, false) ? T(-x) : x;
+      return is_below(x, zero, false) ? T(-x) : x;
     case K::kSign:
-      return is_less(x, zero, false) ? T(-1.0) : is_less(zero, x, true) ? one : zero;
+      return is_below(x, zero, false) ? T(-1.0) : is_below(zero, x, true) ? one : zero;
     case K::kLeast:
     case K::kGreatest:
       return formula_extreme(z, count, kind == K::kGreatest);
@@ -62,12 +61,12 @@ T formula_function(FunctionKind kind, const T* z, int count) {
 /// Whether a < b, as 1 or 0; of ranges as in description/value_range.h.
 template <class T>
 T less(const T& a, const T& b) {
-  return T(is_less(a, b, false) ? 1.0 : 0.0);
+  return T(is_below(a, b, false) ? 1.0 : 0.0);
 }
 /// Whether a = b. An undefined number (NaN) counts as equal to all: neither is less.
 template <class T>
 T equal(const T& a, const T& b) {
-  return T(!is_less(a, b, false) && !is_less(b, a, false) ? 1.0 : 0.0);
+  return T(!is_below(a, b, false) && !is_below(b, a, false) ? 1.0 : 0.0);
 }
 
 template <class T>
@@ -110,8 +109,21 @@ T formula_operation(ExpressionStep::Code code, const T& a, const T& b) {
   }
 }
 
+/// Whether an expression has a comparison or a function with a kink or a jump.
+inline bool has_switches(const ExpressionSteps& steps) {
+  using Code = ExpressionStep::Code;
+  using K = FunctionKind;
+  return std::any_of(steps.begin(), steps.end(), [](const ExpressionStep& step) {
+    if (step.code == Code::kJumpUnless) return true;
+    if (step.code != Code::kCall) return false;
+    const K kind = expression_function_table()[to_index(step.index)].kind;
+    return kind == K::kMagnitude || kind == K::kSign || kind == K::kLeast || kind == K::kGreatest ||
+           kind == K::kFloor || kind == K::kCeiling;
+  });
+}
+
 /// The value of the steps from `first` to `last`, for any scalar. Comparisons and functions with
-/// branches decide by is_less(). @param stack memory for stack_size() numbers.
+/// branches decide by is_below(). @param stack memory for stack_size() numbers.
 template <class T>
 T evaluate_steps(const ExpressionSteps& steps, std::size_t first, std::size_t last, In<T> variables,
                  Out<T> stack) {
@@ -184,7 +196,7 @@ template <class T>
 Taylor<T> time_series(const Expression& formula, int time, const std::vector<T>& used, double t) {
   UsedNumbers<Taylor<T>> variables(used.size());
   for (std::size_t k = 0; k < used.size(); ++k)
-    variables[k] = formula.dependencies()[k] == time ? Taylor<T>::time(t) : Taylor<T>(used[k]);
+    variables[k] = formula.dependencies()[k] == time ? Taylor<T>::time(T(t)) : Taylor<T>(used[k]);
   return evaluate_formula<Taylor<T>>(formula.steps(), variables);
 }
 
