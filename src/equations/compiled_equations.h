@@ -47,8 +47,9 @@ class CompiledEquations {
   void allow(bool machine_code);
   /// Begins again with the first variant.
   void use_first_variant();
-  /// From now on the switches of the residual have the outcomes of this mode at every state, so that
-  /// its formulas are smooth across their guards; doc/theory.md (17d). Not in signals and starts.
+  /// From now on the switches of the residual have the outcomes of this mode at every state, so
+  /// that its formulas are smooth across their guards; doc/theory.md (17d). Not in signals and
+  /// starts.
   void hold(const std::vector<bool>& mode);
   /// Ends hold(): each state decides.
   void release();
@@ -180,8 +181,8 @@ class CompiledEquations {
   EquationPart part_;
   std::vector<T> parameters_;
   bool interpreted_ = false, held_ = false;
-  std::vector<bool> mode_;               ///< that is held
-  std::vector<double> time_direction_;   ///< N entries, or empty
+  std::vector<bool> mode_;                                                 ///< that is held
+  std::vector<double> time_direction_;                                     ///< N entries, or empty
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
   std::unique_ptr<CompressedJacobian>
       compressed_;                       ///< for double, if the system compresses its Jacobian

@@ -90,7 +90,7 @@ class EquationCode {
     int lanes;   ///< 0 for double and for complex numbers, which are always interpreted
     bool split;  ///< only derivatives are computed, from values and directions of the state in
                  ///< separate arrays
-    bool interpreted;  ///< without machine code
+    bool interpreted;   ///< without machine code
     bool held = false;  ///< without the guards of switches, whose outcomes the caller holds
   };
 

@@ -12,10 +12,10 @@ enum class ObjectivePart { kIntegral, kTerminal };
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,   ///< kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates, kAccelerations
-             ///< and kLinearization
-  kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
-  kStart,    ///< kPlacement, kTurns and the controllers' functions
+  kMotion,  ///< kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates,
+            ///< kAccelerations and kLinearization
+  kSignals,     ///< kTerminal, the residuals of the objective and the watched signals
+  kStart,       ///< kPlacement, kTurns and the controllers' functions
   kLinearized,  ///< kLinearization, where kRates are recorded without it,
                 ///< CompiledSystem::has_rates_apart()
   kRates,       ///< kRates and kAccelerations, where simulations differentiate without a program,

@@ -140,8 +140,7 @@ void TransposedCode::transpose_design(const std::vector<int>& sum_of) {
   }
 }
 
-const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted,
-                                             bool held) const {
+const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted, bool held) const {
   const Transposed& transposed = functions_[which];
   const std::vector<Recording::Guard>& guards = transposed.task.guards;
   const bool has_switches = std::any_of(

@@ -47,8 +47,7 @@ void ExpressionWatch::evaluate(RosenbrockStep<double>* step) {
     return values_.head(count_);
   };
   samples_.resize(count_, kIntervals + 1);
-  for (int k = 0; k <= kIntervals; ++k)
-    samples_.col(k) = at(static_cast<double>(k) / kIntervals);
+  for (int k = 0; k <= kIntervals; ++k) samples_.col(k) = at(static_cast<double>(k) / kIntervals);
   at_nodes_.resize(count_, to_signed(nodes_.size()));
   for (std::size_t k = 0; k < nodes_.size(); ++k) at_nodes_.col(to_signed(k)) = at(nodes_[k]);
 }
@@ -57,8 +56,8 @@ void ExpressionWatch::evaluate(RosenbrockStep<double>* step) {
 // farthest from what the step knows: there the rates are solved for and compared with the dense
 // output.
 double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
-                                       const SolverOptions& options,
-                                       RosenbrockStep<double>* step, Assembly* assembly) {
+                                       const SolverOptions& options, RosenbrockStep<double>* step,
+                                       Assembly* assembly) {
   int farthest = 0;
   double deviation = 0.0;
   for (int k = 1; k < kIntervals; ++k) {
@@ -67,8 +66,8 @@ double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
     const auto right = next - nodes_.begin();
     const double a = nodes_[to_index(right - 1)], b = nodes_[to_index(right)],
                  share = (place - a) / (b - a);
-    const double known = (1.0 - share) * at_nodes_(expression, right - 1) +
-                         share * at_nodes_(expression, right);
+    const double known =
+        (1.0 - share) * at_nodes_(expression, right - 1) + share * at_nodes_(expression, right);
     const double here = std::abs(samples_(expression, k) - known);
     if (here > deviation) farthest = k, deviation = here;
   }
@@ -80,8 +79,9 @@ double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
   double largest = 0.0;
   const auto look = [&](Eigen::Index rate, double size) {
     const double response = std::abs(solved_.z[rate] - point_.z[rate]) / deviation;
-    largest = std::max(largest, response * missed /
-                                    (options.absolute_tolerance + options.relative_tolerance * size));
+    largest =
+        std::max(largest, response * missed /
+                              (options.absolute_tolerance + options.relative_tolerance * size));
   };
   for (int k = 0; k < layout.n; ++k)
     look(k, std::max(std::abs(step->state().v[k]), std::abs(step->unprojected().v[k])));
@@ -108,10 +108,10 @@ double ExpressionWatch::error(const SolverOptions& options, RosenbrockStep<doubl
     if (!std::isfinite(missed) || missed <= kRounding * h * samples_.row(e).cwiseAbs().maxCoeff())
       continue;
     const bool is_integrand = e + 1 == count_;
-    largest = std::max(
-        largest, is_integrand ? missed / (options.absolute_tolerance +
-                                          options.relative_tolerance * std::abs(step->psi()))
-                              : largest_effect(e, missed, options, step, assembly));
+    largest = std::max(largest, is_integrand
+                                    ? missed / (options.absolute_tolerance +
+                                                options.relative_tolerance * std::abs(step->psi()))
+                                    : largest_effect(e, missed, options, step, assembly));
   }
   return largest / kOwnError;
 }

@@ -39,10 +39,10 @@ class ExpressionWatch {
   const CompiledSystem& system_;
   Eigen::Index count_ = 0;  ///< expressions and g; 1: nothing to do
   const RosenbrockTableau* tableau_ = nullptr;
-  std::vector<double> nodes_;   ///< different instants of the stages, in parts of the step
-  Eigen::VectorXd weights_;     ///< of the quadrature at the nodes
-  Eigen::MatrixXd samples_;     ///< a column per point of Simpson's rule
-  Eigen::MatrixXd at_nodes_;    ///< a column per node
+  std::vector<double> nodes_;  ///< different instants of the stages, in parts of the step
+  Eigen::VectorXd weights_;    ///< of the quadrature at the nodes
+  Eigen::MatrixXd samples_;    ///< a column per point of Simpson's rule
+  Eigen::MatrixXd at_nodes_;   ///< a column per node
   VectorX<double> values_;
   State<double> point_, solved_;
 };

@@ -72,8 +72,7 @@ ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) 
                  from = static_cast<double>(point - 1) / kPoints;
     if (has_left(k, at(point))) return {k, from, to};
     if (point == kPoints || at(point) > at(point - 1) || at(point) > at(point + 1)) continue;
-    const double place =
-        (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints;
+    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints;
     if (has_left(k, side_at(k, place, step))) return {k, from, place};
   }
   return {};
@@ -245,8 +244,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   assembly->differentiate_rates(before, equations, &rates);
   equations->residual(before, &residual_, &change->g_before);
   along_->hold(mode_);
-  if (change->guard >= 0)
-    change->guard_rate = guard_rate(change->guard, before, rates);
+  if (change->guard >= 0) change->guard_rate = guard_rate(change->guard, before, rates);
   change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
   mode_ = change->mode;
   equations->hold(mode_);

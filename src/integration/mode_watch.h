@@ -14,8 +14,8 @@ namespace codesign {
 
 /// A change of the mode, theory (17d), between the end of a step and the beginning of the next one.
 struct ModeChange {
-  /// The switch whose guard became zero at the end of the step; -1 where the instant does not depend
-  /// on the motion: at the start, and where inputs jump.
+  /// The switch whose guard became zero at the end of the step; -1 where the instant does not
+  /// depend on the motion: at the start, and where inputs jump.
   int guard = -1;
   /// The time derivative of that guard along the motion before the change, s_t + s_x f- [per s].
   double guard_rate = 0.0;
@@ -39,8 +39,8 @@ class ModeWatch {
   /// Holds the mode of a consistent state at the beginning of a run. @param equations of the steps;
   /// must hold the design and outlive the run.
   void start(const State<double>& initial, Equations<double>* equations);
-  /// The same while a run goes on from a state that was computed with a design or inputs of now: the
-  /// equations hold the mode as before, and it is looked at before the next step.
+  /// The same while a run goes on from a state that was computed with a design or inputs of now:
+  /// the equations hold the mode as before, and it is looked at before the next step.
   void restart(Equations<double>* equations);
   /// Whether the equations have switches.
   bool is_active() const { return !mode_.empty(); }
@@ -92,14 +92,14 @@ class ModeWatch {
   const CompiledSystem& system_;
   std::vector<bool> mode_, next_mode_;
   bool is_due_ = false;
-  int guard_ = -1;      ///< that cut the last step
-  int returns_ = 0;     ///< changes in turn without a step between them
+  int guard_ = -1;             ///< that cut the last step
+  int returns_ = 0;            ///< changes in turn without a step between them
   double last_change_ = -1.0;  ///< [s]
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
   VectorX<double> sizes_;      ///< of what counts as zero of each guard
   State<double> point_;
   VectorX<double> residual_, right_;
-  Eigen::MatrixXd samples_;  ///< a column of guards per point of the step
+  Eigen::MatrixXd samples_;                     ///< a column of guards per point of the step
   std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion
   State<Lanes<4>> moving_;
 };

@@ -129,8 +129,7 @@ Status RosenbrockIntegrator::jump() {
 
 Status RosenbrockIntegrator::change_mode(ModeChange* change) {
   if (!mode_watch_.is_due()) return {};
-  if (Status status =
-          mode_watch_.cross(step_.state(), &assembly_, &step_.equations(), change);
+  if (Status status = mode_watch_.cross(step_.state(), &assembly_, &step_.equations(), change);
       !status.ok())
     return status;
   has_jumped_ = true;

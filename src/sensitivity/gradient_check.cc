@@ -29,8 +29,8 @@ constexpr double kComplexStep = 1e-30;
 struct TakenStep {
   double h;  ///< [s]
   const RosenbrockTableau* tableau;
-  std::vector<bool> mode;      ///< that its stages held
-  ModeChange change = {};      ///< before it; guard -1 if no guard determined its beginning
+  std::vector<bool> mode;  ///< that its stages held
+  ModeChange change = {};  ///< before it; guard -1 if no guard determined its beginning
 };
 
 /// Records the steps of an integration.
@@ -106,8 +106,7 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
 
 /// Carries a complex run over an instant that a guard determines, theory (18f): in complex numbers
 /// the guard is zero at the time t_e + i tau'.
-void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step,
-                   State<Complex>* state) {
+void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step, State<Complex>* state) {
   VectorX<Complex> guards, right;
   step->equations().compiled().switches(*state, &guards, &right);
   const Complex tau(0.0, -guards[change.guard].imag() / change.guard_rate);

@@ -116,9 +116,7 @@ template <int N>
 void TangentStep<N>::cross(const ModeChange& change) {
   equations_.equations().compiled().switches(equations_.lanes(change.end, y_), &guards_, &right_);
   const Vector tau = guards_[change.guard].v * (-1.0 / change.guard_rate);
-  const auto grow = [&](int column, double difference) {
-    y_.vector(column) += difference * tau;
-  };
+  const auto grow = [&](int column, double difference) { y_.vector(column) += difference * tau; };
   const VectorX<double> jump = change.before.z - change.behind.z;
   for (int k = 0; k < at_.n; ++k) grow(at_.v() + k, jump[k]);
   for (int k = 0; k < at_.states; ++k) grow(at_.s() + k, jump[layout_.state_column(k)]);

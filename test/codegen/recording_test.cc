@@ -95,6 +95,33 @@ TEST(Recording, FollowsOutcomes) {
   EXPECT_EQ(r.guards()[2].decision, 2);
 }
 
+TEST(Recording, HoldsTheOutcomesOfSwitches) {
+  Recording r;
+  const int x = r.leaf(0, 0, true), y = r.leaf(0, 1, true), z = r.leaf(0, 2, true),
+            design = r.leaf(0, 3, false), other = r.leaf(0, 4, false);
+  r.follow({true, false});
+  r.hold({false});
+  EXPECT_TRUE(r.decide(z, x, true, 9, true)) << "switches are not recorded yet";
+  r.record_switches(true);
+  EXPECT_FALSE(r.decide(x, y, true, 10, true)) << "held";
+  EXPECT_TRUE(r.decide(y, z, true, 11, true)) << "the mode is at its end: as expected";
+  EXPECT_FALSE(r.decide(design, other, false, 12, true));
+  EXPECT_FALSE(r.guards()[0].is_switch);
+  EXPECT_TRUE(r.guards()[1].is_switch);
+  EXPECT_TRUE(r.guards()[2].is_switch);
+  EXPECT_FALSE(r.guards()[3].is_switch) << "no state changes it";
+}
+
+TEST(Recording, NotesExpressionsThatVary) {
+  Recording r;
+  const int x = r.leaf(0, 0, true), design = r.leaf(0, 1, false);
+  r.note(x);
+  EXPECT_TRUE(r.noted().empty());
+  r.record_switches(true);
+  for (const int node : {x, design, x}) r.note(node);
+  EXPECT_EQ(r.noted(), std::vector<int>{x});
+}
+
 TEST(Recording, TurnsDecisionsByTheirPlace) {
   Recording r;
   r.turn([](unsigned place) { return place == 10; });

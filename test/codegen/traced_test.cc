@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "math/scalar.h"
 
@@ -95,6 +97,31 @@ TEST_F(TracedTest, AValueThatIsNotKnownRefusesTheRecording) {
   EXPECT_FALSE(recording.refused());
   value_of(x);
   EXPECT_TRUE(recording.refused());
+}
+
+/// The outcomes of decisions by which a number is found in a recording that a state at x makes.
+double whole_below_at(double at) {
+  std::vector<bool> outcomes;
+  for (;;) {
+    Recording recording;
+    recording.follow(outcomes);
+    const Traced found = whole_below(Traced(&recording, recording.leaf(0, 0, true)));
+    const auto wrong = [&](const Recording::Guard& guard) {
+      return (at < recording.node(guard.b).literal) != guard.outcome;
+    };
+    const auto& guards = recording.guards();
+    const auto first = std::find_if(guards.begin(), guards.end(), wrong);
+    if (first == guards.end()) return found.value();
+    outcomes.clear();
+    for (auto guard = guards.begin(); guard <= first; ++guard) outcomes.push_back(guard->outcome);
+    outcomes.back() = !outcomes.back();
+  }
+}
+
+TEST_F(TracedTest, WholeNumbersAreLiteralsFoundByDecisions) {
+  EXPECT_EQ(whole_below(Traced(-2.5)).value(), -3.0);
+  for (double at : {0.0, 0.4, 1.0, 1.9, 2.0, 3.5, 17.3, 1024.0, -0.2, -1.0, -1.5, -2.0, -77.7})
+    EXPECT_EQ(whole_below_at(at), std::floor(at)) << at;
 }
 
 TEST_F(TracedTest, TurnsAreCountedByRounding) {

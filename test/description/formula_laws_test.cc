@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-Lanes<4> lane(double value, int k) {
+Lanes<4> lane_of(double value, int k) {
   Lanes<4> x(value);
   x.v[k] = 1.0;
   return x;
@@ -27,7 +27,7 @@ TEST(FormulaLaws, SlopesOfLanesAndComplexStepsAreExactAtTheEndsOfDomains) {
                          {FunctionKind::kArcCosine, -1.0, -HUGE_VAL},
                          {FunctionKind::kLogarithm, 0.0, HUGE_VAL},
                          {FunctionKind::kLogarithm10, 0.0, HUGE_VAL}}) {
-    const Lanes<4> value = smooth_function(end.kind, lane(end.at, 2));
+    const Lanes<4> value = smooth_function(end.kind, lane_of(end.at, 2));
     EXPECT_EQ(value.v[2], end.slope);
     EXPECT_EQ(value.v[0], 0.0);
     EXPECT_EQ(value.a, smooth_function(end.kind, end.at));
@@ -37,16 +37,16 @@ TEST(FormulaLaws, SlopesOfLanesAndComplexStepsAreExactAtTheEndsOfDomains) {
     EXPECT_EQ(step.real(), value.a);
   }
   EXPECT_EQ(angle_of(Lanes<4>(0.0), Lanes<4>(0.0)).v[0], 0.0);
-  EXPECT_TRUE(std::isnan(angle_of(lane(0.0, 0), Lanes<4>(0.0)).v[0]));
+  EXPECT_TRUE(std::isnan(angle_of(lane_of(0.0, 0), Lanes<4>(0.0)).v[0]));
 }
 
 TEST(FormulaLaws, QuotientsHaveTheValueOfTheDouble) {
   for (double x = 1.0; x < 60.0; x += 1.0) {
-    EXPECT_EQ(quotient(lane(x, 0), lane(49.0, 1)).a, x / 49.0);
+    EXPECT_EQ(quotient(lane_of(x, 0), lane_of(49.0, 1)).a, x / 49.0);
     EXPECT_EQ(quotient(std::complex<double>(x, 1e-30), std::complex<double>(49.0)).real(),
               x / 49.0);
   }
-  EXPECT_EQ(quotient(lane(3.0, 0), lane(4.0, 1)).v[1], -3.0 / 16.0);
+  EXPECT_EQ(quotient(lane_of(3.0, 0), lane_of(4.0, 1)).v[1], -3.0 / 16.0);
 }
 
 // A function of what does not change in time does not change, also at the end of its domain.
@@ -80,7 +80,7 @@ TEST(FormulaLaws, PowersOfTheTimeAreExactAlsoAtZeroAndForNegativeTimes) {
 
 // d/dn t^n = t^n log t, and of its rate t^(n-1) (1 + n log t).
 TEST(FormulaLaws, PowersOfTheTimeHaveTheDerivativeByTheExponent) {
-  const Taylor<Lanes<4>> t = Taylor<Lanes<4>>::time(3.0), n(lane(2.0, 1));
+  const Taylor<Lanes<4>> t = Taylor<Lanes<4>>::time(3.0), n(lane_of(2.0, 1));
   const Taylor<Lanes<4>> series = power(t, n);
   EXPECT_DOUBLE_EQ(series.c[0].v[1], 9.0 * std::log(3.0));
   EXPECT_DOUBLE_EQ(series.c[1].v[1], 3.0 * (1.0 + 2.0 * std::log(3.0)));
@@ -97,7 +97,7 @@ TEST(FormulaLaws, PowersOfTheTimeHaveTheDerivativeByTheExponent) {
 
 Lanes<4> recorded_power(double base, double exponent, bool base_varies, bool exponent_varies) {
   return recorded_value<Lanes<4>>(Expression("x**n", {"x", "n"}),
-                                  {lane(base, 0), lane(exponent, 1)},
+                                  {lane_of(base, 0), lane_of(exponent, 1)},
                                   {!base_varies, !exponent_varies});
 }
 
