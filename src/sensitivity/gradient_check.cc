@@ -104,7 +104,7 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
   }
 }
 
-/// Carries a complex run over an instant that a guard determines, theory (18f): in complex numbers
+/// Carries a complex run over an instant that a guard determines, theory (18g): in complex numbers
 /// the guard is zero at the time t_e + i tau'.
 void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step, State<Complex>* state) {
   VectorX<Complex> guards, right;

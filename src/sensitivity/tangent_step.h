@@ -99,7 +99,7 @@ class TangentStep {
             const State<double>& behind, const Assembly& assembly,
             const std::vector<bool>& mode = {});
 
-  /// Carries the sensitivities over an instant that a guard s determines, theory (18f): with tau' =
+  /// Carries the sensitivities over an instant that a guard s determines, theory (18g): with tau' =
   /// -s'/(s_t + s_x f-) they grow by (f- - f+) tau'. jump() with the mode after it follows.
   void cross(const ModeChange& change);
 

@@ -19,7 +19,7 @@ std::string study(const std::string& load, const std::string& more = "") {
 
 std::string slide() { return robot(mass("piston", 2.0) + lift("slide", "piston", 0.0)); }
 
-const char* const kTight = "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-12}\n";
+const char* const kTightTolerances = "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-12}\n";
 
 // 6 N on 2 kg from an instant on: the speed is exact, since no step crosses it.
 TEST(ModeWatch, AStepOfTimeIsMetToRounding) {
@@ -42,7 +42,7 @@ TEST(ModeWatch, ARelaySwitchesAtEachPassage) {
   const std::string text =
       "duration: 40.0\ngravity: [0, 0, 0]\ninitial_state: {slide: {position: "
       "1.0}}\nloads: [{joint: slide, effort: \"${-2*sign(slide/position)}\"}]\n" +
-      std::string(kTight);
+      std::string(kTightTolerances);
   const double period = 4.0 * std::sqrt(2.0);
   EXPECT_NEAR(end_of(slide(), text, 7.0 * period, {"slide/position"})[0], 1.0, 1e-8);
 }

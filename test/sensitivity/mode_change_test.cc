@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Gradients of motions whose formulas switch, theory (17d), (18f), against closed forms.
+// Gradients of motions whose formulas switch, theory (17d), (18g), against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
