@@ -38,6 +38,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       assembly_(system),
       controller_(step_.tableau().order),
       choice_(system),
+      stability_(system),
       watch_(system),
       run_watch_(system),
       work_(system),
@@ -58,6 +59,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   clock_.start();
   jump_events_.clear();
   step_.use(choice_.start());
+  stability_.start();
   begin_methods(step_.tableau().name);
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
@@ -147,7 +149,7 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
   if (Status status = jump(); !status.ok()) return status;
   if (chooses_) {
-    const RosenbrockTableau& next = choice_.next(&step_);
+    const RosenbrockTableau& next = choice_.next(&step_, stability_.limits());
     if (&next != &step_.tableau()) change_method(step_.state().t, next.name);
     step_.use(next);
   }
@@ -191,6 +193,11 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
     error = std::max(error, psi_error(step_, options_));
+    if (error <= 1.0 && !stability_.allows(&step_)) {
+      ++statistics_.rejected_steps;
+      proposal_ = stability_.shorten(h);
+      continue;
+    }
     if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;
@@ -198,6 +205,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     }
     // After a step that the limit cut short, the earlier proposal is the better one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
+    proposal_ = stability_.shorten(proposal_);
     if (!step_.accept())
       return {StatusCode::kSingularMatrix, t + h,
               "the augmented matrix of the equations of motion is singular"};

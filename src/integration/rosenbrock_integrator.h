@@ -13,6 +13,7 @@
 #include "integration/run_ends.h"
 #include "integration/run_watch.h"
 #include "integration/singularity_watch.h"
+#include "integration/stability_bound.h"
 #include "integration/step_control.h"
 
 namespace codesign {
@@ -72,6 +73,7 @@ class RosenbrockIntegrator final : public Integrator {
   State<double> initial_;
   StepController controller_;
   MethodChoice choice_;
+  StabilityBound stability_;
   bool chooses_ = false;  ///< whether a step was accepted since the method was chosen
   MotionWatch watch_;
   RunWatch run_watch_;

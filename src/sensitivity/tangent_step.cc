@@ -89,11 +89,8 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   assembly.extend(parameters, initial, &equations_.equations(), &extension_, &start_);
   y_.setZero();
   take_up(initial, start_);
-  largest_x_.setZero();
-  largest_v_.setZero();
-  largest_state_ = 1.0;
-  per_square_ = inverse_squares<N>(parameters);
-  measure(initial);
+  scale_.start(system_, parameters);
+  scale_.measure(at_, initial, y_);
   if (keeps_previous_) previous_y_ = y_;
 }
 
@@ -262,18 +259,18 @@ void TangentStep<N>::attempt(RosenbrockStep<double>* step) {
   for (std::size_t i = 0; i < count(); ++i) stage_tangent(i, *step);
 }
 
+// The last stage lies at the end, but for the error.
 template <int N>
-double TangentStep<N>::error(double relative_tolerance) const {
-  const Directions<N>& u = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
-  // A parameter whose own size changes the motion by rounding alone has no error.
-  const Eigen::Array<double, N, 1> rounding = 1e-16 * largest_state_ * per_square_;
-  const auto ratio = [&rounding](const Eigen::Array<double, N, 1>& squares,
-                                 const Eigen::Array<double, N, 1>& size) {
-    return (squares / size.max(rounding)).maxCoeff();
-  };
-  const double largest = std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_),
-                                  ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
-  return std::sqrt(largest) / relative_tolerance;
+double TangentStep<N>::error(const RosenbrockStep<double>& step, double tolerance) const {
+  const Directions<N>& estimate = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
+  Vector change{};
+  for (std::size_t j = 0; j < count(); ++j)
+    change += tableau_->weights[j] * stages_[j].vector(at_.psi());
+  const Eigen::Map<const Eigen::Array<double, N, 1>> by(reinterpret_cast<const double*>(&change));
+  return scale_.error(at_,
+                      {stage_y_, estimate, y_.col(at_.psi()).array() + by, by, step.step_size(),
+                       step.psi()},
+                      tolerance);
 }
 
 // Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds
@@ -305,7 +302,7 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
   has_changes_ = false;
   if (!tableau_->is_explicit() || layout_.m > 0) linearize(step.unprojected());
   if (layout_.m > 0) project(step);
-  measure(step.state());
+  scale_.measure(at_, step.state(), y_);
 }
 
 template <int N>

@@ -19,7 +19,7 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
     double error = 0.0;
     for_each_group([&](auto* group) {
       group->step.attempt(step);
-      if (tolerance > 0.0) error = std::max(error, group->step.error(tolerance));
+      if (tolerance > 0.0) error = std::max(error, group->step.error(*step, tolerance));
     });
     return error;
   };
