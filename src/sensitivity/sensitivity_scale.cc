@@ -17,9 +17,9 @@ constexpr double kSmallValue = 1e-3;
 // A direction that over the range changes the motion, or psi, by less than this share is judged as
 // one that changes it so much.
 constexpr double kLeastShare = 1e-3;
-// psi' begins with zero: it counts at least as what it becomes if it goes on like this over such a
-// part of the duration.
-constexpr double kPartOfDuration = 0.01;
+// Errors that over the range are less than this share of solver.absolute_tolerance do not count:
+// rounding, where sensitivities vanish.
+constexpr double kAbsoluteShare = 1e-3;
 
 double square(double x) { return x * x; }
 
@@ -30,8 +30,10 @@ void SensitivityScale<N>::start(const CompiledSystem& system,
                                 const std::vector<Lanes<N>>& parameters) {
   const MotionStudy& study = system.study();
   for (Array* all : {&x_, &v_, &psi_, &per_value_, &per_range_}) all->setZero();
+  // Of lanes without a parameter.
+  per_range_.setConstant(1e-200);
   q_square_ = v_square_ = 0.0;
-  duration_ = study.duration;
+  absolute_ = kAbsoluteShare * study.solver.absolute_tolerance;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = std::abs(value_of(parameters[i])),
                  extent = codesign::extent(study.parameters[i], value),
@@ -55,11 +57,11 @@ void SensitivityScale<N>::measure(const IncrementLayout& at, const State<double>
 template <int N>
 double SensitivityScale<N>::error(const IncrementLayout& at, const Attempt& attempt,
                                   double tolerance) const {
-  constexpr double kTiny = 1e-200;
   const double motion = std::max({1.0, q_square_, v_square_});
-  const Array rounding = square(kRoundingShare) * motion * per_value_ + kTiny,
+  const Array floor = square(absolute_ / tolerance) * per_range_,
+              rounding = floor.max(square(kRoundingShare) * motion * per_value_),
               share = square(kLeastShare) * per_range_;
-  const auto judge = [&](const Array& error, const Array& size, const Array& least) {
+  const auto judge = [](const Array& error, const Array& size, const Array& least) {
     return (error / size.max(least)).maxCoeff();
   };
   const Directions<N>&u = attempt.estimate, &y = attempt.end;
@@ -67,20 +69,19 @@ double SensitivityScale<N>::error(const IncrementLayout& at, const Attempt& atte
                          x_.max(squared_norms(y, at.x(), at.x_size)),
                          rounding.max(share * q_square_)),
                v = judge(squared_norms(u, at.v(), at.n), v_.max(squared_norms(y, at.v(), at.n)),
-                         rounding.max(share * v_square_));
-  const Array going_on = attempt.change * (kPartOfDuration * duration_ / attempt.h);
-  const double psi =
-      judge(u.col(at.psi()).array().square(), psi_.max(attempt.psi.square()),
-            (share * square(attempt.objective)).max(going_on.square()).max(kTiny));
+                         rounding.max(share * v_square_)),
+               psi = judge(u.col(at.psi()).array().square(), psi_.max(attempt.psi.square()),
+                           floor.max(share * square(attempt.objective)));
   // A derivative that is not finite at any step size is reported by the gradient.
   const double largest = std::max({x, v, psi});
   return std::isfinite(x + v + psi) ? std::sqrt(largest) / tolerance : 0.0;
 }
 
 double sensitivity_tolerance(const SolverOptions& options) {
-  constexpr double kFactor = 100.0, kMost = 1e-3;
+  constexpr double kFactor = 10.0, kTightFactor = 100.0, kFiveDigits = 1e-5, kMost = 1e-3;
   if (options.sensitivity_tolerance > 0.0) return options.sensitivity_tolerance;
-  return std::min(kFactor * options.relative_tolerance, kMost);
+  const double relative = options.relative_tolerance;
+  return std::min(kMost, std::max(kFactor * relative, std::min(kFiveDigits, kTightFactor * relative)));
 }
 
 template class SensitivityScale<4>;

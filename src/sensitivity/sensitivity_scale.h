@@ -20,8 +20,7 @@ class SensitivityScale {
   struct Attempt {
     const Directions<N>& end;       ///< at its end, positions and velocities
     const Directions<N>& estimate;  ///< of its error
-    Array psi, change;              ///< psi' at its end, and its change over the step
-    double h;                       ///< [s]
+    Array psi;                      ///< psi' at its end
     double objective;               ///< psi at its beginning
   };
 
@@ -37,12 +36,12 @@ class SensitivityScale {
   Array per_value_, per_range_;   ///< squares of what a direction is in units of the parameters'
                                   ///< values and ranges
   double q_square_ = 0.0, v_square_ = 0.0;  ///< of the motion itself
-  double duration_ = 0.0;
+  double absolute_ = 0.0;                   ///< an error over the range that does not count
 };
 
 /// The tolerance of sensitivities in the error test of a run with gradient:
-/// solver.sensitivity_tolerance, or its default, a hundred times relative_tolerance but at most
-/// 1e-3.
+/// solver.sensitivity_tolerance, or its default: ten times relative_tolerance, but at most 1e-3, and
+/// 1e-5 (or a hundred times relative_tolerance, if that is less) where that would be less.
 double sensitivity_tolerance(const SolverOptions& options);
 
 }  // namespace codesign

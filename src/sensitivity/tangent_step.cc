@@ -268,9 +268,7 @@ double TangentStep<N>::error(const RosenbrockStep<double>& step, double toleranc
     change += tableau_->weights[j] * stages_[j].vector(at_.psi());
   const Eigen::Map<const Eigen::Array<double, N, 1>> by(reinterpret_cast<const double*>(&change));
   return scale_.error(at_,
-                      {stage_y_, estimate, y_.col(at_.psi()).array() + by, by, step.step_size(),
-                       step.psi()},
-                      tolerance);
+                      {stage_y_, estimate, y_.col(at_.psi()).array() + by, step.psi()}, tolerance);
 }
 
 // Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds

@@ -42,7 +42,7 @@ inline GradientCase shipped_case(const std::string& name, double duration) {
   result.study.duration = duration;
   result.study.solver.relative_tolerance = 1e-6;
   result.study.solver.absolute_tolerance = 1e-7;
-  // The adjoint requires steps that are not controlled by a sensitivity tolerance.
+  // The default, as for the other tolerances.
   result.study.solver.sensitivity_tolerance = 0.0;
   return result;
 }

@@ -102,8 +102,6 @@ TEST(StudyOptions, RefusesBadSolverValues) {
   expect_fault(with_line("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
   expect_fault(with_line("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient",
                "integrator rosenbrock only", 3);
-  expect_fault(with_line("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"),
-               "solver.gradient", "no sensitivities", 3);
   expect_fault(with_line("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
 }
 
