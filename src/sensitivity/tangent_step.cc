@@ -259,16 +259,20 @@ void TangentStep<N>::attempt(RosenbrockStep<double>* step) {
   for (std::size_t i = 0; i < count(); ++i) stage_tangent(i, *step);
 }
 
-// The last stage lies at the end, but for the error.
+// The last stage lies at the end, but for the error. The pair's estimate counts as in
+// RosenbrockStep::error().
 template <int N>
 double TangentStep<N>::error(const RosenbrockStep<double>& step, double tolerance) const {
-  const Directions<N>& estimate = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
+  constexpr double kPairCaution = 5.0;
+  const bool pair = tableau_->is_explicit();
   Vector change{};
   for (std::size_t j = 0; j < count(); ++j)
     change += tableau_->weights[j] * stages_[j].vector(at_.psi());
   const Eigen::Map<const Eigen::Array<double, N, 1>> by(reinterpret_cast<const double*>(&change));
   return scale_.error(at_,
-                      {stage_y_, estimate, y_.col(at_.psi()).array() + by, step.psi()}, tolerance);
+                      {stage_y_, pair ? estimate_ : stages_[count() - 1],
+                       y_.col(at_.psi()).array() + by, step.psi()},
+                      pair ? tolerance / kPairCaution : tolerance);
 }
 
 // Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds
