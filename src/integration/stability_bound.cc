@@ -16,8 +16,9 @@ constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr double kStable = 1.0;
 // Steps within the bound, whose estimate varies a little, and which may be stretched by a tenth.
 constexpr double kWithin = 0.9;
-// Estimates that differ by less are taken as converged; of later ones those that differ by less than
-// the second share, since complex eigenvalues let them vary. At most how many are made in a row.
+// Estimates that differ by less are taken as converged; of later ones those that differ by less
+// than the second share, since complex eigenvalues let them vary. At most how many are made in a
+// row.
 constexpr double kSettled = 0.1, kSame = 1.0;
 constexpr int kMostLooks = 6;
 // Attempts at rest between two estimates, near the bound and far below it.
@@ -83,10 +84,9 @@ bool StabilityBound::multiply(RosenbrockStep<double>* step) {
   const State<double>& at = step->unprojected();
   VectorX<double>& w = direction_;
   // Far above rounding, and within the regularized zones of friction and stops.
-  const double e = 1e-7 *
-                   (1.0 + std::max(at.q.lpNorm<Eigen::Infinity>(),
-                                   at.v.lpNorm<Eigen::Infinity>())) /
-                   w.norm();
+  const double e =
+      1e-7 * (1.0 + std::max(at.q.lpNorm<Eigen::Infinity>(), at.v.lpNorm<Eigen::Infinity>())) /
+      w.norm();
   beside_ = at;
   beside_.q += e * w.segment(at_.x(), at_.n);
   beside_.s += e * w.segment(at_.s(), at_.states);
@@ -107,8 +107,7 @@ void StabilityBound::estimate(RosenbrockStep<double>* step) {
   const double now = found ? std::sqrt(length(per_time)) : 0.0;
   radius_ = looks_ == 0 && !has_settled_ ? now : std::max(now, last_);
   const double share = has_settled_ ? kSame : kSettled;
-  has_settled_ =
-      ++looks_ >= kMostLooks || std::abs(now - last_) <= share * std::min(now, last_);
+  has_settled_ = ++looks_ >= kMostLooks || std::abs(now - last_) <= share * std::min(now, last_);
   last_ = now;
   if (!found) begin_direction();
   if (!has_settled_) return;

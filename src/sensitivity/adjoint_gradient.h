@@ -16,9 +16,9 @@
 namespace codesign {
 
 /// Gradient by the discrete adjoint of the Rosenbrock steps, doc/theory.md (18a)-(18d): advance()
-/// integrates forward, with the tangent along control_directions() in the error test, and stores the
-/// path, gradient() goes back along its steps. Equal to the gradient of RosenbrockGradient up to
-/// rounding.
+/// integrates forward, with the tangent along control_directions() in the error test, and stores
+/// the path, gradient() goes back along its steps. Equal to the gradient of RosenbrockGradient up
+/// to rounding.
 class AdjointGradient final : public GradientEngine {
  public:
   /// @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.

@@ -133,8 +133,7 @@ Status RosenbrockGradient::advance(double limit) {
   if (with_gradient_)
     if (Status status = jump(); !status.ok()) return status;
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
-  if (status.ok() && with_gradient_)
-    accept();
+  if (status.ok() && with_gradient_) accept();
   if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;

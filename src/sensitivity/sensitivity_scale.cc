@@ -81,7 +81,8 @@ double sensitivity_tolerance(const SolverOptions& options) {
   constexpr double kFactor = 10.0, kTightFactor = 100.0, kFiveDigits = 1e-5, kMost = 1e-3;
   if (options.sensitivity_tolerance > 0.0) return options.sensitivity_tolerance;
   const double relative = options.relative_tolerance;
-  return std::min(kMost, std::max(kFactor * relative, std::min(kFiveDigits, kTightFactor * relative)));
+  return std::min(kMost,
+                  std::max(kFactor * relative, std::min(kFiveDigits, kTightFactor * relative)));
 }
 
 template class SensitivityScale<4>;

@@ -32,16 +32,16 @@ class SensitivityScale {
   double error(const IncrementLayout& at, const Attempt& attempt, double tolerance) const;
 
  private:
-  Array x_, v_, psi_;             ///< squares of the largest sizes so far
-  Array per_value_, per_range_;   ///< squares of what a direction is in units of the parameters'
-                                  ///< values and ranges
+  Array x_, v_, psi_;            ///< squares of the largest sizes so far
+  Array per_value_, per_range_;  ///< squares of what a direction is in units of the parameters'
+                                 ///< values and ranges
   double q_square_ = 0.0, v_square_ = 0.0;  ///< of the motion itself
   double absolute_ = 0.0;                   ///< an error over the range that does not count
 };
 
 /// The tolerance of sensitivities in the error test of a run with gradient:
-/// solver.sensitivity_tolerance, or its default: ten times relative_tolerance, but at most 1e-3, and
-/// 1e-5 (or a hundred times relative_tolerance, if that is less) where that would be less.
+/// solver.sensitivity_tolerance, or its default: ten times relative_tolerance, but at most 1e-3,
+/// and 1e-5 (or a hundred times relative_tolerance, if that is less) where that would be less.
 double sensitivity_tolerance(const SolverOptions& options);
 
 }  // namespace codesign

@@ -18,18 +18,17 @@ const char* const kEither[] = {"joint", "absolute"};
 std::shared_ptr<const CompiledSystem> system_of(const std::string& urdf, const std::string& study,
                                                 const std::string& solver) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
-  return make_system(robot,
-                     read_study({"test.yaml", study + "solver: {" + solver + "}\n"}, robot));
+  return make_system(robot, read_study({"test.yaml", study + "solver: {" + solver + "}\n"}, robot));
 }
 
 /// A mass of 1 kg on a spring, at rest.
 std::string slide(double stiffness, double damping) {
-  return robot("<link name='mass'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' "
-               "iyy='1' iyz='0' izz='1'/></inertial></link><joint name='slide' type='prismatic'>"
-               "<parent link='ground'/><child link='mass'/><axis xyz='1 0 0'/><limit lower='-9' "
-               "upper='9' effort='0' velocity='0'/><codesign:torsion_spring stiffness='" +
-               std::to_string(stiffness) + "' damping='" + std::to_string(damping) +
-               "'/></joint>");
+  return robot(
+      "<link name='mass'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' "
+      "iyy='1' iyz='0' izz='1'/></inertial></link><joint name='slide' type='prismatic'>"
+      "<parent link='ground'/><child link='mass'/><axis xyz='1 0 0'/><limit lower='-9' "
+      "upper='9' effort='0' velocity='0'/><codesign:torsion_spring stiffness='" +
+      std::to_string(stiffness) + "' damping='" + std::to_string(damping) + "'/></joint>");
 }
 
 std::string moving(double duration, const std::string& initial_state = "{}") {
@@ -61,12 +60,11 @@ Run run(const CompiledSystem& system) {
 // estimate varies with complex ones.
 TEST(StabilityBound, HoldsStepsAtRestBelowTheInverseOfTheLargestEigenvalue) {
   for (const char* coordinates : kEither)
-    for (const auto& [k, d, radius] : {std::array{4.0, 0.0, 2.0}, std::array{1e4, 2.0, 100.0},
-                                       std::array{1e4, 140.0, 100.0}, std::array{1e4, 200.0, 100.0},
-                                       std::array{1e4, 5000.0, 4997.9992}}) {
-      const auto system =
-          system_of(slide(k, d), moving(300.0 / radius),
-                    std::string("method: dopri5, coordinates: ") + coordinates);
+    for (const auto& [k, d, radius] :
+         {std::array{4.0, 0.0, 2.0}, std::array{1e4, 2.0, 100.0}, std::array{1e4, 140.0, 100.0},
+          std::array{1e4, 200.0, 100.0}, std::array{1e4, 5000.0, 4997.9992}}) {
+      const auto system = system_of(slide(k, d), moving(300.0 / radius),
+                                    std::string("method: dopri5, coordinates: ") + coordinates);
       const double largest = run(*system).largest;
       EXPECT_LT(largest * radius, 1.6) << k << ", " << d << coordinates;
       EXPECT_GT(largest * radius, 0.5) << k << ", " << d << coordinates;
@@ -75,8 +73,8 @@ TEST(StabilityBound, HoldsStepsAtRestBelowTheInverseOfTheLargestEigenvalue) {
 
 TEST(StabilityBound, LeavesARestingStiffMechanismToTheImplicitMethod) {
   for (const char* coordinates : kEither) {
-    const Run stiff = run(*system_of(slide(1e8, 10.0), moving(10.0),
-                                     std::string("coordinates: ") + coordinates));
+    const Run stiff =
+        run(*system_of(slide(1e8, 10.0), moving(10.0), std::string("coordinates: ") + coordinates));
     EXPECT_LT(stiff.steps, 60) << coordinates;
     EXPECT_GT(stiff.explicit_steps, 5) << coordinates;
     EXPECT_LE(stiff.largest, 1.6e-4) << coordinates;
