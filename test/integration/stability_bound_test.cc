@@ -13,16 +13,16 @@
 namespace codesign {
 namespace {
 
-const char* const kEither[] = {"joint", "absolute"};
+const char* const kBothCoordinates[] = {"joint", "absolute"};
 
-std::shared_ptr<const CompiledSystem> system_of(const std::string& urdf, const std::string& study,
-                                                const std::string& solver) {
+std::shared_ptr<const CompiledSystem> resting(const std::string& urdf, const std::string& study,
+                                              const std::string& solver) {
   const RobotDescription robot = read_urdf({"test.urdf", urdf});
   return make_system(robot, read_study({"test.yaml", study + "solver: {" + solver + "}\n"}, robot));
 }
 
 /// A mass of 1 kg on a spring, at rest.
-std::string slide(double stiffness, double damping) {
+std::string spring_mass(double stiffness, double damping) {
   return robot(
       "<link name='mass'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' "
       "iyy='1' iyz='0' izz='1'/></inertial></link><joint name='slide' type='prismatic'>"
@@ -31,19 +31,19 @@ std::string slide(double stiffness, double damping) {
       std::to_string(stiffness) + "' damping='" + std::to_string(damping) + "'/></joint>");
 }
 
-std::string moving(double duration, const std::string& initial_state = "{}") {
+std::string lasting(double duration, const std::string& initial_state = "{}") {
   return "duration: " + std::to_string(duration) + "\ninitial_state: " + initial_state + "\n";
 }
 
-struct Run {
+struct Taken {
   std::int64_t steps = 0, explicit_steps = 0;
   double largest = 0.0;  ///< explicit step [s]
 };
 
-Run run(const CompiledSystem& system) {
+Taken take_steps(const CompiledSystem& system) {
   RosenbrockIntegrator integrator(system);
   EXPECT_TRUE(integrator.start(system.parameters()).ok());
-  Run result;
+  Taken result;
   while (integrator.state().t < system.study().duration) {
     const Status status = integrator.advance(system.study().duration);
     EXPECT_TRUE(status.ok()) << status.cause;
@@ -59,22 +59,22 @@ Run run(const CompiledSystem& system) {
 // |eigenvalues| of the undamped spring and of those damped to little, to critical and beyond; the
 // estimate varies with complex ones.
 TEST(StabilityBound, HoldsStepsAtRestBelowTheInverseOfTheLargestEigenvalue) {
-  for (const char* coordinates : kEither)
+  for (const char* coordinates : kBothCoordinates)
     for (const auto& [k, d, radius] :
          {std::array{4.0, 0.0, 2.0}, std::array{1e4, 2.0, 100.0}, std::array{1e4, 140.0, 100.0},
           std::array{1e4, 200.0, 100.0}, std::array{1e4, 5000.0, 4997.9992}}) {
-      const auto system = system_of(slide(k, d), moving(300.0 / radius),
-                                    std::string("method: dopri5, coordinates: ") + coordinates);
-      const double largest = run(*system).largest;
+      const auto system = resting(spring_mass(k, d), lasting(300.0 / radius),
+                                  std::string("method: dopri5, coordinates: ") + coordinates);
+      const double largest = take_steps(*system).largest;
       EXPECT_LT(largest * radius, 1.6) << k << ", " << d << coordinates;
       EXPECT_GT(largest * radius, 0.5) << k << ", " << d << coordinates;
     }
 }
 
 TEST(StabilityBound, LeavesARestingStiffMechanismToTheImplicitMethod) {
-  for (const char* coordinates : kEither) {
-    const Run stiff =
-        run(*system_of(slide(1e8, 10.0), moving(10.0), std::string("coordinates: ") + coordinates));
+  for (const char* coordinates : kBothCoordinates) {
+    const Taken stiff = take_steps(*resting(spring_mass(1e8, 10.0), lasting(10.0),
+                                            std::string("coordinates: ") + coordinates));
     EXPECT_LT(stiff.steps, 60) << coordinates;
     EXPECT_GT(stiff.explicit_steps, 5) << coordinates;
     EXPECT_LE(stiff.largest, 1.6e-4) << coordinates;
@@ -87,9 +87,9 @@ TEST(StabilityBound, HoldsWhereAMechanismTurnsEvenly) {
       "<link name='wheel'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
       "iyz='0' izz='1'/></inertial></link><joint name='axle' type='continuous'><parent "
       "link='ground'/><child link='wheel'/><axis xyz='0 0 1'/></joint>");
-  const Run even = run(*system_of(
+  const Taken even = take_steps(*resting(
       wheel,
-      moving(10.0, "{axle: {velocity: 3.0}}") +
+      lasting(10.0, "{axle: {velocity: 3.0}}") +
           "controllers: {speed: {type: pid, input: axle/velocity, setpoint: 3.0, output: axle, "
           "gains: {p: 20}}}\n",
       "method: dopri5"));
@@ -97,12 +97,12 @@ TEST(StabilityBound, HoldsWhereAMechanismTurnsEvenly) {
 }
 
 TEST(StabilityBound, DoesNotBindWhereNothingHasAnEigenvalue) {
-  const Run still = run(*system_of(slide(0.0, 0.0), moving(1e3), "method: dopri5"));
+  const Taken still = take_steps(*resting(spring_mass(0.0, 0.0), lasting(1e3), "method: dopri5"));
   EXPECT_LT(still.steps, 30);
 }
 
 TEST(StabilityBound, LooksAtNothingThatMoves) {
-  const auto system = system_of(pendulum(), moving(3.0, "{hinge: {position: 1.0}}"), "");
+  const auto system = resting(pendulum(), lasting(3.0, "{hinge: {position: 1.0}}"), "");
   RosenbrockIntegrator integrator(*system);
   StabilityBound bound(*system);
   ASSERT_TRUE(integrator.start(system->parameters()).ok());

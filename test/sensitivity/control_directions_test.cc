@@ -39,7 +39,7 @@ TEST(ControlDirections, HaveTheSizeOfTheRanges) {
   const auto system = chain(9, "direct");
   const Eigen::MatrixXd directions = control_directions(*system);
   for (int k = 0; k < 9; ++k) {
-    const Parameter& p = system->study().parameters[static_cast<std::size_t>(
+    const auto& p = system->study().parameters[static_cast<std::size_t>(
         system->study().tuned[static_cast<std::size_t>(k)])];
     const double range = p.upper - p.lower;
     EXPECT_GE(directions.row(k).cwiseAbs().minCoeff(), 0.5 * range);

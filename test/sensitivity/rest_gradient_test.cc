@@ -7,9 +7,9 @@
 namespace codesign {
 namespace {
 
-using Parameter = std::tuple<const char*, const char*, const char*>;
+using Way = std::tuple<const char*, const char*, const char*>;
 
-class RestGradient : public ::testing::TestWithParam<Parameter> {};
+class RestGradient : public ::testing::TestWithParam<Way> {};
 
 TEST_P(RestGradient, IsThatOfTheClosedForm) {
   const auto& [method, gradient, coordinates] = GetParam();
