@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Gradients of mechanisms that rest, against closed forms: the motion has no error at any step
 // size, but its sensitivities move; doc/theory.md (15d), (18f).
+#include "sensitivity/gradient_check.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/motions_at_rest.h"
 
@@ -9,9 +10,9 @@ namespace {
 
 using Way = std::tuple<const char*, const char*, const char*>;
 
-class RestGradient : public ::testing::TestWithParam<Way> {};
+class RestGradientTest : public ::testing::TestWithParam<Way> {};
 
-TEST_P(RestGradient, IsThatOfTheClosedForm) {
+TEST_P(RestGradientTest, IsThatOfTheClosedForm) {
   const auto& [method, gradient, coordinates] = GetParam();
   const std::string solver = std::string("method: ") + method + ", gradient: " + gradient +
                              ", coordinates: " + coordinates;
@@ -25,7 +26,18 @@ TEST_P(RestGradient, IsThatOfTheClosedForm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, RestGradient,
+// Differences of the objective see no step of the gradient.
+TEST(RestGradient, IsThatOfDifferences) {
+  for (const MotionAtRest& rest : motions_at_rest()) {
+    const auto system = rest.compile("");
+    const Eigen::VectorXd rho = Eigen::VectorXd::Constant(1, system->parameters()[0]);
+    const GradientCheck check = check_gradient(system, rho, CheckMethod::kRidders);
+    ASSERT_TRUE(check.status.ok()) << rest.name << ": " << check.status.cause;
+    EXPECT_LT(check.largest_relative_difference, 1e-4) << rest.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, RestGradientTest,
                          ::testing::Combine(::testing::Values("auto", "dopri5", "rodas4",
                                                               "rodas4p2", "rodas5p"),
                                             ::testing::Values("direct", "adjoint"),
