@@ -15,6 +15,7 @@ namespace codesign {
 struct MotionAtRest {
   std::string name, urdf, study;
   double derivative;
+  double amplitude;  ///< of the derivative's oscillation by the duration, or the derivative itself
 
   /// @param solver the lines of the block `solver`.
   std::shared_ptr<const CompiledSystem> compile(const std::string& solver) const {
@@ -60,12 +61,14 @@ inline MotionAtRest resting_slide(const std::string& name, double k, double b, d
               "\ninitial_state: {slide: {position: \"${start}\"}}\nparameters: {start: {initial: "
               "0, lower: -2, upper: 2}}\nobjective: {terminal: [{signal: slide/position, "
               "reference: -1}]}\n",
-          2.0 * released(1.0, k, b, duration)};
+          2.0 * released(1.0, k, b, duration), 2.0 * std::exp(-0.5 * b * duration)};
 }
 
 /// A pendulum that hangs at rest, held there by a controller whose setpoint is tuned.
 inline MotionAtRest held_pendulum(double p, double d, double duration) {
-  const double inertia = 0.0834 + 0.25, gravity = 9.81 * 0.5;
+  const double inertia = 0.0834 + 0.25, gravity = 9.81 * 0.5,
+               derivative =
+                   -p / (p + gravity) * (1.0 - released(inertia, p + gravity, d, duration));
   return {"pendulum", pendulum(),
           "duration: " + std::to_string(duration) +
               "\ncontrollers: {servo: {type: pid, input: hinge/position, setpoint: \"${goal}\", "
@@ -73,12 +76,12 @@ inline MotionAtRest held_pendulum(double p, double d, double duration) {
               std::to_string(p) + ", d: " + std::to_string(d) +
               "}}}\nparameters: {goal: {initial: 0, lower: -2, upper: 2}}\nobjective: "
               "{terminal: [{signal: hinge/position, reference: 0.5}]}\n",
-          -p / (p + gravity) * (1.0 - released(inertia, p + gravity, d, duration))};
+          derivative, std::abs(derivative)};
 }
 
 /// A body without joints on a spring to the ground whose free length is tuned.
 inline MotionAtRest free_body() {
-  const double k = 90.0, b = 0.4, m = 2.0, duration = 8.0;
+  const double derivative = 2.0 * (1.0 - released(2.0, 90.0, 0.4, 8.0));
   return {"free_body",
           robot("<link name='body'><inertial><mass value='2'/><inertia ixx='0.1' ixy='0' ixz='0' "
                 "iyy='0.1' iyz='0' izz='0.1'/></inertial></link><joint name='free' "
@@ -89,7 +92,7 @@ inline MotionAtRest free_body() {
                 "<codesign:parameter name='length' value='1' lower='0.5' upper='2'/>"),
           "duration: 8.0\ngravity: [0, 0, 0]\nparameters: {length: {}}\nobjective: {terminal: "
           "[{signal: body/position/x}]}\n",
-          2.0 * (1.0 - released(m, k, b, duration))};
+          derivative, std::abs(derivative)};
 }
 
 /// A motor behind an elastic gear, held by a controller of the load whose setpoint is tuned.
@@ -100,6 +103,7 @@ inline MotionAtRest elastic_gear() {
       (k - p) / rotor, -k / rotor, (c - d) / rotor, -c / rotor;
   Eigen::VectorXd b = Eigen::VectorXd::Zero(4);
   b[3] = p / rotor;
+  const double derivative = -linear_response(A, b, duration)[0];
   return {"elastic_gear",
           robot("<link name='load'><inertial><mass value='0.5'/><inertia ixx='0.5' ixy='0' ixz='0' "
                 "iyy='0.5' iyz='0' izz='0.5'/></inertial></link><joint name='axis' "
@@ -110,7 +114,7 @@ inline MotionAtRest elastic_gear() {
           "\"${goal}\", output: axis, gains: {p: 10, d: 2}}}\nparameters: {goal: {initial: 0, "
           "lower: -3, upper: 3}}\nobjective: {terminal: [{signal: axis/position, reference: "
           "0.5}], integral: [{signal: axis/position}]}\n",
-          -linear_response(A, b, duration)[0]};
+          derivative, std::abs(derivative)};
 }
 
 inline std::vector<MotionAtRest> motions_at_rest() {
