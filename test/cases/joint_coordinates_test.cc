@@ -11,7 +11,10 @@
 #include "cases/shipped.h"
 #include "integration/linkages.h"
 #include "integration/simulation_of.h"
+#include "sensitivity/adjoint_gradient.h"
+#include "sensitivity/gradient_cases.h"
 #include "sensitivity/gradient_check.h"
+#include "sensitivity/rosenbrock_gradient.h"
 
 namespace codesign {
 namespace {
@@ -268,16 +271,15 @@ TEST(JointCoordinates, TheAdjointGivesTheDirectGradient) {
   for (const char* name : {"two_link_arm", "gantry", "slider_crank_haug"}) {
     Shipped shipped(name);
     shipped.study.solver.coordinates = CoordinatesKind::kJoint;
-    shipped.study.solver.sensitivity_tolerance = 0.0;
-    const auto gradient = [&](GradientMethod method) {
-      shipped.study.solver.gradient = method;
-      const Evaluation evaluation =
-          evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), true);
-      EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
-      return evaluation.gradient;
+    shipped.study.solver.gradient = GradientMethod::kAdjoint;
+    const auto system = make_system(shipped.robot, shipped.study);
+    const auto gradient = [&](GradientEngine&& engine) {
+      const GradientRun run = run_gradient(&engine, *system, system->parameters());
+      EXPECT_TRUE(run.status.ok()) << run.status.cause;
+      return run.gradient;
     };
-    const Eigen::VectorXd direct = gradient(GradientMethod::kDirect),
-                          adjoint = gradient(GradientMethod::kAdjoint);
+    const Eigen::VectorXd direct = gradient(RosenbrockGradient(*system)),
+                          adjoint = gradient(AdjointGradient(*system));
     EXPECT_LT((direct - adjoint).norm(), 1e-9 * direct.norm()) << name;
   }
 }
