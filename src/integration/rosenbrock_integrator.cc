@@ -146,14 +146,25 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
   return {};
 }
 
-Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
-  if (Status status = jump(); !status.ok()) return status;
+void RosenbrockIntegrator::choose_method() {
   if (chooses_) {
     const RosenbrockTableau& next = choice_.next(&step_, stability_.limits());
     if (&next != &step_.tableau()) change_method(step_.state().t, next.name);
     step_.use(next);
   }
   chooses_ = false;
+}
+
+bool RosenbrockIntegrator::is_stable(double h) {
+  if (stability_.allows(&step_)) return true;
+  ++statistics_.rejected_steps;
+  proposal_ = stability_.shorten(h);
+  return false;
+}
+
+Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
+  if (Status status = jump(); !status.ok()) return status;
+  choose_method();
   const double t = step_.state().t;
   const double smallest = smallest_step(t, system_.study().duration);
   bool singular = false;
@@ -193,11 +204,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
     error = std::max(error, psi_error(step_, options_));
-    if (error <= 1.0 && !stability_.allows(&step_)) {
-      ++statistics_.rejected_steps;
-      proposal_ = stability_.shorten(h);
-      continue;
-    }
+    if (error <= 1.0 && !is_stable(h)) continue;
     if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;

@@ -59,6 +59,10 @@ class RosenbrockIntegrator final : public Integrator {
  private:
   Status begin(const std::vector<double>& parameters);
   double first_step() const;
+  /// Takes another method for the next step if the last one suggests that.
+  void choose_method();
+  /// Whether stability allows the last attempt, of size h [s]; else shortens the next one.
+  bool is_stable(double h);
   /// Counts and checks a step that was accepted.
   Status look();
 

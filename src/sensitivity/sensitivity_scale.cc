@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "description/tuned_parameters.h"
+#include "equations/compiled_system.h"
 #include "math/arrays.h"
+#include "sensitivity/lane_directions.h"
 
 namespace codesign {
 namespace {

@@ -4,10 +4,17 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "equations/compiled_system.h"
-#include "sensitivity/lane_directions.h"
+#include "math/scalar.h"
 
 namespace codesign {
+
+class CompiledSystem;
+template <int N>
+class Directions;
+struct IncrementLayout;
+struct SolverOptions;
+template <class T>
+struct State;
 
 /// The error test of sensitivities along N directions, doc/theory.md (18f). Positions, velocities
 /// and psi are judged apart, each direction in the scale of its own largest size so far.

@@ -2,6 +2,7 @@
 #include "sensitivity/sensitivity_scale.h"
 
 #include "sensitivity/gradient_cases.h"
+#include "sensitivity/lane_directions.h"
 
 namespace codesign {
 namespace {
