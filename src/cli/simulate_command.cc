@@ -8,6 +8,7 @@
 #include "cli/report.h"
 #include "cli/series.h"
 #include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "problem/load_problem.h"
@@ -37,14 +38,12 @@ void summarize(const RunSummary& run, const Problem& problem, std::ostream& err)
 /// Adds the objective. It is that of the run, unless it has peaks or measures, which need a
 /// separate run that follows them. If that run fails, `status` becomes its status.
 /// @param as_searched integrates as a search does, so that the objective of a result is reproduced:
-/// if sensitivities take part in the error test, a search has other steps.
+/// sensitivities take part in the error test of a search.
 void add_objective(const Problem& problem, bool as_searched, const std::optional<double>& of_run,
                    const Console& console, Status* status, Json* object) {
   if (!status->ok() || !has_objective(study_of(problem))) return;
-  const SolverOptions& solver = study_of(problem).solver;
-  const bool has_other_steps =
-      solver.integrator == IntegratorKind::kIdas || solver.sensitivity_tolerance > 0.0;
-  const bool with_gradient = as_searched && has_other_steps && !study_of(problem).tuned.empty();
+  const Study& study = study_of(problem);
+  const bool with_gradient = as_searched && !study.tuned.empty() && !find_rounded(study);
   if (of_run && std::isfinite(*of_run) && !with_gradient) {
     (*object)["objective"] = *of_run;
     return;

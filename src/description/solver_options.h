@@ -43,8 +43,8 @@ struct SolverOptions {
   double relative_tolerance = 1e-6;                   ///< rtol of the error test, theory (15)
   double absolute_tolerance = 1e-7;  ///< atol of the error test, in the units of q, v and s
   GradientMethod gradient = GradientMethod::kAuto;  ///< kRosenbrock only
-  /// kRosenbrock only: relative tolerance of the sensitivities by each parameter, theory (18); 0:
-  /// they take no part in the error test.
+  /// kRosenbrock only: relative tolerance of the sensitivities in the error test of a run with
+  /// gradient, theory (18f); 0: chosen by relative_tolerance.
   double sensitivity_tolerance = 0.0;
   double initial_step = 0.0;   ///< [s]; 0: chosen automatically
   double maximum_step = 0.0;   ///< [s]; 0: no limit

@@ -56,8 +56,8 @@ const RosenbrockTableau& MethodChoice::start() {
   return *first_;
 }
 
-bool MethodChoice::is_stiff(const RosenbrockStep<double>& step) {
-  if (stiffness(step, states_) > kLimit) {
+bool MethodChoice::is_stiff(const RosenbrockStep<double>& step, bool at_bound) {
+  if (at_bound || stiffness(step, states_) > kLimit) {
     others_ = 0;
     return ++stiff_ >= kStiffSteps;
   }
@@ -72,11 +72,11 @@ bool MethodChoice::is_calm(RosenbrockStep<double>* step) {
 }
 
 // Each return doubles the pause before the next one, so that a stretch between both costs little.
-const RosenbrockTableau& MethodChoice::next(RosenbrockStep<double>* step) {
+const RosenbrockTableau& MethodChoice::next(RosenbrockStep<double>* step, bool at_bound) {
   const RosenbrockTableau& tableau = step->tableau();
   if (!is_automatic_) return tableau;
   if (tableau.is_explicit()) {
-    if (!is_stiff(*step)) return tableau;
+    if (!is_stiff(*step, at_bound)) return tableau;
     stiff_ = others_ = 0;
     waits_ = pause_;
     pause_ = std::min(2 * pause_, kLongestPause);

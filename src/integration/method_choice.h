@@ -16,11 +16,12 @@ class MethodChoice {
 
   /// Begins a run. @returns the method of the first step
   const RosenbrockTableau& start();
-  /// The method of the next step. @param step after its last attempt was accepted.
-  const RosenbrockTableau& next(RosenbrockStep<double>* step);
+  /// The method of the next step. @param step after its last attempt was accepted. @param
+  /// at_bound StabilityBound::limits() of that attempt.
+  const RosenbrockTableau& next(RosenbrockStep<double>* step, bool at_bound);
 
  private:
-  bool is_stiff(const RosenbrockStep<double>& step);
+  bool is_stiff(const RosenbrockStep<double>& step, bool at_bound);
   bool is_calm(RosenbrockStep<double>* step);
 
   const bool is_automatic_;

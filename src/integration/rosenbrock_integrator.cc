@@ -38,6 +38,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       assembly_(system),
       controller_(step_.tableau().order),
       choice_(system),
+      stability_(system),
       watch_(system),
       run_watch_(system),
       work_(system),
@@ -61,6 +62,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   jump_events_.clear();
   step_.equations().hold({});
   step_.use(choice_.start());
+  stability_.start();
   begin_methods(step_.tableau().name);
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
@@ -171,14 +173,25 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
   return {};
 }
 
-Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
-  if (Status status = jump(); !status.ok()) return status;
+void RosenbrockIntegrator::choose_method() {
   if (chooses_) {
-    const RosenbrockTableau& next = choice_.next(&step_);
+    const RosenbrockTableau& next = choice_.next(&step_, stability_.limits());
     if (&next != &step_.tableau()) change_method(step_.state().t, next.name);
     step_.use(next);
   }
   chooses_ = false;
+}
+
+bool RosenbrockIntegrator::is_stable(double h) {
+  if (stability_.allows(&step_)) return true;
+  ++statistics_.rejected_steps;
+  proposal_ = stability_.shorten(h);
+  return false;
+}
+
+Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
+  if (Status status = jump(); !status.ok()) return status;
+  choose_method();
   const double t = step_.state().t;
   const double smallest = smallest_step(t, system_.study().duration);
   bool singular = false;
@@ -218,6 +231,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
     error = std::max(error, psi_error(step_, options_));
+    if (error <= 1.0 && !is_stable(h)) continue;
     if (error <= 1.0 && !mode_watch_.cut(&step_)) {
       ++statistics_.rejected_steps;
       proposal_ = controller_.back_off(h);
@@ -232,6 +246,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     }
     // After a step that the limit cut short, the earlier proposal is the better one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
+    proposal_ = stability_.shorten(proposal_);
     if (!step_.accept())
       return {StatusCode::kSingularMatrix, t + step_.step_size(),
               "the augmented matrix of the equations of motion is singular"};

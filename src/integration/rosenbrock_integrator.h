@@ -15,6 +15,7 @@
 #include "integration/run_ends.h"
 #include "integration/run_watch.h"
 #include "integration/singularity_watch.h"
+#include "integration/stability_bound.h"
 #include "integration/step_control.h"
 
 namespace codesign {
@@ -71,6 +72,10 @@ class RosenbrockIntegrator final : public Integrator {
   /// The events of sampled controllers.
   Status sample();
   double first_step() const;
+  /// Takes another method for the next step if the last one suggests that.
+  void choose_method();
+  /// Whether stability allows the last attempt, of size h [s]; else shortens the next one.
+  bool is_stable(double h);
   /// Counts and checks a step that was accepted.
   Status look();
 
@@ -85,6 +90,7 @@ class RosenbrockIntegrator final : public Integrator {
   State<double> initial_;
   StepController controller_;
   MethodChoice choice_;
+  StabilityBound stability_;
   bool chooses_ = false;  ///< whether a step was accepted since the method was chosen
   MotionWatch watch_;
   RunWatch run_watch_;

@@ -84,6 +84,10 @@ class RosenbrockStep {
   /// IncrementLayout; holds the eigenvector's estimate. 0 if the matrix is singular.
   double spectral_radius(VectorX<double>* direction);
 
+  /// Explicit pairs, between steps or after an attempt: solves G = 0 for the z of any state,
+  /// beginning with the z that it has. False if that fails.
+  bool solve_at(State<T>* at) { return solve_rates(at, &aside_g_, &aside_factor_); }
+
   /// G_z of an explicit stage as the program that solved it has factored it.
   struct StageFactor {
     const MassFactor* pattern = nullptr;  ///< null if the stage was solved with a matrix
@@ -165,8 +169,9 @@ class RosenbrockStep {
   std::vector<State<T>> stages_;
   std::vector<StageFactor> factors_;  ///< of explicit stages
   StageFactor first_factor_;          ///< of first_
+  StageFactor aside_factor_;          ///< of solve_at()
   State<T> first_;  ///< of an explicit pair: the first stage of the next attempt, if has_first_
-  T first_g_{0.0}, last_g_{0.0};
+  T first_g_{0.0}, last_g_{0.0}, aside_g_{0.0};
   bool has_first_ = false;
   bool has_derivatives_ =
       false;  ///< whether derivatives_ are those at end_, where the next step begins

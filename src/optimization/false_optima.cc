@@ -118,7 +118,8 @@ SearchTrials::Beside SearchTrials::look_beside(const Eigen::VectorXd& direction,
 
 SearchTrials::Beside SearchTrials::look_at(const Eigen::VectorXd& rho, const Side& side,
                                            double share) {
-  EnsembleEvaluation there = ensemble_.evaluate(rho, Derivatives::kNone, cancel_);
+  // With the steps of a gradient, so that an objective that stays the same is the same number.
+  EnsembleEvaluation there = ensemble_.evaluate(rho, Derivatives::kGradient, cancel_);
   result_.cost.statistics += there.total.statistics;
   if (!there.total.status.ok()) return Beside::kChanged;
   const double psi = result_.best.objective, stiffest = side.root.norm() * share,

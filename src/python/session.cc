@@ -36,10 +36,7 @@ void require_squares(const Study& study) {
                     "measures, and robust.measure mean"});
 }
 
-void use_adjoint(MotionStudy* study) {
-  study->solver.gradient = GradientMethod::kAdjoint;
-  study->solver.sensitivity_tolerance = 0.0;
-}
+void use_adjoint(MotionStudy* study) { study->solver.gradient = GradientMethod::kAdjoint; }
 
 Study with_adjoint(Study study) {
   use_adjoint(&study);

@@ -20,7 +20,9 @@ AdjointGradient::Backward::Backward(const CompiledSystem& system, const Rosenbro
 }
 
 AdjointGradient::AdjointGradient(const CompiledSystem& system, int most_points)
-    : system_(system), most_points_(most_points), integrator_(system) {}
+    : system_(system), most_points_(most_points), integrator_(system) {
+  judge_ = [this](RosenbrockStep<double>* step) { return control_->attempt(step); };
+}
 
 // The workspace of the backward pass is allocated only when a gradient is requested.
 Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
@@ -31,17 +33,21 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
   if (!back_) {
     back_.emplace(system_, integrator_.step().tableau(), most_points_);
     back_->replay.keep_pivots_of(integrator_.step());
+    control_ = make_control_tangent(system_);
   }
+  control_->start(parameters, &integrator_);
   back_->path.clear();
   back_->path.append(0.0, integrator_.step().tableau(), integrator_.initial_state());
   return status;
 }
 
 Status AdjointGradient::advance(double limit) {
-  Status status = integrator_.advance(limit);
+  if (!with_gradient_) return integrator_.advance(limit);
+  Status status = integrator_.advance(limit, judge_);
   const RosenbrockStep<double>& step = integrator_.step();
-  if (status.ok() && with_gradient_)
-    back_->path.append(step.step_size(), step.tableau(), step.unprojected());
+  if (!status.ok()) return status;
+  control_->accept(step);
+  back_->path.append(step.step_size(), step.tableau(), step.unprojected());
   return status;
 }
 

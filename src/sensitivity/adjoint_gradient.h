@@ -1,12 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "assembly/assembly.h"
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/adjoint_step.h"
+#include "sensitivity/control_directions.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
 #include "sensitivity/step_path.h"
@@ -14,8 +16,9 @@
 namespace codesign {
 
 /// Gradient by the discrete adjoint of the Rosenbrock steps, doc/theory.md (18a)-(18d): advance()
-/// integrates forward and stores the path, gradient() goes back along its steps. Equal to the
-/// gradient of RosenbrockGradient up to rounding.
+/// integrates forward, with the tangent along control_directions() in the error test, and stores
+/// the path, gradient() goes back along its steps. Equal to the gradient of RosenbrockGradient up
+/// to rounding.
 class AdjointGradient final : public GradientEngine {
  public:
   /// @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.
@@ -66,6 +69,8 @@ class AdjointGradient final : public GradientEngine {
   const int most_points_;
   RosenbrockIntegrator integrator_;
   std::optional<Backward> back_;
+  std::unique_ptr<ControlTangent> control_;  ///< of runs with gradient
+  RosenbrockIntegrator::BeforeAccept judge_;
   const Extremes none_;
   bool with_gradient_ = false;
   const std::atomic<bool>* cancel_ = nullptr;

@@ -42,10 +42,7 @@ bool prefers_adjoint(const CompiledSystem& system) {
   // Nor over instants that guards determine.
   if (system.has_switches()) return false;
   if (options.gradient == GradientMethod::kAdjoint) return true;
-  // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does
-  // not compute.
-  return options.sensitivity_tolerance <= 0.0 &&
-         direct_cost(static_cast<int>(system.study().tuned.size())) > kAdjointCost;
+  return direct_cost(static_cast<int>(system.study().tuned.size())) > kAdjointCost;
 }
 
 std::unique_ptr<GradientEngine> make_gradient_engine(const CompiledSystem& system,

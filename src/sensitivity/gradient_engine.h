@@ -14,17 +14,19 @@ namespace codesign {
 // Estimated cost of a gradient, in units of one simulation without gradient; measured on mechanisms
 // of 3 to 16 bodies, doc/decisions/0083-transposed-products.md. Lanes are evaluated in groups of
 // eight or four.
+constexpr double kEightLanes = 2.4, kFourLanes = 1.7;
 
-/// Cost of direct sensitivities by this number of parameters.
+/// Cost of direct sensitivities by this number of parameters. Beyond eight, eight more directions
+/// control the steps, see control_directions().
 inline double direct_cost(int parameters) {
-  constexpr double kSimulation = 1.0, kEight = 2.4, kFour = 1.7;
-  double cost = kSimulation;
-  for (; parameters > 4; parameters -= 8) cost += kEight;
-  return parameters > 0 ? cost + kFour : cost;
+  double cost = parameters > 8 ? 1.0 + kEightLanes : 1.0;
+  for (; parameters > 4; parameters -= 8) cost += kEightLanes;
+  return parameters > 0 ? cost + kFourLanes : cost;
 }
 
-/// Cost of the adjoint method by any number of parameters.
-constexpr double kAdjointCost = 4.0;
+/// Cost of the adjoint method by any number of parameters, with the directions that control the
+/// steps.
+constexpr double kAdjointCost = 4.0 + kFourLanes;
 
 /// An integration that can compute the gradient of psi; one implementation per method. start() may
 /// be called again. Not thread-safe.

@@ -148,15 +148,4 @@ Eigen::Array<double, N, 1> squared_norms(const Directions<N>& x, int first, int 
   return sum;
 }
 
-/// 1 / rho^2 of each lane's parameter, 1 for zero.
-template <int N>
-Eigen::Array<double, N, 1> inverse_squares(const std::vector<Lanes<N>>& parameters) {
-  Eigen::Array<double, N, 1> result = Eigen::Array<double, N, 1>::Ones();
-  for (const Lanes<N>& parameter : parameters)
-    for (int k = 0; k < N; ++k)
-      if (const double rho = value_of(parameter); parameter.v[k] != 0.0 && rho != 0.0)
-        result[k] = 1.0 / (rho * rho);
-  return result;
-}
-
 }  // namespace codesign

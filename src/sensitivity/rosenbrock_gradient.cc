@@ -25,15 +25,20 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
       most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)),
       watch_(system),
       residuals_(system) {
-  const double tolerance = system.study().solver.sensitivity_tolerance;
+  const double tolerance = sensitivity_tolerance(system.study().solver);
   stages_ = [this, tolerance](RosenbrockStep<double>* step) {
-    double error = 0.0;
+    double error = control_ ? control_->attempt(step) : 0.0;
+    if (error > 1.0) return error;
     groups_->for_each([&](auto* group) {
       group->step.attempt(step);
-      if (tolerance > 0.0) error = std::max(error, group->step.error(tolerance));
+      if (!control_) error = std::max(error, group->step.error(*step, tolerance));
     });
     return error;
   };
+}
+
+bool RosenbrockGradient::judges_parameters() const {
+  return most_lanes() >= count() && control_directions(system_).isIdentity();
 }
 
 // The workspace of the tangents is allocated only when derivatives are requested.
@@ -42,6 +47,10 @@ Status RosenbrockGradient::start(const std::vector<double>& parameters, Derivati
   with_root_ = derivatives == Derivatives::kGaussNewton;
   integrator_.watch_singularities(with_gradient_);
   Status status = integrator_.start(parameters);
+  if (with_gradient_ && judges_parameters())
+    control_.reset();
+  else if (with_gradient_ && !control_)
+    control_ = make_control_tangent(system_);
   if (status.ok() && with_gradient_) carry(0, parameters);
   return status.ok() ? start_watches() : status;
 }
@@ -102,27 +111,27 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
     group->step.start(group->parameters, integrator_.assembly(), integrator_.initial_state(),
                       integrator_.mode());
   });
+  if (control_) control_->start(parameters, &integrator_);
 }
 
 Status RosenbrockGradient::jump() {
   Status status = integrator_.jump();
   if (!status.ok() || !integrator_.has_jumped() || !with_gradient_) return status;
-  const bool has_events = !integrator_.jump_events().empty();
-  groups_->for_each([&](auto* group) {
-    if (integrator_.mode_change().guard >= 0) group->step.cross(integrator_.mode_change());
-    group->step.jump(integrator_.jump_events(),
-                     has_events ? integrator_.before_jump() : integrator_.state(),
-                     integrator_.state(), integrator_.assembly(), integrator_.mode());
-  });
+  groups_->for_each([this](auto* group) { group->step.jump(&integrator_); });
+  if (control_) control_->jump(&integrator_);
   return status;
+}
+
+void RosenbrockGradient::accept() {
+  groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+  if (control_) control_->accept(integrator_.step());
 }
 
 Status RosenbrockGradient::advance(double limit) {
   if (with_gradient_)
     if (Status status = jump(); !status.ok()) return status;
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
-  if (status.ok() && with_gradient_)
-    groups_->for_each([this](auto* group) { group->step.accept(integrator_.step()); });
+  if (status.ok() && with_gradient_) accept();
   if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "integration/rosenbrock_integrator.h"
+#include "sensitivity/control_directions.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
 #include "sensitivity/residual_rows.h"
@@ -62,9 +64,12 @@ class RosenbrockGradient final : public GradientEngine {
   int most_lanes() const {
     return watch_.is_empty() && !with_root_ ? most_lanes_ : std::max(4, count());
   }
+  /// Whether the sensitivities of the parameters, all in one run, are those of the error test.
+  bool judges_parameters() const;
   Status start_watches();
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
+  void accept();
   void collect(Eigen::VectorXd* gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates,
                      Eigen::VectorXd* gradient);
@@ -77,6 +82,7 @@ class RosenbrockGradient final : public GradientEngine {
   int first_ = -1,
       lanes_ = 0;  ///< first parameter of `groups_`, and number of parameters in `groups_`
   std::optional<LaneGroups<Group>> groups_;
+  std::unique_ptr<ControlTangent> control_;  ///< unless judges_parameters()
   RosenbrockIntegrator::BeforeAccept stages_;
   SignalWatch watch_;
   ResidualRows residuals_;

@@ -91,11 +91,8 @@ void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assemb
   equations_.equations().hold(mode);
   y_.setZero();
   take_up(initial, start_);
-  largest_x_.setZero();
-  largest_v_.setZero();
-  largest_state_ = 1.0;
-  per_square_ = inverse_squares<N>(parameters);
-  measure(initial);
+  scale_.start(system_, parameters);
+  scale_.measure(at_, initial, y_);
   if (keeps_previous_) previous_y_ = y_;
 }
 
@@ -132,6 +129,14 @@ void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<d
   if (!events.empty()) equations_.equations().jump(events, &point_);
   assembly.extend_rates(behind.z, &equations_.equations(), &extension_, &point_);
   take_up(behind, point_);
+}
+
+template <int N>
+void TangentStep<N>::jump(RosenbrockIntegrator* integrator) {
+  if (integrator->mode_change().guard >= 0) cross(integrator->mode_change());
+  const bool has_events = !integrator->jump_events().empty();
+  jump(integrator->jump_events(), has_events ? integrator->before_jump() : integrator->state(),
+       integrator->state(), integrator->assembly(), integrator->mode());
 }
 
 template <int N>
@@ -277,18 +282,20 @@ void TangentStep<N>::attempt(RosenbrockStep<double>* step) {
   for (std::size_t i = 0; i < count(); ++i) stage_tangent(i, *step);
 }
 
+// The last stage lies at the end, but for the error. The pair's estimate counts as in
+// RosenbrockStep::error().
 template <int N>
-double TangentStep<N>::error(double relative_tolerance) const {
-  const Directions<N>& u = tableau_->is_explicit() ? estimate_ : stages_[count() - 1];
-  // A parameter whose own size changes the motion by rounding alone has no error.
-  const Eigen::Array<double, N, 1> rounding = 1e-16 * largest_state_ * per_square_;
-  const auto ratio = [&rounding](const Eigen::Array<double, N, 1>& squares,
-                                 const Eigen::Array<double, N, 1>& size) {
-    return (squares / size.max(rounding)).maxCoeff();
-  };
-  const double largest = std::max(ratio(squared_norms(u, at_.x(), at_.x_size), largest_x_),
-                                  ratio(squared_norms(u, at_.v(), at_.n), largest_v_));
-  return std::sqrt(largest) / relative_tolerance;
+double TangentStep<N>::error(const RosenbrockStep<double>& step, double tolerance) const {
+  constexpr double kPairCaution = 5.0;
+  const bool pair = tableau_->is_explicit();
+  Vector change{};
+  for (std::size_t j = 0; j < count(); ++j)
+    change += tableau_->weights[j] * stages_[j].vector(at_.psi());
+  const Eigen::Map<const Eigen::Array<double, N, 1>> by(reinterpret_cast<const double*>(&change));
+  return scale_.error(at_,
+                      {stage_y_, pair ? estimate_ : stages_[count() - 1],
+                       y_.col(at_.psi()).array() + by, step.psi()},
+                      pair ? tolerance / kPairCaution : tolerance);
 }
 
 // Differentiates the projection [G_a G_lambda; Phi_q 0] [delta; mu] = [0; -error], (17), and adds
@@ -320,7 +327,7 @@ void TangentStep<N>::accept(const RosenbrockStep<double>& step) {
   has_changes_ = false;
   if (!tableau_->is_explicit() || layout_.m > 0) linearize(step.unprojected());
   if (layout_.m > 0) project(step);
-  measure(step.state());
+  scale_.measure(at_, step.state(), y_);
 }
 
 template <int N>

@@ -9,9 +9,11 @@
 #include "equations/equations.h"
 #include "integration/increment.h"
 #include "integration/mode_watch.h"
+#include "integration/rosenbrock_integrator.h"
 #include "integration/rosenbrock_step.h"
 #include "math/arrays.h"
 #include "sensitivity/lane_directions.h"
+#include "sensitivity/sensitivity_scale.h"
 
 namespace codesign {
 
@@ -83,10 +85,8 @@ class TangentStep {
   /// Computes the tangent of the stages of the step's last attempt. @param step of an explicit pair
   /// receives the factorization of a stage.
   void attempt(RosenbrockStep<double>* step);
-  /// Scaled error of the last attempt, acceptable up to 1: the largest |u'_last| / (tolerance |y'|)
-  /// over the parameters, with norms over positions or over velocities and the largest |y'| so far,
-  /// at least 1e-8 max(1, |y|)/|rho|.
-  double error(double relative_tolerance) const;
+  /// Scaled error of the last attempt, acceptable up to 1, in the scale of SensitivityScale.
+  double error(const RosenbrockStep<double>& step, double tolerance) const;
   /// Accepts the last attempt: computes the tangent of its end and projection. To be called after
   /// RosenbrockStep::accept().
   void accept(const RosenbrockStep<double>& step);
@@ -102,6 +102,9 @@ class TangentStep {
   /// Carries the sensitivities over an instant that a guard s determines, theory (18g): with tau' =
   /// -s'/(s_t + s_x f-) they grow by (f- - f+) tau'. jump() with the mode after it follows.
   void cross(const ModeChange& change);
+
+  /// What both of these do for the last jump of an integrator.
+  void jump(RosenbrockIntegrator* integrator);
 
   /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms
   /// at `state`, the end of the last step.
@@ -146,11 +149,6 @@ class TangentStep {
   void explicit_stage(std::size_t i, RosenbrockStep<double>* step);
   void stage_start(std::size_t i, double h);
   void stage_tangent(std::size_t i, const RosenbrockStep<double>& step);
-  void measure(const State<double>& state) {
-    largest_state_ = std::max({largest_state_, state.q.squaredNorm(), state.v.squaredNorm()});
-    largest_x_ = largest_x_.max(squared_norms(y_, at_.x(), at_.x_size));
-    largest_v_ = largest_v_.max(squared_norms(y_, at_.v(), at_.n));
-  }
   /// Sets stage_y_ to the derivatives at `time` within the last step.
   void interpolate(const RosenbrockStep<double>& step, double time);
   /// Sets point_ to the state of the dense output with its derivatives.
@@ -178,13 +176,11 @@ class TangentStep {
   std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
   VectorX<Lanes<N>> guards_, right_;
-  State<Lanes<N>> start_;                             ///< with the initial sensitivities
-  State<Lanes<N>> point_;                             ///< a point of the dense output
-  std::vector<Directions<N>> stages_;                 ///< u' of each stage
-  std::vector<Directions<N>> matrix_changes_;         ///< dG u of each stage, row by row
-  Eigen::Array<double, N, 1> largest_x_, largest_v_;  ///< squared norms
-  Eigen::Array<double, N, 1> per_square_;             ///< 1 / rho^2
-  double largest_state_ = 1.0;                        ///< squared norm, at least 1
+  State<Lanes<N>> start_;                      ///< with the initial sensitivities
+  State<Lanes<N>> point_;                      ///< a point of the dense output
+  std::vector<Directions<N>> stages_;          ///< u' of each stage
+  std::vector<Directions<N>> matrix_changes_;  ///< dG u of each stage, row by row
+  SensitivityScale<N> scale_;
 };
 
 }  // namespace codesign

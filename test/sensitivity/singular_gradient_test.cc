@@ -28,7 +28,7 @@ Evaluation evaluate(const std::string& integrator, double tolerance, double dura
   return Evaluator(problem).evaluate(problem.start(), true);
 }
 
-TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsByBothIntegrators) {
+TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsOrIsRightByBothIntegrators) {
   for (const char* integrator : {"rosenbrock", "idas"}) {
     for (double tolerance : {1e-5, 1e-6, 1e-7}) {
       for (double duration : {3.0, 3.5}) {
@@ -36,9 +36,11 @@ TEST(SingularGradient, ADoubleParallelogramWarnsOrFailsByBothIntegrators) {
         const bool warned = std::any_of(e.warnings.begin(), e.warnings.end(), [](const Warning& w) {
           return w.code == "singular_position_passed" || w.code == "sensitivities_restarted";
         });
-        EXPECT_TRUE(!e.status.ok() || warned)
-            << integrator << " at " << tolerance << " over " << duration << " s: " << e.gradient[0]
-            << " in place of " << (duration > 3.2 ? 7.134 : 41.958);
+        if (!e.status.ok() || warned) continue;
+        // Steps that are short enough for the sensitivities may leave nothing to warn of.
+        const double right = duration > 3.2 ? 7.134 : 41.958;
+        EXPECT_NEAR(e.gradient[0], right, 1e-4 * right)
+            << integrator << " at " << tolerance << " over " << duration << " s";
       }
     }
   }

@@ -184,12 +184,12 @@ TEST_F(TangentStepTest, IsTheDerivativeOfTheStepsToRounding) {
 TEST_F(TangentStepTest, ErrorFallsWithTheStep) {
   ASSERT_TRUE(step.attempt(kSize));
   tangent.attempt(&step);
-  const double coarse = tangent.error(1e-6);
+  const double coarse = tangent.error(step, 1e-6);
   EXPECT_GT(coarse, 0.0);
-  EXPECT_NEAR(tangent.error(1e-5), 0.1 * coarse, 1e-12 * coarse);
+  EXPECT_NEAR(tangent.error(step, 1e-5), 0.1 * coarse, 1e-12 * coarse);
   ASSERT_TRUE(step.attempt(0.25 * kSize));
   tangent.attempt(&step);
-  EXPECT_LT(tangent.error(1e-6), 0.1 * coarse);
+  EXPECT_LT(tangent.error(step, 1e-6), 0.1 * coarse);
 }
 
 }  // namespace

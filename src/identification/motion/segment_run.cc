@@ -19,7 +19,7 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
     double error = 0.0;
     for_each_group([&](auto* group) {
       group->step.attempt(step);
-      if (tolerance > 0.0) error = std::max(error, group->step.error(tolerance));
+      if (tolerance > 0.0) error = std::max(error, group->step.error(*step, tolerance));
     });
     return error;
   };
@@ -43,7 +43,7 @@ Status SegmentRun::start(const std::vector<double>& parameters, const SegmentBeg
   if (Status status = integrator_.start(parameters); !status.ok()) return status;
   for_each_group([&](auto* group) {
     group->step.start(group->range.seed(system_, parameters), integrator_.assembly(),
-                      integrator_.initial_state());
+                      integrator_.initial_state(), integrator_.mode());
   });
   reads_rates_ = false;
   for (std::size_t k = 0; k < system_.watched().size(); ++k) {
@@ -63,10 +63,8 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
   for (Eigen::Index row = 0; row < count; ++row) {
     const double time = times[to_index(row)];
     while (integrator_.state().t < time) {
-      const Status status = integrator_.advance(times.back(), stages_);
-      if (!status.ok()) return status;
+      if (Status status = advance(times.back()); !status.ok()) return status;
       ++steps_;
-      for_each_group([this](auto* group) { group->step.accept(integrator_.step()); });
     }
     if (Status status = sample(time, row); !status.ok()) return status;
   }
@@ -74,6 +72,15 @@ Status SegmentRun::run(const std::vector<double>& parameters, const SegmentBegin
     return {StatusCode::kNonFiniteGradient, times.back(),
             "the derivatives of the simulated motion are not finite, though the motion is"};
   return {};
+}
+
+Status SegmentRun::advance(double limit) {
+  Status status = integrator_.jump();
+  if (status.ok() && integrator_.has_jumped())
+    for_each_group([this](auto* group) { group->step.jump(&integrator_); });
+  if (status.ok()) status = integrator_.advance(limit, stages_);
+  if (status.ok()) for_each_group([this](auto* group) { group->step.accept(integrator_.step()); });
+  return status;
 }
 
 bool SegmentRun::are_finite(SegmentLanes lanes) const {

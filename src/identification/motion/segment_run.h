@@ -62,6 +62,8 @@ class SegmentRun {
   void choose(SegmentLanes lanes);
   Status start(const std::vector<double>& parameters, const SegmentBegin& begin);
   bool are_finite(SegmentLanes lanes) const;
+  /// Takes one step with its derivatives.
+  Status advance(double limit);
   Status sample(double time, Eigen::Index row);
 
   const CompiledSystem& system_;

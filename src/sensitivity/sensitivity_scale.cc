@@ -1,0 +1,93 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/sensitivity_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "description/tuned_parameters.h"
+#include "equations/compiled_system.h"
+#include "math/arrays.h"
+#include "sensitivity/lane_directions.h"
+
+namespace codesign {
+namespace {
+
+// Rounding of a sensitivity, relative to the motion and the parameter's value.
+constexpr double kRoundingShare = 1e-8;
+// A value counts as at least this share of the range.
+constexpr double kSmallValue = 1e-3;
+// A direction that over the range changes the motion, or psi, by less than this share is judged as
+// one that changes it so much.
+constexpr double kLeastShare = 1e-3;
+// Errors that over the range are less than this share of solver.absolute_tolerance do not count:
+// rounding, where sensitivities vanish.
+constexpr double kAbsoluteShare = 1e-3;
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+template <int N>
+void SensitivityScale<N>::start(const CompiledSystem& system,
+                                const std::vector<Lanes<N>>& parameters) {
+  const MotionStudy& study = system.study();
+  for (Array* all : {&x_, &v_, &psi_, &per_value_, &per_range_}) all->setZero();
+  // Of lanes without a parameter.
+  per_range_.setConstant(1e-200);
+  q_square_ = v_square_ = 0.0;
+  absolute_ = kAbsoluteShare * study.solver.absolute_tolerance;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double value = std::abs(value_of(parameters[i])),
+                 extent = codesign::extent(study.parameters[i], value),
+                 range = extent > 0.0 ? extent : 1.0;
+    const Array squares = parameters[i].directions().array().square();
+    per_range_ = per_range_.max(squares / square(range));
+    per_value_ = per_value_.max(squares / square(std::max(value, kSmallValue * range)));
+  }
+}
+
+template <int N>
+void SensitivityScale<N>::measure(const IncrementLayout& at, const State<double>& state,
+                                  const Directions<N>& y) {
+  q_square_ = std::max(q_square_, state.q.squaredNorm());
+  v_square_ = std::max(v_square_, state.v.squaredNorm());
+  x_ = x_.max(squared_norms(y, at.x(), at.x_size));
+  v_ = v_.max(squared_norms(y, at.v(), at.n));
+  psi_ = psi_.max(y.col(at.psi()).array().square());
+}
+
+template <int N>
+double SensitivityScale<N>::error(const IncrementLayout& at, const Attempt& attempt,
+                                  double tolerance) const {
+  const double motion = std::max({1.0, q_square_, v_square_});
+  const Array floor = square(absolute_ / tolerance) * per_range_,
+              rounding = floor.max(square(kRoundingShare) * motion * per_value_),
+              share = square(kLeastShare) * per_range_;
+  const auto judge = [](const Array& error, const Array& size, const Array& least) {
+    return (error / size.max(least)).maxCoeff();
+  };
+  const Directions<N>&u = attempt.estimate, &y = attempt.end;
+  const double x = judge(squared_norms(u, at.x(), at.x_size),
+                         x_.max(squared_norms(y, at.x(), at.x_size)),
+                         rounding.max(share * q_square_)),
+               v = judge(squared_norms(u, at.v(), at.n), v_.max(squared_norms(y, at.v(), at.n)),
+                         rounding.max(share * v_square_)),
+               psi = judge(u.col(at.psi()).array().square(), psi_.max(attempt.psi.square()),
+                           floor.max(share * square(attempt.objective)));
+  // A derivative that is not finite at any step size is reported by the gradient.
+  const double largest = std::max({x, v, psi});
+  return std::isfinite(x + v + psi) ? std::sqrt(largest) / tolerance : 0.0;
+}
+
+double sensitivity_tolerance(const SolverOptions& options) {
+  constexpr double kFactor = 10.0, kTightFactor = 100.0, kFiveDigits = 1e-5, kMost = 1e-3;
+  if (options.sensitivity_tolerance > 0.0) return options.sensitivity_tolerance;
+  const double relative = options.relative_tolerance;
+  return std::min(kMost,
+                  std::max(kFactor * relative, std::min(kFiveDigits, kTightFactor * relative)));
+}
+
+template class SensitivityScale<4>;
+template class SensitivityScale<8>;
+
+}  // namespace codesign
