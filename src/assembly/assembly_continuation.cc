@@ -165,17 +165,18 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
         is_held = part == 1.0;
         return work_.between;
       },
-      equations);
+      [] {}, equations);
   if (!is_held) equations->set_design(parameters);
   return reached;
 }
 
 /// Continues the position work_.followed along a line, with steps that are halved where Newton's
 /// method for the `free` coordinates does not converge at once, or to another solution than by way
-/// of the middle of the step. @param place_at (part of the way) -> the design there. @returns
-/// whether the end was reached; work_.followed is the last solution.
-template <class PlaceAt>
-bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
+/// of the middle of the step. @param place_at (part of the way) -> the design there. @param arrive
+/// called at the end of each step, where theta_ is the solution. @returns whether the end was
+/// reached; work_.followed is the last solution.
+template <class PlaceAt, class Arrive>
+bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at, const Arrive& arrive,
                     Equations<double>* equations) {
   const auto arrives = [&](double part) {
     const std::vector<double>& design = place_at(part);
@@ -196,6 +197,7 @@ bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
     }
     if (is_continued) {
       work_.followed = theta_;
+      arrive();
       reached = next;
       step *= 2.0;
     } else {
@@ -203,6 +205,26 @@ bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
     }
   }
   return reached == 1.0;
+}
+
+/// Carries the turns of loops from `state` to the positions of theta_, a step of walk() away, and
+/// places it there.
+void Assembly::count_turns(const std::vector<double>& parameters, Equations<double>* equations,
+                           TurnFollower<double>* turns, State<double>* state) {
+  const State<double> before = *state;
+  place(parameters, equations, state);
+  // Of a free body, p and -p are the same position; the way between both states has to be short.
+  for (int b = 0; b < system_.layout().bodies; ++b) {
+    if (!system_.layout().is_free(b)) continue;
+    const int p = system_.layout().column(b) + 3;
+    if (state->q.segment<4>(p).dot(before.q.segment<4>(p)) < 0.0) state->q.segment<4>(p) *= -1.0;
+  }
+  const std::vector<double> of_tree = state->turns;
+  turns->follow(before, equations, state);
+  const std::vector<double> of_loops = state->turns;
+  state->turns = of_tree;
+  keep_loop_turns(of_loops, state);
+  equations->track_turns(state);
 }
 
 Status Assembly::solve_next(const std::vector<double>& parameters, Equations<double>* equations,
@@ -218,6 +240,8 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   work_.free = choose_columns(work_.positions);
   double furthest = 0.0;
   theta_rate_.setZero();
+  TurnFollower<double> turns(system_);
+  State<double> counted = *state;
   const bool reached = walk(
       work_.free,
       [&](double part) -> const std::vector<double>& {
@@ -225,7 +249,7 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
         furthest = part;
         return parameters;
       },
-      equations);
+      [&] { count_turns(parameters, equations, &turns, &counted); }, equations);
   state->t = time_ = posture_ = from + 1.0;
   if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
   if (!reached)
@@ -235,10 +259,9 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
                 readable(100.0 * furthest, 2) + " % of the way"};
   set_extra_states(system_, parameters, &state->s);
   state->z.setZero();
-  const std::vector<double> turns = state->turns;
   if (Status status = solve_velocities(parameters, equations, state); !status.ok()) return status;
   set_turns(system_, tree_, theta_, state);
-  keep_loop_turns(turns, state);
+  keep_loop_turns(counted.turns, state);
   equations->track_turns(state);
   return solve_rates(equations, state);
 }
