@@ -217,8 +217,8 @@ class Assembly {
   template <class PlaceAt, class Arrive>
   bool walk(const std::vector<int>& free, const PlaceAt& place_at, const Arrive& arrive,
             Equations<double>* equations);
-  void count_turns(const std::vector<double>& parameters, Equations<double>* equations,
-                   TurnFollower<double>* turns, State<double>* state);
+  void count_turns(const VectorX<double>& from, const std::vector<double>& parameters,
+                   Equations<double>* equations, TurnFollower<double>* turns, State<double>* state);
   /// Whether theta_ belongs to the branch of `other`.
   bool is_same(const VectorX<double>& other) const;
   bool converges_at_once(const std::vector<double>& parameters, const std::vector<int>& free,

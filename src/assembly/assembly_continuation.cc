@@ -88,17 +88,6 @@ bool Assembly::is_same(const VectorX<double>& other) const {
          kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
 }
 
-/// The turns of loops, which do not follow from the tree's coordinates.
-void Assembly::keep_loop_turns(const std::vector<double>& turns, State<double>* state) const {
-  for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
-    if (!system_.topology().pairs[p].is_loop) continue;
-    for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
-      const auto slot = to_index(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)));
-      state->turns[slot] = turns[slot];
-    }
-  }
-}
-
 void Assembly::note_origin() {
   // If all open coordinates had to move, the position has no dependent coordinates that other
   // designs could share.
@@ -207,26 +196,6 @@ bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at, const
   return reached == 1.0;
 }
 
-/// Carries the turns of loops from `state` to the positions of theta_, a step of walk() away, and
-/// places it there.
-void Assembly::count_turns(const std::vector<double>& parameters, Equations<double>* equations,
-                           TurnFollower<double>* turns, State<double>* state) {
-  const State<double> before = *state;
-  place(parameters, equations, state);
-  // Of a free body, p and -p are the same position; the way between both states has to be short.
-  for (int b = 0; b < system_.layout().bodies; ++b) {
-    if (!system_.layout().is_free(b)) continue;
-    const int p = system_.layout().column(b) + 3;
-    if (state->q.segment<4>(p).dot(before.q.segment<4>(p)) < 0.0) state->q.segment<4>(p) *= -1.0;
-  }
-  const std::vector<double> of_tree = state->turns;
-  turns->follow(before, equations, state);
-  const std::vector<double> of_loops = state->turns;
-  state->turns = of_tree;
-  keep_loop_turns(of_loops, state);
-  equations->track_turns(state);
-}
-
 Status Assembly::solve_next(const std::vector<double>& parameters, Equations<double>* equations,
                             State<double>* state) {
   warnings_.clear();
@@ -242,6 +211,7 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   theta_rate_.setZero();
   TurnFollower<double> turns(system_);
   State<double> counted = *state;
+  VectorX<double> counted_at = theta_;
   const bool reached = walk(
       work_.free,
       [&](double part) -> const std::vector<double>& {
@@ -249,7 +219,11 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
         furthest = part;
         return parameters;
       },
-      [&] { count_turns(parameters, equations, &turns, &counted); }, equations);
+      [&] {
+        count_turns(counted_at, parameters, equations, &turns, &counted);
+        counted_at = theta_;
+      },
+      equations);
   state->t = time_ = posture_ = from + 1.0;
   if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
   if (!reached)

@@ -15,6 +15,7 @@ namespace {
 // of the line may be twice as long, where the miss is four times as large at most. One that misses
 // by more is looked at over half that part.
 constexpr double kProportional = 0.1, kDoubtful = 0.8;
+constexpr double kTurnOfBody = 2.1;
 constexpr int kMostPoints = 10000;  // more only in an attempt that no error test accepts
 
 bool may_turn(JointType type) {
@@ -83,7 +84,8 @@ void TurnFollower<T>::note_ways(int body, Way* way) const {
   if (body >= 0) way->free.push_back(layout.column(body) + 3);
 }
 
-// A body turns by 4 asin(|p_1 - p_0|/2), which is less than 2.4 |p_1 - p_0| up to one turn.
+// A body turns by 4 asin(|p_1 - p_0|/2), which is less than 2.1 |p_1 - p_0| up to kSure, and never
+// more than pi |p_1 - p_0|.
 template <class T>
 double TurnFollower<T>::longest_way(const State<T>& from, const State<T>& to) const {
   double longest = 0.0;
@@ -96,21 +98,32 @@ double TurnFollower<T>::longest_way(const State<T>& from, const State<T>& to) co
         const double change = value_of(to.q[k]) - value_of(from.q[k]);
         square += change * change;
       }
-      sum += 2.4 * std::sqrt(square);
+      sum += kTurnOfBody * std::sqrt(square);
     }
     longest = std::max(longest, sum);
   }
   return longest;
 }
 
-/// Sets q of between_ to a point of the line; Euler parameters stay unit vectors.
+/// Sets q of between_ to a point of the line. Free bodies turn about a fixed axis at a constant
+/// rate.
 template <class T>
 void TurnFollower<T>::place(const State<T>& from, const State<T>& to, double part) {
   between_.q = T(1.0 - part) * from.q + T(part) * to.q;
   for (int c : free_) {
-    double square = 0.0;
-    for (int k = c; k < c + 4; ++k) square += value_of(between_.q[k]) * value_of(between_.q[k]);
-    if (square > 0.0) between_.q.template segment<4>(c) *= T(1.0 / std::sqrt(square));
+    double product = 0.0, of_from = 0.0, of_to = 0.0;
+    for (int k = c; k < c + 4; ++k) {
+      const double a = value_of(from.q[k]), b = value_of(to.q[k]);
+      product += a * b;
+      of_from += a * a;
+      of_to += b * b;
+    }
+    const double angle = std::acos(std::clamp(product / std::sqrt(of_from * of_to), -1.0, 1.0)),
+                 sine = std::sin(angle);
+    if (!(sine > 1e-9)) continue;  // no turn, or a whole one, whose axis is not known
+    between_.q.template segment<4>(c) =
+        T(std::sin((1.0 - part) * angle) / sine) * from.q.template segment<4>(c) +
+        T(std::sin(part * angle) / sine) * to.q.template segment<4>(c);
   }
 }
 
@@ -138,7 +151,7 @@ template <class T>
 void TurnFollower<T>::count(const State<T>& from, double way, Equations<T>* equations,
                             State<T>* to) {
   if (!std::isfinite(way)) return;
-  const double shortest = kSure / way;
+  const double shortest = kSure * kTurnOfBody / (M_PI * way);
   double reached = 0.0, part = shortest;
   std::fill(slope_.begin(), slope_.end(), 0.0);
   place(from, *to, 0.0);

@@ -1,0 +1,161 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// The whole turns of a loop's joint, however long the steps are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "integration/interactive_simulation.h"
+#include "integration/servo.h"
+#include "integration/simulation_of.h"
+#include "integration/turning_loops.h"
+
+namespace codesign {
+namespace {
+
+std::string solver_line(const std::string& coordinates, const std::string& method) {
+  return "solver: {coordinates: " + coordinates + ", " +
+         (method == "idas" ? "integrator: idas" : "method: " + method) + "}\n";
+}
+
+std::string turning_study(const std::string& start, double duration, const std::string& more) {
+  return "duration: " + std::to_string(duration) + "\ngravity: [0, 0, 0]\ninitial_state: " + start +
+         "\nparameters: {k: {}}\nobjective: {terminal: [{signal: pin/position}]}\n" + more;
+}
+
+std::string turning(const std::string& joint, double speed, const std::string& more = "") {
+  return "{" + joint + ": {position: 0.3, velocity: " + std::to_string(speed) + "}" + more + "}";
+}
+
+JointSample turning_joint(const Simulation& simulation, const Frame& frame,
+                          const std::string& name) {
+  for (std::size_t k = 0; k < frame.joints.size(); ++k)
+    if (simulation.names().joints[k] == name) return frame.joints[k];
+  ADD_FAILURE() << "no joint " << name;
+  return {};
+}
+
+using Solver = std::tuple<const char*, const char*>;
+
+class LoopTurns : public testing::TestWithParam<Solver> {
+ protected:
+  std::string solver_block() const {
+    return solver_line(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  }
+  bool is_absolute() const { return std::get<0>(GetParam()) == std::string("absolute"); }
+};
+
+// In joint coordinates some steps are hundreds of turns long.
+TEST_P(LoopTurns, ThePinTurnsAsFarAsTheCrank) {
+  for (double speed : {1.0, 50.0, -500.0})
+    for (bool parallelogram : {false, true}) {
+      const double duration = is_absolute() ? 60.0 / std::abs(speed) : 10.0;
+      const auto system = compile(
+          parallelogram ? turning_parallelogram() : two_bearings(),
+          turning_study(turning("crank", speed, parallelogram ? ", follower: {guess: 0.3}" : ""),
+                        duration, solver_block()));
+      Simulation run = simulation_of(system, system->parameters());
+      ASSERT_TRUE(run.start().ok());
+      Frame frame;
+      run.sample(0.0, &frame);
+      const double sign = 1.0, offset = turning_joint(run, frame, "pin").position -
+                                        sign * turning_joint(run, frame, "crank").position;
+      for (int k = 1; k <= 37; ++k) {
+        const double time = duration * k / 37;
+        const Status status = run.advance(time);
+        ASSERT_TRUE(status.ok()) << status.cause;
+        run.sample(time, &frame);
+        const double crank = turning_joint(run, frame, "crank").position;
+        EXPECT_NEAR(turning_joint(run, frame, "pin").position, sign * crank + offset,
+                    1e-4 + 1e-6 * std::abs(crank))
+            << speed << " rad/s at " << time << (parallelogram ? " parallelogram" : " bearings");
+        EXPECT_NEAR(crank, 0.3 + speed * time, 1e-2 + 1e-4 * std::abs(speed * time));
+      }
+    }
+}
+
+// 48 turns to each side.
+TEST_P(LoopTurns, ASpringOverManyTurnsSwingsAsTheFormulaSays) {
+  const auto system = compile(
+      two_bearings(pin_spring()),
+      "duration: 7.0\ngravity: [0, 0, 0]\ninitial_state: {crank: {velocity: 300}}\nparameters: "
+      "{k: {}}\nobjective: {terminal: [{signal: pin/position}]}\n" +
+          solver_block());
+  Simulation run = simulation_of(system, system->parameters());
+  ASSERT_TRUE(run.start().ok());
+  Frame frame;
+  for (int k = 1; k <= 50; ++k) {
+    const double time = 0.14 * k;
+    const Status status = run.advance(time);
+    ASSERT_TRUE(status.ok()) << status.cause;
+    run.sample(time, &frame);
+    EXPECT_NEAR(turning_joint(run, frame, "pin").position, 300.0 * std::sin(time),
+                is_absolute() ? 0.6 : 0.01)
+        << time;
+  }
+  EXPECT_LT(run.statistics().energy_error, 1e-3);
+}
+
+TEST_P(LoopTurns, AControllerOfThePinReachesManyTurns) {
+  const auto system = compile(
+      two_bearings(),
+      "duration: 20.0\ngravity: [0, 0, 0]\ninitial_state: {}\nparameters: {k: {}}\ncontrollers: "
+      "{turn: {type: pid, input: pin/position, setpoint: 500, output: crank, gains: {p: 4, d: "
+      "2}}}\nobjective: {terminal: [{signal: turn/error}]}\n" +
+          solver_block());
+  Simulation run = simulation_of(system, system->parameters());
+  ASSERT_TRUE(run.start().ok());
+  const Status status = run.advance(20.0);
+  ASSERT_TRUE(status.ok()) << status.cause;
+  Frame frame;
+  run.sample(20.0, &frame);
+  EXPECT_NEAR(turning_joint(run, frame, "crank").position, 500.0, 1e-2);
+  EXPECT_NEAR(run.objective(), 0.0, 1e-3);
+}
+
+TEST_P(LoopTurns, GoOnWhereACommandBegins) {
+  const auto system =
+      compile(two_bearings(), turning_study(turning("crank", 200.0), 3.0, solver_block()));
+  InteractiveSimulation run(
+      *system, {},
+      {parse_signal("pin/position", {}, "signal"), parse_signal("crank/position", {}, "signal")});
+  ASSERT_TRUE(run.start(system->parameters()).ok());
+  Frame frame;
+  for (int k = 1; k <= 20; ++k) {
+    const double time = 0.149 * k;
+    const Status status = run.advance(time);
+    ASSERT_TRUE(status.ok()) << status.cause;
+    run.sample(time, &frame);
+    EXPECT_NEAR(frame.signals[0], frame.signals[1], 1e-2) << time;
+    run.set_effort(0, k % 2 == 0 ? 20.0 : -10.0);
+    ASSERT_TRUE(run.apply(time).ok());
+    run.sample(time, &frame);
+    EXPECT_NEAR(frame.signals[0], frame.signals[1], 1e-2) << time;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, LoopTurns,
+                         testing::Combine(testing::Values("joint", "absolute"),
+                                          testing::Values("auto", "dopri5", "rodas4", "rodas5p",
+                                                          "idas")),
+                         [](const auto& instance) {
+                           return std::string(std::get<0>(instance.param)) + "_" +
+                                  std::get<1>(instance.param);
+                         });
+
+// The first step turns from 3.1 to 3.2 rad, across half a turn.
+TEST(LoopTurns, ThePositionsOfTheStartAreItsReferences) {
+  const auto system = compile(
+      two_bearings(),
+      "duration: 0.1\ngravity: [0, 0, 0]\ninitial_state: {crank: {position: 3.1, velocity: 1}}\n"
+      "parameters: {k: {}}\nobjective: {terminal: [{signal: pin/position}]}\n" +
+          solver_line("joint", "dopri5"));
+  Simulation run = simulation_of(system, system->parameters());
+  ASSERT_TRUE(run.start().ok());
+  ASSERT_TRUE(run.advance(0.1).ok());
+  Frame frame;
+  run.sample(0.1, &frame);
+  EXPECT_NEAR(turning_joint(run, frame, "pin").position, 3.2, 1e-9);
+}
+
+}  // namespace
+}  // namespace codesign

@@ -1,0 +1,52 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// Gradients of an objective of a loop's angle after many turns, with a spring that counts them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "integration/servo.h"
+#include "integration/turning_loops.h"
+#include "mechanism_codesign/gradient.h"
+#include "sensitivity/gradient_check.h"
+
+namespace codesign {
+namespace {
+
+using Solver = std::tuple<const char*, const char*>;
+
+class LoopTurnsGradient : public testing::TestWithParam<Solver> {};
+
+// theta = (300/w) sin w t with w = sqrt(k/I), psi = (theta(5) - 100)^2.
+TEST_P(LoopTurnsGradient, IsThatOfTheFormula) {
+  const auto& [coordinates, more] = GetParam();
+  const auto system = compile(
+      two_bearings(pin_spring()),
+      std::string("duration: 5.0\ngravity: [0, 0, 0]\ninitial_state: {crank: {velocity: 300}}\n"
+                  "parameters: {k: {tune: true, lower: 0.1, upper: 1.0}}\nobjective: {terminal: "
+                  "[{signal: pin/position, reference: 100}]}\nsolver: {relative_tolerance: 1e-8, "
+                  "absolute_tolerance: 1e-8, coordinates: ") +
+          coordinates + ", " + more + "}\n");
+  const double I = 0.3334, k = 0.3334, t = 5.0, w = std::sqrt(k / I),
+               theta = 300.0 / w * std::sin(w * t),
+               theta_w = -theta / w + 300.0 * t / w * std::cos(w * t),
+               exact = 2.0 * (theta - 100.0) * theta_w * 0.5 / std::sqrt(k * I);
+  const GradientCheck check =
+      check_gradient(system, Eigen::VectorXd::Constant(1, k), CheckMethod::kComplexStep);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  const double tolerance = coordinates == std::string("joint") ? 1e-4 : 2e-3;
+  EXPECT_NEAR(check.evaluation.objective, std::pow(theta - 100.0, 2),
+              tolerance * std::pow(theta - 100.0, 2));
+  EXPECT_NEAR(check.evaluation.gradient[0], exact, tolerance * std::abs(exact));
+  if (check.method == CheckMethod::kComplexStep) EXPECT_LT(check.largest_relative_difference, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, LoopTurnsGradient,
+                         testing::Combine(testing::Values("joint", "absolute"),
+                                          testing::Values("method: dopri5, gradient: direct",
+                                                          "method: dopri5, gradient: adjoint",
+                                                          "method: rodas5p, gradient: direct",
+                                                          "method: rodas5p, gradient: adjoint",
+                                                          "integrator: idas")));
+
+}  // namespace
+}  // namespace codesign
