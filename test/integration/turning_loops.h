@@ -9,11 +9,12 @@ namespace codesign {
 
 // Loops whose pin turns as far as the crank, about parallel axes. Without gravity.
 
-/// A bar of 1/3 kg m^2 (0.0834 + 0.25) about its crank, with a second bearing in the same axis as
-/// loop `pin`. @param more elements of the loop.
+/// A bar with a second bearing in the axis of its crank as loop `pin`, whose rows are all
+/// redundant.
+/// @param more elements of the loop.
 inline std::string two_bearings(const std::string& more = "") {
   return robot(
-      "<codesign:parameter name='k' value='0.3334'/>" + bar("rotor") +
+      "<codesign:parameter name='k' value='0.017'/>" + bar("rotor") +
       hinge("crank", "ground", "rotor", "0 0 0") +
       "<loop name='pin' type='revolute' codesign:out_of_plane='zero'><predecessor link='ground'/>"
       "<successor link='rotor'/><axis xyz='0 1 0'/>" +
@@ -21,27 +22,51 @@ inline std::string two_bearings(const std::string& more = "") {
 }
 
 /// A parallelogram with cranks of 0.1 m, 0.3 m apart; `pin` joins its coupler to the second crank.
-/// Speeds do not change, since the coupler moves on a circle without turning.
-inline std::string turning_parallelogram(const std::string& more = "") {
+/// Speeds do not change, since the coupler moves on a circle without turning. Twice in a turn it is
+/// flat, a singular position.
+inline std::string turning_parallelogram() {
   const auto link = [](const std::string& name, const std::string& centre) {
     return "<link name='" + name + "'><inertial><origin xyz='" + centre +
            "'/><mass value='1'/><inertia ixx='0.001' ixy='0' ixz='0' iyy='0.001' iyz='0' "
            "izz='0.001'/></inertial></link>";
   };
   return robot(
-      "<codesign:parameter name='k' value='0.002'/>" + link("left", "0 0 0.05") +
+      "<codesign:parameter name='k' value='0.017'/>" + link("left", "0 0 0.05") +
       link("coupler", "0.1 0 0") + link("right", "0 0 0.05") +
       hinge("crank", "ground", "left", "0 0 0") + hinge("knee", "left", "coupler", "0 0 0.1") +
       hinge("follower", "ground", "right", "0.3 0 0") +
       "<loop name='pin' type='revolute' codesign:out_of_plane='zero'><predecessor link='coupler'>"
       "<origin xyz='0.3 0 0'/></predecessor><successor link='right'><origin xyz='0 0 0.1'/>"
-      "</successor><axis xyz='0 1 0'/>" +
-      more + "</loop>");
+      "</successor><axis xyz='0 1 0'/></loop>");
 }
 
-/// A torsion spring of k [N m/rad] on the pin.
+/// A rotor that carries two crossed slides; the outer one turns in a bearing of the ground in the
+/// axis of the crank, loop `pin`, which holds both slides in their middle. No position is singular,
+/// and all rotate as far as the crank. @param more elements of the loop.
+inline std::string rotor_with_slides(const std::string& more = "") {
+  const auto link = [](const std::string& name, const std::string& inertia) {
+    return "<link name='" + name + "'><inertial><mass value='1'/><inertia ixx='0.01' ixy='0' " +
+           "ixz='0' iyy='" + inertia + "' iyz='0' izz='0.01'/></inertial></link>";
+  };
+  const auto slide = [](const std::string& parent, const std::string& child,
+                        const std::string& axis) {
+    return "<joint name='" + child + "_slide' type='prismatic'><parent link='" + parent +
+           "'/><child link='" + child + "'/><axis xyz='" + axis +
+           "'/><limit lower='-9' upper='9' effort='9' velocity='9'/></joint>";
+  };
+  return robot("<codesign:parameter name='k' value='0.017'/>" + link("rotor", "0.007") +
+               link("middle", "0.005") + link("outer", "0.005") +
+               hinge("crank", "ground", "rotor", "0 0 0") + slide("rotor", "middle", "1 0 0") +
+               slide("middle", "outer", "0 0 1") +
+               "<loop name='pin' type='revolute' codesign:out_of_plane='zero'><predecessor "
+               "link='ground'/><successor link='outer'/><axis xyz='0 1 0'/>" +
+               more + "</loop>");
+}
+constexpr double kRotorInertia = 0.017;  // [kg m^2]
+
+/// A torsion spring of k [N m/rad] on the pin: with the rotor an oscillator of 1 rad/s.
 inline const char* pin_spring() {
-  return "<codesign:torsion_spring stiffness='1' codesign:stiffness='${k}'/>";
+  return "<codesign:torsion_spring stiffness='0.017' codesign:stiffness='${k}'/>";
 }
 
 }  // namespace codesign

@@ -20,13 +20,14 @@ class LoopTurnsGradient : public testing::TestWithParam<Solver> {};
 TEST_P(LoopTurnsGradient, IsThatOfTheFormula) {
   const auto& [coordinates, more] = GetParam();
   const auto system = compile(
-      two_bearings(pin_spring()),
-      std::string("duration: 5.0\ngravity: [0, 0, 0]\ninitial_state: {crank: {velocity: 300}}\n"
-                  "parameters: {k: {tune: true, lower: 0.1, upper: 1.0}}\nobjective: {terminal: "
+      rotor_with_slides(pin_spring()),
+      std::string("duration: 5.0\ngravity: [0, 0, 0]\ninitial_state: {crank: {position: 0, "
+                  "velocity: 300}}\n"
+                  "parameters: {k: {tune: true, lower: 0.01, upper: 0.03}}\nobjective: {terminal: "
                   "[{signal: pin/position, reference: 100}]}\nsolver: {relative_tolerance: 1e-8, "
                   "absolute_tolerance: 1e-8, coordinates: ") +
           coordinates + ", " + more + "}\n");
-  const double I = 0.3334, k = 0.3334, t = 5.0, w = std::sqrt(k / I),
+  const double I = kRotorInertia, k = 0.017, t = 5.0, w = std::sqrt(k / I),
                theta = 300.0 / w * std::sin(w * t),
                theta_w = -theta / w + 300.0 * t / w * std::cos(w * t),
                exact = 2.0 * (theta - 100.0) * theta_w * 0.5 / std::sqrt(k * I);
