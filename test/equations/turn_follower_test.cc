@@ -13,11 +13,11 @@
 namespace codesign {
 namespace {
 
-/// A rotor in two bearings, the second one a loop, at `angle`.
+/// A rotor whose bearing on the other side is a loop.
 class FollowedRotor {
  public:
   explicit FollowedRotor(CoordinatesKind coordinates) {
-    const RobotDescription robot = read_urdf({"test.urdf", two_bearings()});
+    const RobotDescription robot = read_urdf({"test.urdf", rotor_with_slides()});
     Study study = read_study({"test.yaml",
                               "duration: 1.0\ngravity: [0, 0, 0]\nparameters: {k: {}}\nobjective: "
                               "{terminal: [{signal: pin/position}]}\n"},
@@ -33,12 +33,11 @@ class FollowedRotor {
   State<double> at(double angle) const {
     State<double> state;
     state.resize(system->layout());
-    if (system->layout().has_forest()) {
-      state.q[0] = angle;
-      return state;
-    }
-    state.q.head<3>() << -0.5 * std::sin(angle), 0.0, -0.5 * std::cos(angle);
-    state.q.segment<4>(3) << std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0;
+    const Layout& layout = system->layout();
+    if (layout.has_forest()) state.q[layout.column(0)] = angle;
+    for (int b = 0; !layout.has_forest() && b < layout.bodies; ++b)
+      state.q.segment<4>(layout.column(b) + 3) << std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle),
+          0.0;
     return state;
   }
   double reference(double from, double to) const {

@@ -191,12 +191,11 @@ TEST(PostureSequence, JointsThatNoDriveHoldAreLetGo) {
 TEST(PostureSequence, LoopsCountTheTurnsBetweenDistantPostures) {
   const std::vector<double> angles{0.3, 5.0, 25.3, 25.0, -9.7};
   for (const char* coordinates : {"joint", "absolute"}) {
-    const Problem problem =
-        load_problem({"bearings.urdf", two_bearings()}, {},
-                     {"bearings.yaml",
-                      std::string("gravity: [0, 0, 0]\npositions: {crank: [0.3, 5.0, 25.3, 25.0, "
-                                  "-9.7]}\nparameters: {k: {}}\nsolver: {coordinates: ") +
-                          coordinates + "}\n"});
+    const Problem problem = load_problem(
+        {"rotor.urdf", rotor_with_slides()}, {},
+        {"rotor.yaml", std::string("gravity: [0, 0, 0]\npositions: {crank: [0.3, 5.0, 25.3, 25.0, "
+                                   "-9.7]}\nparameters: {k: {}}\nsolver: {coordinates: ") +
+                           coordinates + "}\n"});
     const Recorded run = record(problem, {"pin/position"});
     ASSERT_TRUE(run.status.ok()) << run.status.cause;
     ASSERT_EQ(run.signals.size(), angles.size());

@@ -9,18 +9,6 @@ namespace codesign {
 
 // Loops whose pin turns as far as the crank, about parallel axes. Without gravity.
 
-/// A bar with a second bearing in the axis of its crank as loop `pin`, whose rows are all
-/// redundant.
-/// @param more elements of the loop.
-inline std::string two_bearings(const std::string& more = "") {
-  return robot(
-      "<codesign:parameter name='k' value='0.017'/>" + bar("rotor") +
-      hinge("crank", "ground", "rotor", "0 0 0") +
-      "<loop name='pin' type='revolute' codesign:out_of_plane='zero'><predecessor link='ground'/>"
-      "<successor link='rotor'/><axis xyz='0 1 0'/>" +
-      more + "</loop>");
-}
-
 /// A parallelogram with cranks of 0.1 m, 0.3 m apart; `pin` joins its coupler to the second crank.
 /// Speeds do not change, since the coupler moves on a circle without turning. Twice in a turn it is
 /// flat, a singular position.
