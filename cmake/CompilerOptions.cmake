@@ -85,7 +85,7 @@ endfunction()
 # Small files that are not in the time loop compile together: most of their time goes into headers that all of them include.
 option(CODESIGN_UNITY "Compile the small files of a room together" ON)
 set(codesign_unites OFF)
-if(CODESIGN_UNITY AND NOT CODESIGN_SANITIZE AND NOT CMAKE_VERSION VERSION_LESS 3.18)
+if(CODESIGN_UNITY AND NOT CMAKE_VERSION VERSION_LESS 3.18)
   set(codesign_unites ON)
 endif()
 # codesign_unite(TARGET GROUP FILE...): the files become one translation unit. GROUP begins with the name of the room.

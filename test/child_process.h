@@ -7,12 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "patience.h"
 
 namespace codesign {
 
@@ -60,15 +59,5 @@ class ChildProcess {
  private:
   pid_t pid_;
 };
-
-/// Waits for a condition, at most a minute.
-inline bool comes_true(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
-}
 
 }  // namespace codesign

@@ -29,6 +29,7 @@ enum class StatusCode {
   kNonFiniteGradient,      ///< the objective is finite, its gradient is not
   kNoEquilibrium,          ///< no posture was found in which the mechanism rests
   kNotIdentifiable,        ///< the recordings do not determine all numbers to be identified
+  kSwitchHolds,            ///< the motion on both sides of a switch leads back to it
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".

@@ -10,7 +10,8 @@ import xmlrpc.client
 from .board import number
 from .requests import Refused
 
-PATIENCE = 3.0  # [s] until a service or a listener must be there
+PATIENCE = 3.0  # [s] until a service or a listener must be known to the master
+LATENESS = 30.0  # [s] until one that is known must answer: its machine may be busy
 
 
 def setpoint_topics(controllers):
@@ -164,10 +165,15 @@ class Nodes:
                          dict(zip(result.parameters, map(number, result.values))), summary)
 
     def call(self, name, kind, *arguments):
+        import rosgraph
         try:
-            self._ros.wait_for_service(name, PATIENCE)
+            try:
+                self._ros.wait_for_service(name, PATIENCE)
+            except self._ros.ROSException:
+                if rosgraph.Master(self._ros.get_name()).lookupService(self._ros.resolve_name(name)):  # which raises for one that is not known
+                    self._ros.wait_for_service(name, LATENESS)
             return self._ros.ServiceProxy(name, kind)(*arguments)
-        except (self._ros.ROSException, self._ros.ServiceException) as error:
+        except (self._ros.ROSException, self._ros.ServiceException, rosgraph.MasterException) as error:
             raise Refused(f"{self._ros.resolve_name(name)}: no answer: {error}") from error
 
     def heard(self, topic, kind):
@@ -176,12 +182,19 @@ class Nodes:
             if topic not in self._publishers:
                 self._publishers[topic] = self._ros.Publisher(topic, kind, queue_size=10, tcp_nodelay=True)
             publisher = self._publishers[topic]
-        end = time.monotonic() + PATIENCE
+        begin = time.monotonic()
         while publisher.get_num_connections() == 0:
-            if time.monotonic() > end:
+            waited = time.monotonic() - begin
+            if waited > LATENESS or (waited > PATIENCE and not self.is_registered(topic)):
                 raise Refused(f"{self._ros.resolve_name(topic)}: no node listens to it")
-            time.sleep(0.02)
+            time.sleep(0.02 if waited < PATIENCE else 0.2)
         return publisher
+
+    def is_registered(self, topic):
+        """Whether the master knows a node that listens to the topic."""
+        import rosgraph
+        _, subscribed, _ = rosgraph.Master(self._ros.get_name()).getSystemState()
+        return any(name == self._ros.resolve_name(topic) and nodes for name, nodes in subscribed)
 
     def do(self, what, fields):
         """Does what a page asks for. Returns a sentence. Raises Refused."""
@@ -230,7 +243,7 @@ class Nodes:
         goal = (self._msg.OptimizeActionGoal if what == "optimize" else self._msg.IdentifyActionGoal)()
         goal.header.stamp = goal.goal_id.stamp = self._ros.Time.now()
         goal.goal_id.id = f"{self._ros.get_name()}-{uuid.uuid4()}"
-        end = time.monotonic() + 2.0 * PATIENCE
+        end = time.monotonic() + LATENESS
         while goal.goal_id.id not in self._goals:
             if time.monotonic() > end:
                 raise Refused(f"{self._ros.resolve_name(what)}: the node does not take the job")

@@ -82,14 +82,23 @@ int Recording::operate(Operation operation, int a, int b) {
   return find_or_append({operation, node(a).varies || (b >= 0 && node(b).varies), a, b, 0.0});
 }
 
-bool Recording::decide(int a, int b, bool expected, unsigned place) {
+void Recording::note(int node) {
+  if (records_switches_ && nodes_[to_index(node)].varies &&
+      std::find(noted_.begin(), noted_.end(), node) == noted_.end())
+    noted_.push_back(node);
+}
+
+bool Recording::decide(int a, int b, bool expected, unsigned place, bool is_switch) {
   const auto [known, is_new] = decided_.try_emplace({a, b}, static_cast<int>(guards_.size()));
   decisions_.push_back(known->second);
   if (is_new) {
     if (std::find(places_.begin(), places_.end(), place) == places_.end()) places_.push_back(place);
     bool outcome = guards_.size() < followed_.size() ? followed_[guards_.size()] : expected;
+    const bool may_be_held = is_switch && records_switches_ && (node(a).varies || node(b).varies);
+    if (may_be_held && switches_ < held_.size()) outcome = held_[switches_];
     if (turned_ && turned_(place)) outcome = !outcome;
-    guards_.push_back({a, b, outcome, known->second});
+    if (may_be_held) ++switches_;
+    guards_.push_back({a, b, outcome, known->second, may_be_held});
   }
   return guards_[to_index(known->second)].outcome;
 }

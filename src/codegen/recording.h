@@ -74,7 +74,8 @@ class Recording {
   struct Guard {
     int a, b;
     bool outcome;
-    int decision = -1;  ///< index among guards()
+    int decision = -1;       ///< index among guards()
+    bool is_switch = false;  ///< whether its outcome may be held
   };
 
   // The next five functions return the index of a node.
@@ -94,14 +95,22 @@ class Recording {
   /// @param b -1 for operations with one operand.
   int operate(Operation operation, int a, int b = -1);
 
-  /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of the
-  /// outcomes to follow(), else `expected`.
-  /// @param place place_in_source() of the decision.
-  bool decide(int a, int b, bool expected, unsigned place);
+  /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of those to
+  /// hold() if it is a switch, else the next of the outcomes to follow(), else `expected`.
+  /// @param place place_in_source() of the decision. @param is_switch whether a result has a kink
+  /// or a jump there; counts while record_switches(true) and if the outcome varies.
+  bool decide(int a, int b, bool expected, unsigned place, bool is_switch = false);
   /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards
   /// of two recordings of one computation with the same outcomes are the same, and so are their
   /// nodes.
   void follow(std::vector<bool> outcomes) { followed_ = std::move(outcomes); }
+  /// Later switches have these outcomes in turn: a mode.
+  void hold(std::vector<bool> mode) { held_ = std::move(mode); }
+  /// Whether switches are marked as such from now on; else they are decisions as all others.
+  void record_switches(bool on) { records_switches_ = on; }
+  /// Keeps a node that varies for noted(), while record_switches(true).
+  void note(int node);
+  const std::vector<int>& noted() const { return noted_; }
   /// Later decisions at the places where `turned` is true have the outcome that is not expected, to
   /// see what else results can depend on.
   void turn(std::function<bool(unsigned place)> turned) { turned_ = std::move(turned); }
@@ -143,7 +152,10 @@ class Recording {
   std::map<std::pair<int, int>, int>
       decided_;  ///< index among guards_, by the nodes that are compared
   std::vector<int> decisions_;
-  std::vector<bool> followed_;
+  std::vector<bool> followed_, held_;
+  std::size_t switches_ = 0;  ///< number of switches among guards_
+  bool records_switches_ = false;
+  std::vector<int> noted_;
   std::function<bool(unsigned)> turned_;
   std::vector<unsigned> places_;
   bool refused_ = false;

@@ -94,12 +94,41 @@ double value_of(const Traced& x) {
   return 0.0;
 }
 
-bool is_less(const Traced& x, const Traced& y, bool likely, unsigned place) {
+namespace {
+
+bool decide(const Traced& x, const Traced& y, bool likely, unsigned place, bool is_switch) {
   if (x.is_literal() && y.is_literal()) return x.value() < y.value();
   Recording* const recording = x.is_literal() ? y.recording() : x.recording();
   const int a = x.node_in(recording), b = y.node_in(recording);
   const bool varies = recording->node(a).varies || recording->node(b).varies;
-  return recording->decide(a, b, varies ? likely : x.value() < y.value(), place);
+  return recording->decide(a, b, varies ? likely : x.value() < y.value(), place, is_switch);
+}
+
+}  // namespace
+
+bool is_less(const Traced& x, const Traced& y, bool likely, unsigned place) {
+  return decide(x, y, likely, place, false);
+}
+
+bool is_below(const Traced& x, const Traced& y, bool likely, unsigned place) {
+  return decide(x, y, likely, place, true);
+}
+
+// Bisection between a power of two and the next one. Beyond the last one it is the number.
+Traced whole_below(const Traced& x) {
+  constexpr double kLast = 1 << 30;
+  if (x.is_literal()) return std::floor(x.value());
+  double low = 0.0, high = 1.0;
+  if (is_below(x, 0.0, false)) {
+    for (low = -1.0, high = 0.0; low > -kLast && is_below(x, low, false); low *= 2.0) high = low;
+  } else {
+    for (; high < kLast && !is_below(x, high, true); high *= 2.0) low = high;
+  }
+  while (high - low > 1.0) {
+    const double middle = 0.5 * (low + high);
+    (is_below(x, middle, true) ? high : low) = middle;
+  }
+  return low;
 }
 
 }  // namespace codesign

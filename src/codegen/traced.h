@@ -65,6 +65,12 @@ Traced atan2(const Traced& y, const Traced& x);
 Traced round(const Traced& x);
 inline Traced arc_tangent(const Traced& y, const Traced& x) { return atan2(y, x); }
 inline Traced nearest_integer(const Traced& x) { return round(x); }
+/// As in math/scalar.h. Decisions find the number, a literal: one recording holds one number.
+Traced whole_below(const Traced& x);
+/// As in math/scalar.h: Recording::note().
+inline void note_expression(const Traced& x) {
+  if (!x.is_literal()) x.recording()->note(x.node());
+}
 /// As nearest_turns() in math/scalar.h, also for a reference that varies.
 inline Traced nearest_turns(const Traced& reference, const Traced& angle) {
   return 2.0 * M_PI * round((reference - angle) / (2.0 * M_PI));
@@ -78,6 +84,9 @@ double value_of(const Traced& x);
 /// design if neither varies, else `likely`.
 bool is_less(const Traced& x, const Traced& y, bool likely,
              unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
+/// The same for a switch, whose guard may be held; see Recording::record_switches().
+bool is_below(const Traced& x, const Traced& y, bool likely,
+              unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
 
 }  // namespace codesign
 

@@ -317,6 +317,7 @@ ReferenceMotion<T> Reference<T>::at(double t) const {
 void Reference<Traced>::set(const ReferenceDescription& description,
                             const std::vector<Traced>& parameters) {
   motion_ = {};
+  switching_ = nullptr;
   if (description.kind == ReferenceDescription::Kind::kConstant) {
     motion_.value = description.constant.at(parameters);
     return;
@@ -325,7 +326,23 @@ void Reference<Traced>::set(const ReferenceDescription& description,
   const auto order = [&](int k) {
     return Traced(recording, recording->timed(SourceId(description), k));
   };
+  const TimeExpression& expression = description.expression;
+  if (description.kind == ReferenceDescription::Kind::kExpression &&
+      !expression.parameters.empty()) {
+    const Traced t(recording, recording->timed(SourceId(clock_function()), 0));
+    variables_.clear();
+    for (const auto& parameter : expression.parameters)
+      variables_.push_back(parameter ? Taylor<Traced>(value_at(*parameter, parameters))
+                                     : Taylor<Traced>::time(t));
+    switching_ = expression.formula.get();
+    return;
+  }
   motion_ = {order(0), order(1), order(2), order(3)};
+}
+
+ReferenceMotion<Traced> Reference<Traced>::recorded() const {
+  const Taylor<Traced> f = evaluate_formula<Taylor<Traced>>(switching_->steps(), variables_);
+  return {f.c[0], f.c[1], 2.0 * f.c[2], 6.0 * f.c[3]};
 }
 
 #define CODESIGN_INSTANTIATE(T) template class Reference<T>;

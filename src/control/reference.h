@@ -116,8 +116,8 @@ class Reference {
   std::vector<T> used_;  ///< kExpression: the numbers of its formula's dependencies; of the time: 0
 };
 
-/// For recorded equations: a constant, or inputs that are supplied for each instant
-/// (Recording::timed()).
+/// For recorded equations: a constant, inputs that are supplied for each instant
+/// (Recording::timed()), or an expression with kinks or jumps, which is recorded where it is read.
 template <>
 class Reference<Traced> {
  public:
@@ -127,10 +127,14 @@ class Reference<Traced> {
   }
   void set(const ReferenceDescription& description, const std::vector<Traced>& parameters);
 
-  ReferenceMotion<Traced> at(double) const { return motion_; }
+  ReferenceMotion<Traced> at(double) const { return switching_ ? recorded() : motion_; }
 
  private:
+  ReferenceMotion<Traced> recorded() const;
+
   ReferenceMotion<Traced> motion_;
+  const Expression* switching_ = nullptr;  ///< the expression that is recorded
+  std::vector<Taylor<Traced>> variables_;  ///< its dependencies
 };
 
 /// A shaped input u(t) = sum_k c_k B_k(t) for one design; theory (C8). T as for Reference.

@@ -4,18 +4,18 @@
 #include <array>
 #include <complex>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "description/value_range.h"
 #include "math/arrays.h"
 #include "math/scalar.h"
 
 namespace codesign {
 
-/// The functions of expressions, for formulas of other scalars (description/formula.h).
+/// The functions of expressions.
 enum class FunctionKind : unsigned char {
   kSquareRoot,
   kSine,
@@ -42,13 +42,10 @@ enum class FunctionKind : unsigned char {
   kDegrees
 };
 
-/// A function that expressions may call. All functions propagate a complex step exactly to first
-/// order; those that are not analytic (abs, min, max, floor, ...) branch by the real part.
+/// A function that expressions may call; its laws are in description/formula.h.
 struct ExpressionFunction {
-  using Law = std::complex<double> (*)(In<std::complex<double>> arguments);
   const char* name;
   int count;  ///< number of arguments; -1: one or more
-  Law law;
   FunctionKind kind;
 };
 
@@ -57,12 +54,6 @@ const std::vector<ExpressionFunction>& expression_function_table();
 
 /// Index of a function, -1 if there is none of this name.
 int find_expression_function(const std::string& name);
-
-/// z[0] to the power of z[1].
-std::complex<double> expression_power(In<std::complex<double>> z);
-
-/// a / b. Real numbers are divided as doubles, infinities and NaN included.
-std::complex<double> expression_quotient(std::complex<double> a, std::complex<double> b);
 
 /// One operation of a stack machine on numbers. Operators replace their operands on the stack by
 /// the result; comparisons give 1 or 0.
@@ -97,23 +88,6 @@ using ExpressionSteps = std::vector<ExpressionStep>;
 /// An upper bound of the numbers on the stack at any time.
 int stack_size(const ExpressionSteps& steps);
 
-/// Executes the steps and returns the result. @param variables their values, by index. @param stack
-/// memory for stack_size() numbers.
-std::complex<double> run(const ExpressionSteps& steps, In<std::complex<double>> variables,
-                         Out<std::complex<double>> stack);
-
-/// Numbers from `lower` to `upper`, both included; by default all.
-struct ValueRange {
-  double lower = -std::numeric_limits<double>::infinity(),
-         upper = std::numeric_limits<double>::infinity();
-};
-
-/// A range that contains every value of an expression whose variables lie in given ranges, by
-/// interval arithmetic (Moore 1966) on sums, differences, products and quotients. With any other
-/// operation the range is all numbers. Rounding is not taken into account.
-/// @param variables by index.
-ValueRange range_of(const ExpressionSteps& steps, In<ValueRange> variables);
-
 /// The parameters that an expression may use, as functions, so that no expression needs a copy of
 /// all names.
 struct ExpressionScope {
@@ -124,17 +98,18 @@ struct ExpressionScope {
   std::function<std::size_t(const std::string& text, std::size_t at)> signal_end{};
 };
 
-/// Numbers for the parameters that one expression uses: the expressions that people write use few.
+/// Numbers for the parameters that one expression uses, or that stand on its stack: the expressions
+/// that people write use few.
 template <class T>
-using UsedNumbers = ShortVector<T, 32>;
+using UsedNumbers = ShortVector<T, (sizeof(T) <= 128 ? 32 : 8)>;
 
 /// An arithmetic expression of named parameters, in xacro's syntax inside `${...}`.
 ///
 /// Operators + - * / ** ^ and parentheses, comparison with `?:`, the constant `pi`, and the usual
 /// functions (sqrt, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, log10, pow,
 /// abs, sign, min, max, floor, ceil, radians, degrees). Immutable and safe to evaluate from several
-/// threads. Evaluation allocates nothing unless an expression uses more than 32 parameters or nests
-/// deeper than 32 numbers.
+/// threads. Evaluation at parameters allocates nothing unless an expression uses more than 32
+/// parameters or nests deeper than 32 numbers.
 class Expression {
  public:
   /// @param text the expression without the `${` `}`.
@@ -143,7 +118,6 @@ class Expression {
   /// the nearest known one.
   Expression(const std::string& text, const std::vector<std::string>& names);
   Expression(const std::string& text, const ExpressionScope& scope);
-  ~Expression();
   Expression(const Expression&) = delete;
   Expression& operator=(const Expression&) = delete;
 
@@ -153,11 +127,12 @@ class Expression {
   const std::vector<int>& dependencies() const { return dependencies_; }
 
   /// The operations; variable k is parameter dependencies()[k].
-  const ExpressionSteps& steps() const;
+  const ExpressionSteps& steps() const { return steps_; }
 
   /// Value at `parameters`, which may hold more entries than the names given at construction (the
   /// surplus is ignored). NaN where the expression has no real value (square root or logarithm of a
-  /// negative number, 0/0).
+  /// negative number, 0/0). Of complex numbers the imaginary parts are derivatives: the result is
+  /// f + i f' to first order, exactly, however long the step.
   double value(const std::vector<double>& parameters) const;
   std::complex<double> value(const std::vector<std::complex<double>>& parameters) const;
 
@@ -167,8 +142,13 @@ class Expression {
   /// Value, and derivative by parameter dependencies()[k], from only the parameters that appear:
   /// `values[k]` is the value of parameter dependencies()[k]. The cost does not grow with the
   /// number of parameters that the expression does not use.
-  double value_of(In<double> values) const;
+  double value_of(In<double> values) const { return evaluate<double>(values); }
   double derivative_of(std::size_t k, In<double> values) const;
+
+  /// The value as a number with derivatives, from those of the parameters that appear.
+  /// T: double, std::complex<double>, Lanes<4>, Lanes<8> or ValueRange.
+  template <class T>
+  T evaluate(In<T> values) const;
 
   /// The numbers of the parameters that appear, in the order of dependencies(). @param number
   /// (Entry) -> T, the number of a parameter.
@@ -181,16 +161,16 @@ class Expression {
     return values;
   }
 
-  /// A range that contains the value wherever all parameters lie in theirs. @param parameters in
-  /// the order of the names.
+  /// A range that contains the value wherever all parameters lie in theirs,
+  /// description/value_range.h. All numbers if there may be none. @param parameters in the order of
+  /// the names.
   ValueRange range(const std::vector<ValueRange>& parameters) const;
 
  private:
-  struct Program;
-
   std::string text_;
   std::vector<int> dependencies_;
-  std::unique_ptr<const Program> program_;
+  ExpressionSteps steps_;
+  std::size_t stack_ = 0;  ///< stack_size() of the steps
 };
 
 /// Why `name` cannot be the name of a parameter (not an identifier, `pi`, or a function's name), as
@@ -207,16 +187,11 @@ inline std::complex<double> value_at(const Expression& expression,
                                      const std::vector<std::complex<double>>& parameters) {
   return expression.value(parameters);
 }
-/// The value with its derivatives, by the chain rule in each lane.
+/// The value with its derivatives.
 template <int N>
 Lanes<N> value_at(const Expression& expression, const std::vector<Lanes<N>>& parameters) {
-  const UsedNumbers<double> values =
-      expression.used<double>(parameters, [](const Lanes<N>& parameter) { return parameter.a; });
-  Lanes<N> result(expression.value_of(values));
-  for (std::size_t k = 0; k < values.size(); ++k)
-    result.v +=
-        expression.derivative_of(k, values) * parameters[to_index(expression.dependencies()[k])].v;
-  return result;
+  return expression.evaluate<Lanes<N>>(
+      expression.used<Lanes<N>>(parameters, [](const Lanes<N>& x) { return x; }));
 }
 /// For recorded equations an expression is an input that is supplied with each design. `parameters`
 /// are nodes of the recording; at least one.
@@ -225,8 +200,8 @@ Traced value_at(const Expression& expression, const std::vector<Traced>& paramet
 /// A number of the model: a constant, or an expression of the parameters.
 class Quantity {
  public:
-  Quantity(double constant = 0.0)
-      : nominal_(constant) {}  // NOLINT(google-explicit-constructor): a number is a quantity
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is a quantity.
+  Quantity(double constant = 0.0) : nominal_(constant) {}
   Quantity(double nominal, std::shared_ptr<const Expression> expression)
       : nominal_(nominal), expression_(std::move(expression)) {}
 

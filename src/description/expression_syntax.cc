@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "description/expression.h"
+#include "description/formula.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -71,9 +72,9 @@ class Parser {
     number(&Parser::conditional);
     expect(":", "a ':' that belongs to its '?'");
     const std::size_t to_end = add({Code::kJump, 0, 0, 0.0});
-    steps_[to_second].index = static_cast<int>(steps_.size());
+    steps_[to_second].index = branch_end();
     number(&Parser::conditional);
-    steps_[to_end].index = static_cast<int>(steps_.size());
+    steps_[to_end].index = branch_end();
     return Type::kNumber;
   }
 
@@ -91,7 +92,7 @@ class Parser {
     number(&Parser::sum);
     if (kCodes.count(scanner_.token().text) > 0)
       scanner_.fail("a comparison stands where a number is needed", scanner_.token().at);
-    add({found->second, 0, 0, 0.0});
+    operate({found->second, 0, 2, 0.0});
     return Type::kTruth;
   }
 
@@ -108,7 +109,7 @@ class Parser {
       const Code code = scanner_.is(first) ? first_code : second_code;
       scanner_.next();
       number(part);
-      add({code, 0, 0, 0.0});
+      operate({code, 0, 2, 0.0});
     }
     return type;
   }
@@ -122,7 +123,7 @@ class Parser {
     }
     const Type type = power();
     if (any) need_number(type, begin);
-    if (negative) add({Code::kNegate, 0, 0, 0.0});
+    if (negative) operate({Code::kNegate, 0, 1, 0.0});
     return type;
   }
 
@@ -134,7 +135,7 @@ class Parser {
     need_number(type, begin);
     scanner_.next();
     number(&Parser::signs);
-    add({Code::kPower, 0, 0, 0.0});
+    operate({Code::kPower, 0, 2, 0.0});
     return Type::kNumber;
   }
 
@@ -191,7 +192,7 @@ class Parser {
                         (wanted < 0 ? "at least 1" : std::to_string(wanted)) + " argument" +
                         (wanted == 2 ? "s" : "") + ", not " + std::to_string(count),
                     token.at);
-    add({Code::kCall, function, count, 0.0});
+    operate({Code::kCall, function, count, 0.0});
   }
 
   void number(Type (Parser::*rule)()) {
@@ -246,6 +247,26 @@ class Parser {
     return steps_.size() - 1;
   }
 
+  /// The next step, to which steps before it jump.
+  int branch_end() {
+    folded_ = steps_.size();
+    return static_cast<int>(folded_);
+  }
+
+  /// Adds an operation of `count` operands. Of constants it is a constant: 1 + 1 in x**(1 + 1).
+  void operate(const ExpressionStep& operation) {
+    const std::size_t count = to_index(operation.count);
+    const bool is_constant =
+        steps_.size() >= folded_ + count &&
+        std::all_of(steps_.end() - operation.count, steps_.end(),
+                    [](const ExpressionStep& step) { return step.code == Code::kConstant; });
+    add(operation);
+    if (!is_constant) return;
+    const ExpressionSteps alone(steps_.end() - operation.count - 1, steps_.end());
+    steps_.resize(steps_.size() - count - 1);
+    add({Code::kConstant, 0, 0, evaluate_formula<double>(alone, {})});
+  }
+
   /// Renumbers the variables by their position among the parameters used.
   ParsedExpression finish() {
     ParsedExpression parsed;
@@ -264,6 +285,7 @@ class Parser {
   ExpressionSteps steps_;
   std::map<int, int> used_;  ///< parameter to variable
   int depth_ = 0;
+  std::size_t folded_ = 0;  ///< steps before this one are not changed: a jump leads behind them
 };
 
 }  // namespace

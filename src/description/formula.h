@@ -1,57 +1,27 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "description/expression.h"
+#include "description/formula_laws.h"
+#include "description/value_range.h"
 #include "math/arrays.h"
 #include "math/scalar.h"
 #include "math/taylor.h"
 
 namespace codesign {
 
-/// A number on the stack of evaluate_formula().
-template <class T>
-struct FormulaNumber {
-  T value{0.0};
-  bool is_constant = false;  ///< a number of the text, so that a power of it is known
-  double constant = 0.0;
-};
-
-/// base^exponent for a whole number.
-template <class T>
-T whole_power(const T& base, int exponent) {
-  if (exponent < 0) return T(1.0) / whole_power(base, -exponent);
-  T result(1.0), factor = base;
-  for (; exponent > 0; exponent /= 2) {
-    if (exponent % 2 == 1) result = result * factor;
-    factor = factor * factor;
-  }
-  return result;
-}
-
-/// base^exponent: products for whole numbers of the text, else exp(exponent log base), which needs
-/// a positive base.
-template <class T>
-T formula_power(const FormulaNumber<T>& base, const FormulaNumber<T>& exponent) {
-  using std::exp;
-  using std::log;
-  constexpr double kMostFactors = 64.0;
-  const double n = exponent.constant;
-  if (exponent.is_constant && std::nearbyint(n) == n && std::abs(n) <= kMostFactors)
-    return whole_power(base.value, static_cast<int>(n));
-  return exp(exponent.value * log(base.value));
-}
-
 /// The smallest of some numbers, or with `largest` the largest.
 template <class T>
-T formula_extreme(const FormulaNumber<T>* first, int count, bool largest) {
-  T best = first[0].value;
+T formula_extreme(const T* first, int count, bool largest) {
+  T best = first[0];
   for (int k = 1; k < count; ++k) {
-    const T& one = first[k].value;
-    if (largest ? is_less(best, one, false) : is_less(one, best, false)) best = one;
+    const T& one = first[k];
+    if (largest ? is_below(best, one, false) : is_below(one, best, false)) best = one;
   }
   return best;
 }
@@ -59,152 +29,164 @@ T formula_extreme(const FormulaNumber<T>* first, int count, bool largest) {
 /// The next whole number below x, or with `above` the next above.
 template <class T>
 T whole_number(const T& x, bool above) {
-  const T nearest = nearest_integer(x);
-  if (above) return is_less(nearest, x, false) ? T(nearest + T(1.0)) : nearest;
-  return is_less(x, nearest, false) ? T(nearest - T(1.0)) : nearest;
+  return above ? T(-whole_below(T(-x))) : whole_below(x);
 }
 
-/// A function of ExpressionFunction, for any scalar that formulas are evaluated or recorded with.
+/// A function of expressions, for any scalar but ranges.
 template <class T>
-T formula_function(FunctionKind kind, const FormulaNumber<T>* z, int count) {
-  using std::asin, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
+T formula_function(FunctionKind kind, const T* z, int count) {
   using K = FunctionKind;
-  const T& x = z[0].value;
-  const T zero(0.0), one(1.0), half(0.5);
+  const T& x = z[0];
+  const T zero(0.0), one(1.0);
   switch (kind) {
-    case K::kSquareRoot:
-      return sqrt(x);
-    case K::kSine:
-      return sin(x);
-    case K::kCosine:
-      return cos(x);
-    case K::kTangent:
-      return sin(x) / cos(x);
-    case K::kArcSine:
-      return asin(x);
-    case K::kArcCosine:
-      return T(0.5 * M_PI) - asin(x);
-    case K::kArcTangent:
-      return arc_tangent(x, one);
     case K::kArcTangent2:
-      return arc_tangent(x, z[1].value);
-    case K::kHyperbolicSine:
-      return half * (exp(x) - exp(-x));
-    case K::kHyperbolicCosine:
-      return half * (exp(x) + exp(-x));
-    case K::kHyperbolicTangent:
-      return tanh(x);
-    case K::kExponential:
-      return exp(x);
-    case K::kLogarithm:
-      return log(x);
-    case K::kLogarithm10:
-      return log(x) * T(1.0 / M_LN10);
+      return angle_of(x, z[1]);
     case K::kPower:
-      return formula_power(z[0], z[1]);
+      return power(x, z[1]);
     case K::kMagnitude:
-      return is_less(x, zero, false) ? T(-x) : x;
+      return is_below(x, zero, false) ? T(-x) : x;
     case K::kSign:
-      return is_less(x, zero, false) ? T(-1.0) : is_less(zero, x, true) ? one : zero;
+      return is_below(x, zero, false) ? T(-1.0) : is_below(zero, x, true) ? one : zero;
     case K::kLeast:
     case K::kGreatest:
       return formula_extreme(z, count, kind == K::kGreatest);
     case K::kFloor:
     case K::kCeiling:
       return whole_number(x, kind == K::kCeiling);
-    case K::kRadians:
-      return x * T(M_PI / 180.0);
-    case K::kDegrees:
-      break;
+    default:
+      return smooth_function(kind, x);
   }
-  return x * T(180.0 / M_PI);
+}
+
+/// Whether a < b, as 1 or 0; of ranges as in description/value_range.h.
+template <class T>
+T less(const T& a, const T& b) {
+  return T(is_below(a, b, false) ? 1.0 : 0.0);
+}
+/// Whether a = b. An undefined number (NaN) counts as equal to all: neither is less.
+template <class T>
+T equal(const T& a, const T& b) {
+  return T(!is_below(a, b, false) && !is_below(b, a, false) ? 1.0 : 0.0);
 }
 
 template <class T>
-bool formula_comparison(ExpressionStep::Code code, const T& a, const T& b) {
+T formula_comparison(ExpressionStep::Code code, const T& a, const T& b) {
   using Code = ExpressionStep::Code;
+  const T one(1.0);
   switch (code) {
     case Code::kLess:
-      return is_less(a, b, false);
+      return less(a, b);
     case Code::kLessOrEqual:
-      return !is_less(b, a, false);
+      return one - less(b, a);
     case Code::kGreater:
-      return is_less(b, a, false);
+      return less(b, a);
     case Code::kGreaterOrEqual:
-      return !is_less(a, b, false);
-    default: {
-      const bool equal = !is_less(a, b, false) && !is_less(b, a, false);
-      return (code == Code::kEqual) == equal;
-    }
+      return one - less(a, b);
+    case Code::kEqual:
+      return equal(a, b);
+    default:
+      return one - equal(a, b);
   }
 }
 
 /// An operator with two operands.
 template <class T>
-FormulaNumber<T> formula_operation(ExpressionStep::Code code, const FormulaNumber<T>& a,
-                                   const FormulaNumber<T>& b) {
+T formula_operation(ExpressionStep::Code code, const T& a, const T& b) {
   using Code = ExpressionStep::Code;
   switch (code) {
     case Code::kAdd:
-      return {a.value + b.value};
+      return a + b;
     case Code::kSubtract:
-      return {a.value - b.value};
+      return a - b;
     case Code::kMultiply:
-      return {a.value * b.value};
+      return product(a, b);
     case Code::kDivide:
-      return {a.value / b.value};
+      return quotient(a, b);
     case Code::kPower:
-      return {formula_power(a, b)};
-    default: {
-      const double truth = formula_comparison(code, a.value, b.value) ? 1.0 : 0.0;
-      return {T(truth), true, truth};
-    }
+      return power(a, b);
+    default:
+      return formula_comparison(code, a, b);
   }
 }
 
-/// The value of an expression for any scalar: double for observers, Traced to record it, Taylor for
-/// functions of time. Comparisons and functions with branches decide by is_less().
-/// @param variables their values, by index.
-template <class T>
-T evaluate_formula(const ExpressionSteps& steps, const std::vector<T>& variables) {
+/// Whether an expression has a comparison or a function with a kink or a jump.
+inline bool has_switches(const ExpressionSteps& steps) {
   using Code = ExpressionStep::Code;
-  std::vector<FormulaNumber<T>> stack;
-  stack.reserve(to_index(stack_size(steps)));
-  for (std::size_t at = 0; at < steps.size(); ++at) {
+  using K = FunctionKind;
+  return std::any_of(steps.begin(), steps.end(), [](const ExpressionStep& step) {
+    if (step.code == Code::kJumpUnless) return true;
+    if (step.code != Code::kCall) return false;
+    const K kind = expression_function_table()[to_index(step.index)].kind;
+    return kind == K::kMagnitude || kind == K::kSign || kind == K::kLeast || kind == K::kGreatest ||
+           kind == K::kFloor || kind == K::kCeiling;
+  });
+}
+
+/// The value of the steps from `first` to `last`, for any scalar. Comparisons and functions with
+/// branches decide by is_below(). @param stack memory for stack_size() numbers.
+template <class T>
+T evaluate_steps(const ExpressionSteps& steps, std::size_t first, std::size_t last, In<T> variables,
+                 Out<T> stack) {
+  using Code = ExpressionStep::Code;
+  T* top = stack.data();  // past the topmost number
+  for (std::size_t at = first; at < last; ++at) {
     const ExpressionStep& step = steps[at];
     switch (step.code) {
       case Code::kConstant:
-        stack.push_back({T(step.number), true, step.number});
+        *top++ = T(step.number);
         break;
       case Code::kVariable:
-        stack.push_back({variables[to_index(step.index)]});
+        *top++ = variables[step.index];
         break;
       case Code::kNegate:
-        stack.back() = {-stack.back().value, stack.back().is_constant, -stack.back().constant};
+        top[-1] = -top[-1];
         break;
       case Code::kCall: {
-        const std::size_t first = stack.size() - to_index(step.count);
+        top -= step.count;
         const T value = formula_function(expression_function_table()[to_index(step.index)].kind,
-                                         &stack[first], step.count);
-        stack.resize(first);
-        stack.push_back({value});
+                                         top, step.count);
+        *top++ = value;
         break;
       }
-      case Code::kJumpUnless:
-        if (stack.back().constant == 0.0) at = to_index(step.index) - 1;
-        stack.pop_back();
+      case Code::kJumpUnless: {
+        const T truth = *--top;
+        const auto second = to_index(step.index);
+        if constexpr (std::is_same_v<T, ValueRange>) {
+          if (!truth.is_number()) {  // the values of both branches
+            const auto end = to_index(steps[second - 1].index);
+            const Out<T> rest = stack.subspan(top - stack.data(), stack.end() - top);
+            const T one = evaluate_steps<T>(steps, at + 1, second - 1, variables, rest);
+            *top++ = hull(one, evaluate_steps<T>(steps, second, end, variables, rest));
+            at = end - 1;
+            break;
+          }
+        }
+        if (is_zero(truth)) at = second - 1;
         break;
+      }
       case Code::kJump:
         at = to_index(step.index) - 1;
         break;
       default: {
-        const FormulaNumber<T> right = stack.back();
-        stack.pop_back();
-        stack.back() = formula_operation(step.code, stack.back(), right);
+        --top;
+        top[-1] = formula_operation(step.code, top[-1], *top);
       }
     }
   }
-  return stack.back().value;
+  return stack[0];
+}
+
+/// The value of an expression: double and numbers with derivatives for numbers of the model, Traced
+/// to record it, Taylor for functions of time, ValueRange for all values over given ranges.
+/// @param variables their values, by index. @param stack memory for stack_size() numbers.
+template <class T>
+T evaluate_formula(const ExpressionSteps& steps, In<T> variables, Out<T> stack) {
+  return evaluate_steps<T>(steps, 0, steps.size(), variables, stack);
+}
+template <class T>
+T evaluate_formula(const ExpressionSteps& steps, In<T> variables) {
+  UsedNumbers<T> stack(to_index(stack_size(steps)));
+  return evaluate_formula<T>(steps, variables, Out<T>(stack));
 }
 
 /// The Taylor polynomial of an expression of the time at time t [s]. @param time index of the time
@@ -212,11 +194,9 @@ T evaluate_formula(const ExpressionSteps& steps, const std::vector<T>& variables
 /// does not count.
 template <class T>
 Taylor<T> time_series(const Expression& formula, int time, const std::vector<T>& used, double t) {
-  std::vector<Taylor<T>> variables;
-  variables.reserve(used.size());
+  UsedNumbers<Taylor<T>> variables(used.size());
   for (std::size_t k = 0; k < used.size(); ++k)
-    variables.push_back(formula.dependencies()[k] == time ? Taylor<T>::time(t)
-                                                          : Taylor<T>(used[k]));
+    variables[k] = formula.dependencies()[k] == time ? Taylor<T>::time(T(t)) : Taylor<T>(used[k]);
   return evaluate_formula<Taylor<T>>(formula.steps(), variables);
 }
 

@@ -100,6 +100,8 @@ struct TimeExpression {
   std::shared_ptr<const Expression> formula;
   int time = -1;  ///< index of the time t [s] among the names of the formula; the others are
                   ///< parameters
+  /// Of a formula with kinks or jumps: per dependency the parameter itself, null for the time.
+  std::vector<std::shared_ptr<const Expression>> parameters{};
 };
 
 /// A prescribed function of time: the setpoint of a controller, the reference of an objective's

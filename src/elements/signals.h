@@ -207,8 +207,11 @@ T formula_rate(const StateView<T>& view, const Signal& signal) {
 /// A signal, the sum of its terms times their factors, or an expression of them.
 template <class T>
 T signal_value(const StateView<T>& view, const Signal& signal) {
-  if (signal.formula)
-    return signal.is_rate ? formula_rate(view, signal) : formula_value(view, signal);
+  if (signal.formula) {
+    const T value = signal.is_rate ? formula_rate(view, signal) : formula_value(view, signal);
+    note_expression(value);
+    return value;
+  }
   T sum(0.0);
   for (const SignalReference& term : signal) sum += T(term.factor) * term_value(view, term);
   return sum;

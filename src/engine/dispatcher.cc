@@ -22,7 +22,7 @@ std::string in_seconds(RankTimes::Duration duration) {
 Dispatcher::Dispatcher(Transport* transport, const RankTimes& times)
     : transport_(transport), times_(times) {
   RankState unheard;
-  unheard.heard = unheard.addressed = Clock::now();
+  unheard.heard = unheard.addressed = times_.now();
   ranks_.assign(transport ? to_index(transport->ranks()) : 1, unheard);
   if (ranks() > 1) thread_ = std::thread([this] { work(); });
 }
@@ -144,7 +144,7 @@ void Dispatcher::work() {
       inbox.push_back(std::move(*envelope));
     }
     lock.lock();
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = times_.now();
     for (const auto& [rank, bytes] : outgoing) ranks_[to_index(rank)].addressed = now;
     const bool is_quiet = inbox.empty() && outgoing.empty();
     if (!is_quiet) pause.restart(now);
@@ -168,8 +168,8 @@ void Dispatcher::say_goodbye() {
   if (!lost_.ok()) return;
   for (int rank = 1; rank < ranks(); ++rank)
     transport_->send(rank, write_numbered(MessageKind::kEnd));
-  const Clock::time_point end = Clock::now() + times_.goodbye;
-  for (int left = ranks() - 1; left > 0 && Clock::now() < end;) {
+  const Clock::time_point end = times_.now() + times_.goodbye;
+  for (int left = ranks() - 1; left > 0 && times_.now() < end;) {
     const std::optional<Envelope> envelope = transport_->receive();
     if (!envelope) {
       std::this_thread::sleep_for(std::chrono::microseconds(100));

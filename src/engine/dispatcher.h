@@ -162,7 +162,7 @@ class Dispatcher {
   std::vector<std::uint64_t> roll_calls_;  // pings to be sent
   Status lost_;
   bool ends_ = false;
-  Clock::time_point looked_ = Clock::now(), watched_ = looked_;
+  Clock::time_point looked_ = times_.now(), watched_ = looked_;
   std::thread thread_;
 };
 

@@ -92,10 +92,10 @@ std::string RankWorker::run() {
 
 std::string RankWorker::listen() {
   PollPause pause;
-  Clock::time_point heard = Clock::now(), sent = heard, looked = heard;
+  Clock::time_point heard = times_.now(), sent = heard, looked = heard;
   for (;;) {
     bool is_quiet = true;
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = times_.now();
     while (std::optional<Envelope> envelope = transport_->receive()) {
       heard = now;
       is_quiet = false;

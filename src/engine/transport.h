@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -36,8 +37,11 @@ struct RankTimes {
   Duration goodbye =
       std::chrono::seconds(2);  ///< limit for the answers of all workers to the end of the job
   /// Limit for the answers of all workers to the ping after a cancel. It is short, since mpirun
-  /// ends a job within a second after one of its ranks was killed.
+  /// ends a job within a second after one of its ranks was killed; run_on_ranks() extends it where
+  /// mpirun is told to wait longer.
   Duration answer = std::chrono::milliseconds(300);
+  std::function<PollPause::Clock::time_point()> now =
+      PollPause::Clock::now;  ///< the clock of all of them
 };
 
 /// A message with the rank it comes from.

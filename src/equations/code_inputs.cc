@@ -103,6 +103,21 @@ void CodeInputs<T>::seed_time(double t) {
     }
 }
 
+template <class T>
+void CodeInputs<T>::add_time_direction(double t, const std::vector<double>& direction) {
+  if constexpr (kLanesOf < T >> 0)
+    for (std::size_t k = 0; k < functions_.size(); ++k) {
+      const ReferenceMotion<T> motion =
+          std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
+      const T* const next[] = {&motion.rate, &motion.acceleration, &motion.jerk};
+      for (std::size_t order = 0; order < std::size(next); ++order)
+        if (const int entry = numbered_->functions[k][order]; entry >= 0)
+          for (std::size_t lane = 0; lane < direction.size(); ++lane)
+            numbers_[to_index(entry)].directions()[to_signed(lane)] +=
+                value_of(*next[order]) * direction[lane];
+    }
+}
+
 template class CodeInputs<double>;
 template class CodeInputs<std::complex<double>>;
 template class CodeInputs<Lanes<4>>;

@@ -39,6 +39,9 @@ class CodeInputs {
   /// set_instant().
   void seed_time(double t);
 
+  /// Adds the derivatives along a direction of the time, N entries, likewise.
+  void add_time_direction(double t, const std::vector<double>& direction);
+
   /// The first decision that the design makes otherwise, -1 if none.
   int failed() const { return failed_; }
   const std::vector<T>& numbers() const { return numbers_; }

@@ -88,6 +88,52 @@ void CompiledEquations<T>::use_first_variant() {
 }
 
 template <class T>
+void CompiledEquations<T>::hold(const std::vector<bool>& mode) {
+  held_ = true;
+  mode_ = mode;
+  if (variants_.empty()) adopt();
+  for (std::size_t k = 0; k < variants_.size() && !serves(current_); ++k) current_ = k;
+  for_each_other([&](auto* other) { other->hold(mode); });
+}
+
+template <class T>
+void CompiledEquations<T>::release() {
+  held_ = false;
+  for_each_other([](auto* other) { other->release(); });
+}
+
+template <class T>
+const std::vector<bool>& CompiledEquations<T>::mode_of(const State<T>& state) {
+  const bool held = std::exchange(held_, false);
+  T g(0.0);
+  residual(state, &residual_, &g);
+  held_ = held;
+  return variants_[current_].code().mode();
+}
+
+template <class T>
+void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differences,
+                                    VectorX<T>* right) {
+  for (VectorX<T>* results : {differences, right}) results->resize(to_signed(mode_.size()));
+  run(EquationFunction::kSwitches, state, {*differences, *right, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::expressions(const State<T>& state, VectorX<T>* values) {
+  if constexpr (std::is_same_v<T, double>) {
+    const In<double> parts[] = {state.q, state.v, state.s, state.z};
+    evaluate({EquationFunction::kExpressions, Mode::kValues, state.t, state.turns},
+             [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>* variant) {
+               values->resize(to_signed(variant->code().expressions()));
+               std::transform(std::begin(parts), std::end(parts), arrays.begin(),
+                              [](In<double> part) { return part.data(); });
+               arrays[Arrays::kResults] = values->data();
+               return run_values(code, arrays);
+             });
+  }
+}
+
+template <class T>
 EquationPart CompiledEquations<T>::part_of(EquationFunction function) const {
   if (part_ != EquationPart::kMotion) return part_;
   const bool is_rates =
@@ -102,6 +148,7 @@ template <class T>
 template <class Other>
 std::unique_ptr<Other> CompiledEquations<T>::prepared(std::unique_ptr<Other> other) const {
   other->allow(!interpreted_);
+  if (held_) other->hold(mode_);
   other->set_design(parameters_);
   return other;
 }
@@ -138,13 +185,14 @@ int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, cons
   if (variant->failed() >= 0) return variant->failed();
   const CompiledFunction& code =
       transposed
-          ? variant->code().transposed().function(instant.function, interpreted)
+          ? variant->code().transposed().function(instant.function, interpreted, holds())
           : variant->code().function(instant.function, {kLanesOf<T>, instant.mode == Mode::kSplit,
-                                                        interpreted || kIsComplex<T>});
+                                                        interpreted || kIsComplex<T>, holds()});
   const std::size_t slots = code.slots * sizeof(CodeNumber<T>) / sizeof(double);
   if (slots_.size() < slots) slots_.resize(slots);
   if (rows_.size() < code.rows) rows_.resize(code.rows);
   variant->set_instant(instant.t, instant.turns);
+  if (!time_direction_.empty()) variant->add_time_direction(instant.t, time_direction_);
   return run(code, inner_arrays<T>(variant->numbers(), slots_, rows_), variant);
 }
 
@@ -156,9 +204,12 @@ void CompiledEquations<T>::evaluate(const Instant& instant, const Run& run) {
   const bool interpreted =
       interpreted_ || part_ == EquationPart::kStart ||
       (part_ == EquationPart::kSignals && instant.function == EquationFunction::kTerminal);
-  if (attempt(instant, interpreted, run, &variants_[current_]) < 0) return;
+  const bool serves_now = serves(current_);
+  if (serves_now && attempt(instant, interpreted, run, &variants_[current_]) < 0) return;
   for (std::size_t k = 0; k < variants_.size() || adopt(); ++k) {
-    if (k == current_ || attempt(instant, interpreted, run, &variants_[k]) >= 0) continue;
+    if ((k == current_ && serves_now) || !serves(k) ||
+        attempt(instant, interpreted, run, &variants_[k]) >= 0)
+      continue;
     current_ = k;
     return;
   }
@@ -172,7 +223,8 @@ template <class Run>
 void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
   std::vector<bool> outcomes;
   for (;;) {
-    std::unique_ptr<EquationCode> code = system_.record_variant(outcomes, part_);
+    std::unique_ptr<EquationCode> code =
+        system_.record_variant(outcomes, part_, holds() ? mode_ : std::vector<bool>());
     CodeInputs<T> variant(code.get());
     const int failed = attempt(instant, true, run, &variant);
     // A decision within rounding that fails again stays as it is: both branches give the same

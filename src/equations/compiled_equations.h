@@ -47,6 +47,21 @@ class CompiledEquations {
   void allow(bool machine_code);
   /// Begins again with the first variant.
   void use_first_variant();
+  /// From now on the switches of the residual have the outcomes of this mode at every state, so that
+  /// its formulas are smooth across their guards; doc/theory.md (17d). Not in signals and starts.
+  void hold(const std::vector<bool>& mode);
+  /// Ends hold(): each state decides.
+  void release();
+  /// The mode of a state: the outcomes that it decides.
+  const std::vector<bool>& mode_of(const State<T>& state);
+  /// The differences y - x of which the switches are the signs, and the numbers y; resized to their
+  /// number in the mode.
+  void switches(const State<T>& state, VectorX<T>* differences, VectorX<T>* right);
+  /// The values of the study's expressions of signals in the residual, then the integrand g; for
+  /// double. @param values resized.
+  void expressions(const State<T>& state, VectorX<T>* values);
+  /// For T = Lanes<N>: the directions of the time; zero without a call.
+  void set_time_direction(const std::vector<double>& direction) { time_direction_ = direction; }
 
   /// The functions of Equations of the same name.
   void residual(const State<T>& state, VectorX<T>* G, T* g);
@@ -142,6 +157,11 @@ class CompiledEquations {
   void for_each_other(const Visit& visit) const;
   /// Takes over one more of the variants that the system knows; false if there is none.
   bool adopt();
+  /// Whether variants are chosen by the mode that is held.
+  bool holds() const {
+    return held_ && part_ != EquationPart::kSignals && part_ != EquationPart::kStart;
+  }
+  bool serves(std::size_t k) const { return !holds() || variants_[k].code().mode() == mode_; }
   /// The first decision of a variant that the point makes otherwise; -1 if the results are valid.
   /// Machine code does not tell which one, 0.
   template <class Run>
@@ -159,7 +179,9 @@ class CompiledEquations {
   const CompiledSystem& system_;
   EquationPart part_;
   std::vector<T> parameters_;
-  bool interpreted_ = false;
+  bool interpreted_ = false, held_ = false;
+  std::vector<bool> mode_;               ///< that is held
+  std::vector<double> time_direction_;   ///< N entries, or empty
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
   std::unique_ptr<CompressedJacobian>
       compressed_;                       ///< for double, if the system compresses its Jacobian
@@ -169,6 +191,7 @@ class CompiledEquations {
       multiplied_;  ///< variants with products since set_design(), in the order of their first one
   std::vector<T> entries_;   ///< workspace of signal() and track_turns()
   VectorX<T> s_;             ///< workspace of sample()
+  VectorX<T> residual_;      ///< workspace of mode_of()
   LineVector slots_, rows_;  ///< workspace of the code
 };
 

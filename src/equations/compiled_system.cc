@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "equations/equation_code.h"
 #include "equations/equation_variants.h"
 #include "equations/recorded_equations.h"
 #include "math/arrays.h"
@@ -49,13 +50,16 @@ bool CompiledSystem::begins_explicitly() const {
   return solver.method == RosenbrockMethod::kAuto && compliance() == 0.0 && !has_dry_friction;
 }
 
+bool CompiledSystem::has_switches() const { return !equation_code()->mode().empty(); }
+
 const EquationCode* CompiledSystem::equation_code(std::size_t k, EquationPart part) const {
   return variants_[to_index(part)]->at(k, *this, part);
 }
 
 std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes,
-                                                             EquationPart part) const {
-  return std::make_unique<EquationCode>(*this, part, std::move(outcomes));
+                                                             EquationPart part,
+                                                             std::vector<bool> mode) const {
+  return std::make_unique<EquationCode>(*this, part, std::move(outcomes), std::move(mode));
 }
 
 std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant,

@@ -41,6 +41,8 @@ class CompiledSystem final : public System {
   /// and for the explicit pair, which asks for nothing else; the linearization then has a recording
   /// of its own.
   bool has_rates_apart() const;
+  /// Whether the residual has switches, is_below(): then steps end where they change.
+  bool has_switches() const;
   /// Whether a run begins with the explicit pair. With `method: auto` it does so unless there is
   /// dry friction, which is stiff wherever it sticks: a run that began explicitly would find this
   /// out in some fifty steps, and have made the programs of both methods.
@@ -50,9 +52,11 @@ class CompiledSystem final : public System {
   /// the first call. Thread-safe.
   const EquationCode* equation_code(std::size_t k = 0,
                                     EquationPart part = EquationPart::kMotion) const;
-  /// The variant for given outcomes of the first decisions, not yet among those known.
+  /// The variant for given outcomes of the first decisions and, before them, of the first switches;
+  /// not yet among those known.
   std::unique_ptr<EquationCode> record_variant(std::vector<bool> outcomes,
-                                               EquationPart part = EquationPart::kMotion) const;
+                                               EquationPart part = EquationPart::kMotion,
+                                               std::vector<bool> mode = {}) const;
   /// Adds a variant to those known, unless it is one of them. @return its index. Thread-safe.
   std::size_t keep_variant(std::unique_ptr<EquationCode> variant,
                            EquationPart part = EquationPart::kMotion) const;

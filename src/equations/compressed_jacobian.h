@@ -28,6 +28,8 @@ class CompressedJacobian {
   void set_design(const std::vector<double>& parameters);
   void allow(bool machine_code) { tangents_.allow(machine_code); }
   void use_first_variant() { tangents_.use_first_variant(); }
+  void hold(const std::vector<bool>& mode) { tangents_.hold(mode); }
+  void release() { tangents_.release(); }
 
   /// All derivatives at a state.
   void linearize(const State<double>& state, Linearization<double>* derivatives);

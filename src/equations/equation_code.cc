@@ -57,8 +57,17 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
+std::vector<Recording::Guard> checked(std::vector<Recording::Guard> guards, bool held) {
+  if (held)
+    guards.erase(std::remove_if(guards.begin(), guards.end(),
+                                [](const Recording::Guard& guard) { return guard.is_switch; }),
+                 guards.end());
+  return guards;
+}
+
 EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
-                           std::vector<bool> outcomes, std::unique_ptr<ResidualRecording> begun)
+                           std::vector<bool> outcomes, std::vector<bool> mode,
+                           std::unique_ptr<ResidualRecording> begun)
     : system_(system),
       long_(system.layout().columns() > kMostColumns),
       functions_(count_functions(system, part)),
@@ -69,15 +78,18 @@ EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
     take_design_guards(values_.recording.decisions().size());
     part == EquationPart::kSignals ? record_signals(&equations) : record_start(&equations);
   } else {
-    if (!begun) begun = std::make_unique<ResidualRecording>(system, std::move(outcomes));
+    if (!begun)
+      begun = std::make_unique<ResidualRecording>(system, std::move(outcomes), std::move(mode));
     recording_ = &begun->recording;
     record_motion(part, begun.get());
     values_.recording = std::move(*std::exchange(recording_, nullptr));
   }
   if (values_.recording.refused())
     throw std::logic_error("the formulas decide something without is_less()");
-  for (const Recording::Guard& guard : values_.recording.guards())
+  for (const Recording::Guard& guard : values_.recording.guards()) {
     outcomes_.push_back(guard.outcome);
+    if (guard.is_switch) mode_.push_back(guard.outcome);
+  }
   values_.number_nodes();
 }
 
@@ -101,6 +113,7 @@ void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
     equations->formulas.constraint_errors(equations->state, &errors[0], &errors[1]);
     return errors;
   });
+  if (part == EquationPart::kMotion) record_switches(equations->g);
   at(EquationFunction::kEnergies).has_derivatives = false;
   if (part == EquationPart::kMotion && system_.layout().has_forest())
     record(EquationFunction::kEnergies, [&] {
@@ -128,6 +141,25 @@ void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
   if (rates_only && system_.layout().m == 0 &&
       is_affine(*recording_, at(EquationFunction::kRates).guards, d.rate, equations->g))
     record_accelerations(d.rate, equations);
+}
+
+void EquationCode::record_switches(const Traced& g) {
+  std::vector<Traced> differences, right;
+  const std::vector<Recording::Guard> guards = recording_->guards();
+  for (const Recording::Guard& guard : guards)
+    if (guard.is_switch) {
+      right.emplace_back(recording_, guard.b);
+      differences.push_back(right.back() - Traced(recording_, guard.a));
+    }
+  take_outputs(EquationFunction::kSwitches, {vector(differences), vector(right)});
+  VectorX<Traced> expressions(to_signed(recording_->noted().size()) + 1);
+  for (std::size_t k = 0; k < recording_->noted().size(); ++k)
+    expressions[to_signed(k)] = Traced(recording_, recording_->noted()[k]);
+  expressions[expressions.size() - 1] = g;
+  take_outputs(EquationFunction::kExpressions, {expressions});
+  at(EquationFunction::kExpressions).has_derivatives = false;
+  for (EquationFunction function : {EquationFunction::kSwitches, EquationFunction::kExpressions})
+    at(function).guards = at(EquationFunction::kResidual).guards;
 }
 
 // G at z = 0 is short: it holds no accelerations.
@@ -313,8 +345,9 @@ std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, con
 const CompiledFunction& EquationCode::function(EquationFunction function,
                                                const Scalar& scalar) const {
   const auto f = to_index(function);
-  Known& known =
-      known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) + (scalar.interpreted ? 5 : 0))];
+  const bool held = scalar.held && !mode_.empty();
+  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) +
+                                    (scalar.interpreted ? 5 : 0) + (held ? 10 : 0))];
   if (!known.made.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!known.made.load(std::memory_order_relaxed)) known.code = compile(f, scalar);
@@ -334,7 +367,7 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
   const int state_lanes = scalar.split ? 0 : scalar.lanes;
   for (const Place& home : from.homes)
     task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
-  task.guards = functions_[function].guards;
+  task.guards = checked(functions_[function].guards, scalar.held);
   if (!scalar.split)
     for (const ValueTask::Output& output : functions_[function].outputs)
       task.outputs.push_back({output.node, spread(output.place, scalar.lanes)});

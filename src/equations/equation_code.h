@@ -56,6 +56,9 @@ struct RecordedFunction {
   bool has_derivatives = true;  ///< whether tangents may be asked for
 };
 
+/// The guards that code checks: with `held` all but those of switches.
+std::vector<Recording::Guard> checked(std::vector<Recording::Guard> guards, bool held);
+
 /// A recording, and the array and index of each of its nodes that the code reads as an input:
 /// entries of the state, and numbers that depend on the design, the time or a turn reference only.
 struct NumberedRecording {
@@ -88,14 +91,16 @@ class EquationCode {
     bool split;  ///< only derivatives are computed, from values and directions of the state in
                  ///< separate arrays
     bool interpreted;  ///< without machine code
+    bool held = false;  ///< without the guards of switches, whose outcomes the caller holds
   };
 
   /// Records the equations. @param system must outlive this. @param outcomes of the first
-  /// decisions; the later ones have their expected outcomes. @param begun the residual with these
+  /// decisions; the later ones have their expected outcomes. @param mode of the first switches,
+  /// which counts before `outcomes`. @param begun the residual with these
   /// outcomes, if it was recorded already; for the parts that begin with it.
   /// @throws std::logic_error if the formulas decide something without is_less().
   explicit EquationCode(const CompiledSystem& system, EquationPart part,
-                        std::vector<bool> outcomes = {},
+                        std::vector<bool> outcomes = {}, std::vector<bool> mode = {},
                         std::unique_ptr<ResidualRecording> begun = nullptr);
   ~EquationCode();
 
@@ -124,6 +129,11 @@ class EquationCode {
   const MassFactor& mass_factor() const { return mass_factor_; }
   /// The outcomes of all decisions in turn, of which a variant is known.
   const std::vector<bool>& outcomes() const { return outcomes_; }
+  /// Number of values of kExpressions; 1 without expressions of signals.
+  std::size_t expressions() const { return at(EquationFunction::kExpressions).outputs.size(); }
+  /// The outcomes of the residual's switches in turn, of which a run holds one set in each step;
+  /// the same sequence in every part that begins with the residual, empty in the others.
+  const std::vector<bool>& mode() const { return mode_; }
 
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[to_index(function)]; }
@@ -136,6 +146,8 @@ class EquationCode {
   /// Records one function whose results `compute` returns.
   template <class Compute>
   void record(EquationFunction function, const Compute& compute);
+  /// Records the differences of which the switches are the signs, and the expressions.
+  void record_switches(const Traced& g);
   /// Gives the decisions `first` to `last` - 1 of Recording::decisions() to a function if they vary
   /// with the state, else to design_guards_.
   void take_guards(std::size_t first, std::size_t last, std::vector<Recording::Guard>* guards);
@@ -157,7 +169,7 @@ class EquationCode {
   std::vector<RecordedFunction>
       functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
-  std::vector<bool> outcomes_;
+  std::vector<bool> outcomes_, mode_;
   MassFactor mass_factor_;
 
   mutable std::once_flag differentiated_;
@@ -171,8 +183,8 @@ class EquationCode {
   };
   mutable std::mutex mutex_;
   /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine
-  /// code.
-  mutable std::vector<std::array<Known, 10>> known_;
+  /// code; then all of them without the guards of switches.
+  mutable std::vector<std::array<Known, 20>> known_;
 };
 
 }  // namespace codesign

@@ -12,7 +12,7 @@ enum class ObjectivePart { kIntegral, kTerminal };
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,   ///< kResidual, kConstraintErrors, and what no other part has: kRates, kAccelerations
+  kMotion,   ///< kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates, kAccelerations
              ///< and kLinearization
   kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
   kStart,    ///< kPlacement, kTurns and the controllers' functions
@@ -30,6 +30,9 @@ enum class EquationFunction : std::size_t {
   kResidual = 0,      ///< G, g
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
+  kSwitches,          ///< per switch of the residual, EquationCode::mode(), the difference y - x of
+                      ///< which it is the sign, positive where x < y; and y
+  kExpressions,       ///< the values of the study's expressions of signals, then g; values only
   kRates,             ///< G, g, G_z; values only
   kAccelerations,     ///< z with G = 0, g, values of MassFactor; values only, and only where
                       ///< EquationCode::has_accelerations()

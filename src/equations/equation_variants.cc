@@ -13,7 +13,7 @@ const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& sy
   const std::lock_guard<std::mutex> lock(mutex_);
   if (variants_.empty())
     variants_.push_back(
-        std::make_unique<EquationCode>(system, part, std::vector<bool>(), std::move(begun_)));
+        std::make_unique<EquationCode>(system, part, std::vector<bool>(), std::vector<bool>(), std::move(begun_)));
   return k < variants_.size() ? variants_[k].get() : nullptr;
 }
 

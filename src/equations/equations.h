@@ -98,6 +98,8 @@ class Equations {
   /// rates state->z do not change; solve for them afterwards.
   void jump(const std::vector<ControlEvent>& events, State<T>* state);
 
+  /// CompiledEquations::hold() and release(), for the steps of a run. An empty mode: release().
+  void hold(const std::vector<bool>& mode) { mode.empty() ? compiled_.release() : compiled_.hold(mode); }
   /// The formulas, for what observers read: signals, energies, friction, reactions; for double
   /// only.
   Formulas<T>& formulas() { return *formulas_; }

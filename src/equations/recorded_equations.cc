@@ -194,10 +194,14 @@ RecordedEquations::RecordedEquations(const System& system, Recording* to)
   make_leaves(Arrays::kS, recording, &state.s), make_leaves(Arrays::kZ, recording, &state.z);
 }
 
-ResidualRecording::ResidualRecording(const System& system, std::vector<bool> outcomes)
-    : equations(system, (recording.follow(std::move(outcomes)), &recording)),
+ResidualRecording::ResidualRecording(const System& system, std::vector<bool> outcomes,
+                                     std::vector<bool> mode)
+    : equations(system, (recording.follow(std::move(outcomes)), recording.hold(std::move(mode)),
+                         &recording)),
       of_design(recording.decisions().size()) {
+  recording.record_switches(true);
   equations.record_residual();
+  recording.record_switches(false);
 }
 
 std::vector<VectorX<Traced>> RecordedEquations::record_stuck_slips() {

@@ -36,9 +36,10 @@ struct RecordedEquations {
   Traced g;           ///< after record_residual()
 };
 
-/// A recording that begins with the residual. @param outcomes as of EquationCode.
+/// A recording that begins with the residual. @param outcomes, mode as of EquationCode.
 struct ResidualRecording {
-  explicit ResidualRecording(const System& system, std::vector<bool> outcomes = {});
+  explicit ResidualRecording(const System& system, std::vector<bool> outcomes = {},
+                             std::vector<bool> mode = {});
 
   Recording recording;
   RecordedEquations equations;

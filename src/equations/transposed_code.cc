@@ -140,13 +140,19 @@ void TransposedCode::transpose_design(const std::vector<int>& sum_of) {
   }
 }
 
-const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted) const {
+const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted,
+                                             bool held) const {
   const Transposed& transposed = functions_[which];
-  const std::size_t kind = interpreted ? 1 : 0;
+  const std::vector<Recording::Guard>& guards = transposed.task.guards;
+  const bool has_switches = std::any_of(
+      guards.begin(), guards.end(), [](const Recording::Guard& guard) { return guard.is_switch; });
+  const std::size_t kind = (interpreted ? 1U : 0U) + (held && has_switches ? 2U : 0U);
   std::call_once(transposed.made[kind], [&] {
-    const ValueProgram program(numbered_.recording, transposed.task);
+    ValueTask task = transposed.task;
+    task.guards = checked(task.guards, held);
+    const ValueProgram program(numbered_.recording, task);
     transposed.code[kind] =
-        compile_values(numbered_.recording, transposed.task, program, interpreted || interpreted_);
+        compile_values(numbered_.recording, task, program, interpreted || interpreted_);
     transposed.code[kind]->rows =
         which == kDesign ? expressions_.size() : transposed.results.size();
   });

@@ -40,10 +40,10 @@ class TransposedCode {
   /// The recording that the code below is made of. It begins with the nodes of the recording of the
   /// values, and its array kNumbers with the entries of theirs.
   const NumberedRecording& numbered() const { return numbered_; }
-  /// The code of one function, made by the first call. The weights of the k-th array of results are
+  /// The code of one function, made by the first call; `held` as of EquationCode::Scalar. The weights of the k-th array of results are
   /// array kResults + k.
-  const CompiledFunction& function(EquationFunction function, bool interpreted) const {
-    return code(to_index(function), interpreted);
+  const CompiledFunction& function(EquationFunction function, bool interpreted, bool held) const {
+    return code(to_index(function), interpreted, held);
   }
   const Results& results(EquationFunction function) const {
     return functions_[to_index(function)].results;
@@ -53,25 +53,26 @@ class TransposedCode {
   std::size_t sums() const { return sums_; }
   /// Code that multiplies the derivatives by all sums(), array kResults, with the derivatives of
   /// these numbers by expressions of the parameters; its results are in the order of expressions().
-  const CompiledFunction& design() const { return code(kDesign, true); }
+  const CompiledFunction& design() const { return code(kDesign, true, false); }
   /// Entries of Recording::supplied_sources().
   const std::vector<int>& expressions() const { return expressions_; }
 
  private:
-  static constexpr std::size_t kFunctions = 3, kDesign = kFunctions;
+  static constexpr std::size_t kFunctions = 4, kDesign = kFunctions;
 
   struct Transposed {
     ValueTask task;
     Results results;
-    mutable std::array<std::unique_ptr<CompiledFunction>, 2> code;  ///< machine code, interpreted
-    mutable std::array<std::once_flag, 2> made;                     ///< the same
+    /// Machine code, interpreted; then both without the guards of switches.
+    mutable std::array<std::unique_ptr<CompiledFunction>, 4> code;
+    mutable std::array<std::once_flag, 4> made;  ///< the same
   };
   void find_dependent(const System& system);
   std::vector<bool> targets() const;
   void transpose(const System& system, const RecordedFunction& recorded, std::vector<int>* sum_of,
                  Transposed* transposed);
   void transpose_design(const std::vector<int>& sum_of);
-  const CompiledFunction& code(std::size_t which, bool interpreted) const;
+  const CompiledFunction& code(std::size_t which, bool interpreted, bool held) const;
 
   const bool interpreted_;
   NumberedRecording numbered_;

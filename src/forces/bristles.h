@@ -28,7 +28,7 @@ template <class T>
 Vector3<T> cut_off(const Vector3<T>& x, const T& limit) {
   using std::sqrt;
   const T square = dot(x, x);
-  if (!is_less(T(limit * limit), square, false)) return x;
+  if (!is_below(T(limit * limit), square, false)) return x;
   return limit * ((T(1.0) / sqrt(square)) * x);
 }
 
@@ -58,7 +58,7 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state,
   b.rate = (c.bristle_stiffness * s) * u + (left * bristle_rate) * (sliding - state.zeta);
   b.mu = cut_off<T>(s * resting + left * sliding,
                     T(c.mu_dynamic + (c.mu_static - c.mu_dynamic) * state.dwell));
-  const T pace = is_less(s, state.dwell, true) ? bristle_rate : T(T(1.0) / c.dwell_time);
+  const T pace = is_below(s, state.dwell, true) ? bristle_rate : T(T(1.0) / c.dwell_time);
   b.dwell_rate = pace * (s - state.dwell);
   return b;
 }

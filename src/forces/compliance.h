@@ -50,7 +50,7 @@ T rounded_ramp_integral(const T& g, const T& width) {
 template <class T>
 T joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
   using std::sqrt;
-  if (!is_less(T(0.0), excess, false)) return T(0.0);
+  if (!is_below(T(0.0), excess, false)) return T(0.0);
   const T depth = rounded_ramp(excess, T(width));
   const T y = T(dissipation) * rate, root = sqrt(T(1.0) + y * y);
   // h(y) = 1/(sqrt(1 + y^2) - y) avoids cancellation for negative y.

@@ -42,6 +42,8 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       run_watch_(system),
       work_(system),
       singularity_(system),
+      mode_watch_(system),
+      expression_watch_(system),
       continuation_(system) {}
 
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
@@ -57,6 +59,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   statistics_ = {};
   clock_.start();
   jump_events_.clear();
+  step_.equations().hold({});
   step_.use(choice_.start());
   begin_methods(step_.tableau().name);
   chooses_ = false;
@@ -65,6 +68,8 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
           assemble_start(system_, parameters, &assembly_, &step_.equations(), &initial_);
       !status.ok())
     return status;
+  mode_watch_.start(initial_, &step_.equations());
+  expression_watch_.start(initial_, &step_.equations());
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations(), initial_);
@@ -112,10 +117,32 @@ void RosenbrockIntegrator::interpolate_rates(double time, State<double>* rates) 
 // before the jump. Accelerations and multipliers jump with the efforts, and a Rosenbrock method
 // needs them consistent.
 Status RosenbrockIntegrator::jump() {
+  has_jumped_ = false;
+  mode_change_.guard = -1;
   jump_events_.clear();
+  if (Status status = change_mode(&mode_change_); !status.ok()) return status;
   if (clock_.is_empty()) return {};
+  if (Status status = sample(); !status.ok() || jump_events_.empty()) return status;
+  mode_watch_.look_again();
+  return change_mode(&second_change_);
+}
+
+Status RosenbrockIntegrator::change_mode(ModeChange* change) {
+  if (!mode_watch_.is_due()) return {};
+  if (Status status =
+          mode_watch_.cross(step_.state(), &assembly_, &step_.equations(), change);
+      !status.ok())
+    return status;
+  has_jumped_ = true;
+  step_.restart(change->behind);
+  work_.start(change->behind, run_watch_.motion());
+  return {};
+}
+
+Status RosenbrockIntegrator::sample() {
   jump_events_ = clock_.due(step_.state().t);
   if (jump_events_.empty()) return {};
+  has_jumped_ = true;
   before_jump_ = step_.state();
   State<double>& behind = behind_jump_ = before_jump_;
   step_.equations().jump(jump_events_, &behind);
@@ -138,6 +165,7 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
       !status.ok())
     return status;
   step_.start(behind, reached);
+  mode_watch_.restart(&step_.equations());
   if (changes) step_.choose_pivots(proposal_);
   run_watch_.go_on(step_.equations(), behind);
   work_.start(behind, run_watch_.motion());
@@ -191,6 +219,13 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     const double kept = proposal_;
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
     error = std::max(error, psi_error(step_, options_));
+    if (error <= 1.0 && !mode_watch_.cut(&step_)) {
+      ++statistics_.rejected_steps;
+      proposal_ = controller_.back_off(h);
+      continue;
+    }
+    if (error <= 1.0)
+      error = std::max(error, expression_watch_.error(options_, &step_, &assembly_));
     if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;
@@ -199,7 +234,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     // After a step that the limit cut short, the earlier proposal is the better one.
     if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
     if (!step_.accept())
-      return {StatusCode::kSingularMatrix, t + h,
+      return {StatusCode::kSingularMatrix, t + step_.step_size(),
               "the augmented matrix of the equations of motion is singular"};
     return judged(look());
   }

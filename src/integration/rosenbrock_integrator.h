@@ -7,8 +7,10 @@
 #include "assembly/assembly.h"
 #include "control/control_clock.h"
 #include "integration/continuation.h"
+#include "integration/expression_watch.h"
 #include "integration/integrator.h"
 #include "integration/method_choice.h"
+#include "integration/mode_watch.h"
 #include "integration/rosenbrock_step.h"
 #include "integration/run_ends.h"
 #include "integration/run_watch.h"
@@ -43,10 +45,17 @@ class RosenbrockIntegrator final : public Integrator {
 
   Status advance(double limit, const BeforeAccept& before_accept);
 
-  /// Carries the states of sampled controllers over the events at the end of the last step, theory
-  /// (51). advance() calls it by itself; a caller that needs jump_events() and before_jump() calls
-  /// it before advance().
+  /// Carries the run over what happens at the end of the last step: the mode changes, theory (17d),
+  /// and sampled controllers act, (51). advance() calls it by itself; a caller that needs
+  /// mode_change(), jump_events() and before_jump() calls it before advance().
   Status jump();
+  /// Whether the last jump() did anything.
+  bool has_jumped() const { return has_jumped_; }
+  /// The first change of the mode in the last jump(); its `guard` is -1 if a step did not end there
+  /// because of a guard.
+  const ModeChange& mode_change() const { return mode_change_; }
+  /// The mode that the equations hold now; empty without switches.
+  const std::vector<bool>& mode() const { return mode_watch_.mode(); }
   /// The events of the last jump(), none if there was nothing to do, and the state before them.
   const std::vector<ControlEvent>& jump_events() const { return jump_events_; }
   const State<double>& before_jump() const { return before_jump_; }
@@ -57,6 +66,10 @@ class RosenbrockIntegrator final : public Integrator {
 
  private:
   Status begin(const std::vector<double>& parameters);
+  /// Changes the mode if that is due. @param change what happened.
+  Status change_mode(ModeChange* change);
+  /// The events of sampled controllers.
+  Status sample();
   double first_step() const;
   /// Counts and checks a step that was accepted.
   Status look();
@@ -77,6 +90,10 @@ class RosenbrockIntegrator final : public Integrator {
   RunWatch run_watch_;
   StepWork work_;
   SingularityWatch singularity_;
+  ModeWatch mode_watch_;
+  ExpressionWatch expression_watch_;
+  ModeChange mode_change_, second_change_;
+  bool has_jumped_ = false;
   Continuation continuation_;
   bool watch_singularities_ = false;
   RepeatableStart repeatable_start_;

@@ -355,25 +355,37 @@ bool RosenbrockStep<T>::project() {
 }
 
 template <class T>
-void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const {
-  *state = previous_;
+void RosenbrockStep<T>::interpolate(double theta, const State<T>& from, const State<T>& to,
+                                    State<T>* state) const {
+  *state = from;
   const T left(1.0 - theta), right(theta);
-  const auto blend = [&](const auto& from, const auto& to, auto* y) {
-    *y = left * from + right * to;
+  const auto blend = [&](const auto& before, const auto& after, auto* y) {
+    *y = left * before + right * after;
   };
-  blend(previous_.q, state_.q, &state->q);
-  blend(previous_.v, state_.v, &state->v);
-  blend(previous_.s, state_.s, &state->s);
-  blend(previous_.z, state_.z, &state->z);
-  *psi = left * previous_psi_ + right * psi_;
+  blend(from.q, to.q, &state->q);
+  blend(from.v, to.v, &state->v);
+  blend(from.s, to.s, &state->s);
+  blend(from.z, to.z, &state->z);
   const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
-  for (std::size_t j = 0; j < count(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
   combine(at_, *state, In<double>(weights).first(tableau_->stages), increments_, state);
   if (tableau_->is_explicit())
-    combine(previous_.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages),
-            increments_, at_.z(), state->z);
-  state->t = previous_.t + theta * h_;
-  turns_.follow(previous_, &equations_, state);
+    combine(from.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), increments_,
+            at_.z(), state->z);
+  state->t = from.t + theta * h_;
+  turns_.follow(from, &equations_, state);
+}
+
+template <class T>
+void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const {
+  interpolate(theta, previous_, state_, state);
+  *psi = T(1.0 - theta) * previous_psi_ + T(theta) * psi_;
+  const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
+  for (std::size_t j = 0; j < count(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
+}
+
+template <class T>
+void RosenbrockStep<T>::interpolate_attempt(double theta, State<T>* state) const {
+  interpolate(theta, state_, end_, state);
 }
 
 template <class T>

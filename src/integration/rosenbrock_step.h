@@ -45,6 +45,9 @@ class RosenbrockStep {
   /// stays.
   void restart(const State<T>& state);
 
+  /// Adds to psi(), whose derivatives jump where a guard determines an instant.
+  void add_psi(const T& change) { psi_ += change; }
+
   /// Begins again with the pivots of keep_pivots(), or chooses pivots again if that was never
   /// called, so that no bit of later steps depends on earlier runs. To be called at the beginning
   /// of a run, after start(). @param h size of the first step [s].
@@ -121,10 +124,14 @@ class RosenbrockStep {
 
   /// State and psi at previous().t + theta h by the method's dense output, 0 <= theta <= 1.
   void interpolate(double theta, State<T>* state, T* psi) const;
+  /// The same over the last attempt, before accept().
+  void interpolate_attempt(double theta, State<T>* state) const;
   /// The derivative of the dense output by time: the parts q, v and s of `rates` [per s].
   void interpolate_rates(double theta, State<T>* rates) const;
 
  private:
+  /// The dense output between both ends of an attempt.
+  void interpolate(double theta, const State<T>& from, const State<T>& to, State<T>* state) const;
   /// The derivatives with which a step begins at state().
   void linearize_start();
   /// The derivatives with which a step of a Rosenbrock method begins, at end_.

@@ -242,6 +242,14 @@ bool is_less(const T& x, const T& y, bool likely,
   return value_of(x) < value_of(y);
 }
 
+/// is_less() where the formula has a kink or a jump: a switch. Integrators hold the outcome of a
+/// switch during a step, and end a step where it changes; doc/theory.md (17d).
+template <class T>
+bool is_below(const T& x, const T& y, bool likely,
+              unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
+  return is_less(x, y, likely, place);
+}
+
 // The derivatives that a vector of complex numbers (imaginary parts) or of lanes carries, as a real
 // matrix: one row per component, one column per direction. The derivatives of a solution of
 // equations follow from a linear solve with this matrix on the right-hand side (implicit function
@@ -299,6 +307,17 @@ template <class T>
 T nearest_integer(const T& x) {
   return T(std::nearbyint(value_of(x)));
 }
+
+/// The largest whole number that is not above x, without derivative; a switch at each whole number.
+template <class T>
+T whole_below(const T& x) {
+  return T(std::floor(value_of(x)));
+}
+
+/// Tells a recording that x is the value of an expression of the study, which may vary within a
+/// step as nothing else does; for other numbers nothing.
+template <class T>
+void note_expression(const T&) {}
 
 /// The whole turns, a multiple of 2 pi [rad], that bring `angle` nearest to `reference` when added
 /// to it. They have no derivative. Ties round to an even number of turns.

@@ -20,8 +20,8 @@ struct Taylor {
   Taylor() = default;
   explicit Taylor(const T& constant) { c[0] = constant; }
   /// The time t itself.
-  static Taylor time(double t) {
-    Taylor x{T(t)};
+  static Taylor time(const T& t) {
+    Taylor x{t};
     x.c[1] = T(1.0);
     return x;
   }
@@ -106,6 +106,11 @@ struct Taylor {
   }
   friend double value_of(const Taylor& x) { return value_of(x.c[0]); }
   friend Taylor nearest_integer(const Taylor& x) { return Taylor(nearest_integer(x.c[0])); }
+  friend Taylor whole_below(const Taylor& x) { return Taylor(whole_below(x.c[0])); }
+  friend bool is_below(const Taylor& x, const Taylor& y, bool likely,
+                       unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
+    return is_below(x.c[0], y.c[0], likely, place);
+  }
   friend bool is_less(const Taylor& x, const Taylor& y, bool likely,
                       unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
     return is_less(x.c[0], y.c[0], likely, place);

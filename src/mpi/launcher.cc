@@ -33,4 +33,11 @@ std::optional<Launched> find_launcher(const char* (*value)(const char* name)) {
 
 std::optional<Launched> find_launcher() { return find_launcher(of_process); }
 
+std::optional<double> seconds_to_end(const char* (*value)(const char* name)) {
+  const int seconds = number(value("OMPI_MCA_odls_base_sigkill_timeout"), 0);
+  return seconds > 0 ? std::optional<double>(seconds) : std::nullopt;
+}
+
+std::optional<double> seconds_to_end() { return seconds_to_end(of_process); }
+
 }  // namespace codesign

@@ -20,4 +20,9 @@ std::optional<Launched> find_launcher(const char* (*value)(const char* name));
 /// Reads the environment of this process.
 std::optional<Launched> find_launcher();
 
+/// How long mpirun lets the ranks live after the loss of one of them [s], if its environment says
+/// so (OMPI_MCA_odls_base_sigkill_timeout); Open MPI's own choice is 1 s.
+std::optional<double> seconds_to_end(const char* (*value)(const char* name));
+std::optional<double> seconds_to_end();
+
 }  // namespace codesign

@@ -15,6 +15,18 @@ namespace {
 constexpr int kFailed = 1;
 constexpr auto kFlush = std::chrono::seconds(2);  // for the last messages
 
+/// Of the time that mpirun gives the ranks to end after the loss of one of them, by default a
+/// second, rank 0 waits so much for the answers of the others; in the rest it keeps its results.
+constexpr double kShareOfAnswers = 0.3;
+
+RankTimes rank_times() {
+  RankTimes times;
+  if (const std::optional<double> seconds = seconds_to_end())
+    times.answer = std::chrono::duration_cast<RankTimes::Duration>(
+        std::chrono::duration<double>(kShareOfAnswers * *seconds));
+  return times;
+}
+
 // mpirun sends its signals to all ranks. The first signal is for rank 0, which keeps its results
 // and then ends the other ranks.
 extern "C" void stay(int signal_number) { std::signal(signal_number, SIG_DFL); }
@@ -46,7 +58,7 @@ int run_on_ranks(const std::string& name, const std::function<int(Dispatcher*)>&
   }
   MpiTransport transport;
   if (transport.rank() > 0) return serve(name, &transport);
-  Dispatcher dispatcher(&transport);
+  Dispatcher dispatcher(&transport, rank_times());
   const int code = first(&dispatcher);
   const bool in_order = dispatcher.finish();
   if (!in_order)

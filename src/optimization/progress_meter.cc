@@ -7,11 +7,12 @@
 namespace codesign {
 
 ProgressMeter::ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer,
-                             Clock::duration period)
+                             Clock::duration period, std::function<Clock::time_point()> read_clock)
     : most_evaluations_(most_evaluations),
       observer_(std::move(observer)),
       period_(period),
-      began_(Clock::now()),
+      read_clock_(std::move(read_clock)),
+      began_(read_clock_()),
       notified_(began_) {}
 
 void ProgressMeter::begin(SearchStage stage, std::int64_t of, std::size_t scenarios) {
@@ -21,7 +22,7 @@ void ProgressMeter::begin(SearchStage stage, std::int64_t of, std::size_t scenar
   scenarios_ = static_cast<std::int64_t>(scenarios);
   done_ = computed_ = trials_ = ended_trials_ = 0;
   runs_before_ = runs_;
-  began_ = Clock::now();
+  began_ = read_clock_();
 }
 
 void ProgressMeter::count_run(bool computed) {
@@ -83,7 +84,7 @@ Progress ProgressMeter::measure() const {
       progress.of = most_evaluations_;
     }
   }
-  const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+  const double seconds = std::chrono::duration<double>(read_clock_() - began_).count();
   if (computed_ == 0 || seconds <= 0.0) return progress;
   progress.runs_per_second = static_cast<double>(computed_) / seconds;
   progress.seconds_left =
@@ -92,9 +93,9 @@ Progress ProgressMeter::measure() const {
 }
 
 void ProgressMeter::notify(bool at_once) {
-  if (!observer_ || (!at_once && Clock::now() - notified_ < period_)) return;
+  if (!observer_ || (!at_once && read_clock_() - notified_ < period_)) return;
   observer_(measure());
-  notified_ = Clock::now();
+  notified_ = read_clock_();
 }
 
 }  // namespace codesign

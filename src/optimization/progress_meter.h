@@ -41,8 +41,10 @@ class ProgressMeter {
   using Clock = std::chrono::steady_clock;
 
   /// @param most_evaluations limit of evaluations of one search. @param observer may be empty.
+  /// @param read_clock the time; a test gives it.
   ProgressMeter(std::int64_t most_evaluations, ProgressObserver observer,
-                Clock::duration period = std::chrono::seconds(1));
+                Clock::duration period = std::chrono::seconds(1),
+                std::function<Clock::time_point()> read_clock = Clock::now);
 
   /// @param of number of points, of searches (0: one search), or of designs to validate. @param
   /// scenarios runs per evaluation.
@@ -64,6 +66,7 @@ class ProgressMeter {
   const std::int64_t most_evaluations_;
   const ProgressObserver observer_;
   const Clock::duration period_;
+  const std::function<Clock::time_point()> read_clock_;
   mutable std::mutex mutex_;  // guards all members below
   SearchStage stage_ = SearchStage::kSearching;
   std::int64_t scenarios_ = 1, done_ = 0, of_ = 0, runs_ = 0, remembered_ = 0, runs_before_ = 0,

@@ -29,6 +29,8 @@ constexpr double kComplexStep = 1e-30;
 struct TakenStep {
   double h;  ///< [s]
   const RosenbrockTableau* tableau;
+  std::vector<bool> mode;      ///< that its stages held
+  ModeChange change = {};      ///< before it; guard -1 if no guard determined its beginning
 };
 
 /// Records the steps of an integration.
@@ -39,8 +41,12 @@ Status record_steps(const CompiledSystem& system, const std::vector<double>& par
   run.obey(cancel);
   Status status = run.start(parameters, derivatives);
   while (status.ok() && run.time() < system.study().duration) {
-    status = run.advance(system.study().duration);
-    if (status.ok()) steps->push_back({run.step_size(), &run.tableau()});
+    ModeChange change;
+    status = run.jump();
+    if (status.ok() && run.integrator().has_jumped()) change = run.integrator().mode_change();
+    if (status.ok()) status = run.advance(system.study().duration);
+    if (status.ok())
+      steps->push_back({run.step_size(), &run.tableau(), run.integrator().mode(), change});
   }
   return status;
 }
@@ -98,12 +104,30 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
   }
 }
 
-/// Carries a complex run over the events of sampled controllers.
-void replay_jump(const std::vector<ControlEvent>& events, RosenbrockIntegrator* integrator,
-                 RosenbrockStep<Complex>* step) {
-  if (events.empty()) return;
+/// Carries a complex run over an instant that a guard determines, theory (18f): in complex numbers
+/// the guard is zero at the time t_e + i tau'.
+void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step,
+                   State<Complex>* state) {
+  VectorX<Complex> guards, right;
+  step->equations().compiled().switches(*state, &guards, &right);
+  const Complex tau(0.0, -guards[change.guard].imag() / change.guard_rate);
+  const Eigen::Index n = state->v.size(), states = state->s.size();
+  const VectorX<double> jump = change.before.z - change.behind.z;
+  state->v += tau * jump.head(n).cast<Complex>();
+  state->s += tau * jump.tail(states).cast<Complex>();
+  step->add_psi(tau * (change.g_before - change.g));
+}
+
+/// Carries a complex run to the beginning of a step: over a change of the mode and over the events
+/// of sampled controllers.
+void replay_jump(const TakenStep& taken, const std::vector<ControlEvent>& events,
+                 RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step) {
   State<Complex> state = step->state();
-  step->equations().jump(events, &state);
+  if (taken.change.guard >= 0) replay_change(taken.change, step, &state);
+  step->equations().hold(taken.mode);
+  integrator->equations().hold(taken.mode);
+  if (events.empty() && taken.change.mode.empty()) return;
+  if (!events.empty()) step->equations().jump(events, &state);
   State<double> real = real_part(state);
   if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) return;
   integrator->assembly().extend_rates(real.z, &step->equations(), &state);
@@ -121,8 +145,10 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   result.watched.setZero(extremes.values.size());
   step.equations().set_design(parameters);
   integrator->start(real_parameters);
+  step.equations().hold({});
   State<Complex> state;
   integrator->assembly().extend(parameters, integrator->initial_state(), &step.equations(), &state);
+  step.equations().hold(integrator->mode());
   step.start(state);
   if (result.watched.size() > 0)
     replay_watched(system, extremes.times, integrator, &step, &result.watched);
@@ -130,7 +156,7 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   for (const TakenStep& taken : steps) {
     if (is_set(cancel)) break;
     step.use(*taken.tableau);
-    replay_jump(clock.due(step.state().t), integrator, &step);
+    replay_jump(taken, clock.due(step.state().t), integrator, &step);
     step.attempt(taken.h);
     step.accept();
     step.track_turns();

@@ -39,6 +39,8 @@ bool prefers_adjoint(const CompiledSystem& system) {
   if (!system.watched().empty()) return false;
   // Nor does it go back over the jumps of sampled controllers.
   if (!ControlClock(system.study()).is_empty()) return false;
+  // Nor over instants that guards determine.
+  if (system.has_switches()) return false;
   if (options.gradient == GradientMethod::kAdjoint) return true;
   // solver.sensitivity_tolerance tests the errors of direct sensitivities, which the adjoint does
   // not compute.

@@ -99,16 +99,20 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
   groups_->for_each([&](auto* group) {
     group->step.keep_previous(with_root_ || !watch_.is_empty());
     group->range.seed(system_, parameters, &group->parameters);
-    group->step.start(group->parameters, integrator_.assembly(), integrator_.initial_state());
+    group->step.start(group->parameters, integrator_.assembly(), integrator_.initial_state(),
+                      integrator_.mode());
   });
 }
 
 Status RosenbrockGradient::jump() {
   Status status = integrator_.jump();
-  if (!status.ok() || integrator_.jump_events().empty()) return status;
-  groups_->for_each([this](auto* group) {
-    group->step.jump(integrator_.jump_events(), integrator_.before_jump(), integrator_.state(),
-                     integrator_.assembly());
+  if (!status.ok() || !integrator_.has_jumped() || !with_gradient_) return status;
+  const bool has_events = !integrator_.jump_events().empty();
+  groups_->for_each([&](auto* group) {
+    if (integrator_.mode_change().guard >= 0) group->step.cross(integrator_.mode_change());
+    group->step.jump(integrator_.jump_events(),
+                     has_events ? integrator_.before_jump() : integrator_.state(),
+                     integrator_.state(), integrator_.assembly(), integrator_.mode());
   });
   return status;
 }

@@ -25,10 +25,15 @@ class RosenbrockGradient final : public GradientEngine {
 
   Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
+  /// Carries state and sensitivities over changes of the mode and events of sampled controllers,
+  /// theory (17d), (51); advance() begins with it.
+  Status jump();
   /// Size of the last step [s].
   double step_size() const { return integrator_.step().step_size(); }
   /// Its method.
   const RosenbrockTableau& tableau() const { return integrator_.step().tableau(); }
+  /// The integrator of the run.
+  const RosenbrockIntegrator& integrator() const { return integrator_; }
   double time() const override { return integrator_.state().t; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
@@ -60,8 +65,6 @@ class RosenbrockGradient final : public GradientEngine {
   Status start_watches();
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
-  /// Carries state and sensitivities over the events of sampled controllers, theory (51).
-  Status jump();
   void collect(Eigen::VectorXd* gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates,
                      Eigen::VectorXd* gradient);

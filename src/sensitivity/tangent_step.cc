@@ -84,9 +84,11 @@ TangentStep<N>::TangentStep(const CompiledSystem& system, const RosenbrockTablea
 
 template <int N>
 void TangentStep<N>::start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly,
-                           const State<double>& initial) {
+                           const State<double>& initial, const std::vector<bool>& mode) {
+  equations_.equations().hold({});
   equations_.equations().set_design(parameters);
   assembly.extend(parameters, initial, &equations_.equations(), &extension_, &start_);
+  equations_.equations().hold(mode);
   y_.setZero();
   take_up(initial, start_);
   largest_x_.setZero();
@@ -111,10 +113,25 @@ void TangentStep<N>::take_up(const State<double>& at, const State<Lanes<N>>& lan
 }
 
 template <int N>
+void TangentStep<N>::cross(const ModeChange& change) {
+  equations_.equations().compiled().switches(equations_.lanes(change.end, y_), &guards_, &right_);
+  const Vector tau = guards_[change.guard].v * (-1.0 / change.guard_rate);
+  const auto grow = [&](int column, double difference) {
+    y_.vector(column) += difference * tau;
+  };
+  const VectorX<double> jump = change.before.z - change.behind.z;
+  for (int k = 0; k < at_.n; ++k) grow(at_.v() + k, jump[k]);
+  for (int k = 0; k < at_.states; ++k) grow(at_.s() + k, jump[layout_.state_column(k)]);
+  grow(at_.psi(), change.g_before - change.g);
+}
+
+template <int N>
 void TangentStep<N>::jump(const std::vector<ControlEvent>& events, const State<double>& before,
-                          const State<double>& behind, const Assembly& assembly) {
+                          const State<double>& behind, const Assembly& assembly,
+                          const std::vector<bool>& mode) {
+  equations_.equations().hold(mode);
   point_ = equations_.lanes(before, y_);
-  equations_.equations().jump(events, &point_);
+  if (!events.empty()) equations_.equations().jump(events, &point_);
   assembly.extend_rates(behind.z, &equations_.equations(), &extension_, &point_);
   take_up(behind, point_);
 }

@@ -8,6 +8,7 @@
 #include "assembly/loop_jacobian.h"
 #include "equations/equations.h"
 #include "integration/increment.h"
+#include "integration/mode_watch.h"
 #include "integration/rosenbrock_step.h"
 #include "math/arrays.h"
 #include "sensitivity/lane_directions.h"
@@ -75,9 +76,9 @@ class TangentStep {
   void keep_previous(bool keep) { keeps_previous_ = keep; }
   /// Starts with the initial sensitivities, (20). @param parameters all named parameters, with the
   /// directions of the N parameters in the lanes.
-  /// @param assembly that found `initial`. @param step started at `initial`.
+  /// @param assembly that found `initial`. @param mode that the steps hold, theory (17d).
   void start(const std::vector<Lanes<N>>& parameters, const Assembly& assembly,
-             const State<double>& initial);
+             const State<double>& initial, const std::vector<bool>& mode = {});
 
   /// Computes the tangent of the stages of the step's last attempt. @param step of an explicit pair
   /// receives the factorization of a stage.
@@ -93,8 +94,14 @@ class TangentStep {
   /// Carries the sensitivities over a jump of the step's integrator: the derivative of (q, v, g(q,
   /// v, s)) and of the rates that belong to it. @param assembly that solved for the rates of
   /// `behind`. @param behind the state after the jump, where the step begins again.
+  /// @param mode that the equations hold from there on.
   void jump(const std::vector<ControlEvent>& events, const State<double>& before,
-            const State<double>& behind, const Assembly& assembly);
+            const State<double>& behind, const Assembly& assembly,
+            const std::vector<bool>& mode = {});
+
+  /// Carries the sensitivities over an instant that a guard s determines, theory (18f): with tau' =
+  /// -s'/(s_t + s_x f-) they grow by (f- - f+) tau'. jump() with the mode after it follows.
+  void cross(const ModeChange& change);
 
   /// Derivatives of the objective: psi() of its integral so far, terminal() of its terminal terms
   /// at `state`, the end of the last step.
@@ -170,6 +177,7 @@ class TangentStep {
       false;  ///< whether the changes of the matrices are those with which the next step begins
   std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
+  VectorX<Lanes<N>> guards_, right_;
   State<Lanes<N>> start_;                             ///< with the initial sensitivities
   State<Lanes<N>> point_;                             ///< a point of the dense output
   std::vector<Directions<N>> stages_;                 ///< u' of each stage

@@ -134,6 +134,8 @@ const char* name_of(StatusCode code) {
       return "no_equilibrium";
     case StatusCode::kNotIdentifiable:
       return "not_identifiable";
+    case StatusCode::kSwitchHolds:
+      return "switch_holds";
   }
   return "unknown";
 }

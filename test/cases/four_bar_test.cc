@@ -2,11 +2,11 @@
 // Synthesis of linkages by postures.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "cases/shipped.h"
+#include "math/dense.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/search_hooks.h"
 #include "sensitivity/postures.h"
@@ -26,7 +26,7 @@ struct Links {
 Links freudenstein(const Eigen::Vector3d& phi, const Eigen::Vector3d& psi) {
   Eigen::Matrix3d left;
   left << psi.array().cos(), -phi.array().cos(), Eigen::Vector3d::Ones();
-  const Eigen::Vector3d K = left.partialPivLu().solve((phi - psi).array().cos().matrix());
+  const Eigen::Vector3d K = least_norm(left).solve((phi - psi).array().cos().matrix());
   const double a = 1.0 / K[0], c = 1.0 / K[1];
   return {a, std::sqrt(1.0 + a * a + c * c - 2.0 * a * c * K[2]), c};
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "cases/joint_coordinate_cases.h"
 #include "cases/shipped.h"

@@ -1,5 +1,4 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <regex>
 
 #include "cases/shipped.h"
 #include "ensemble/ensemble.h"

@@ -17,7 +17,7 @@ class JobProcess : public testing::Test {
   }
   std::string long_study() const {
     const std::string path =
-        folder_.edited("long.yaml", read_text_file(kStudy), "duration: 2.0", "duration: 8.0");
+        folder_.edited("long.yaml", read_text_file(kStudy), "duration: 2.0", "duration: 16.0");
     return folder_.edited("long.yaml", read_text_file(path), "relative_tolerance: 1.0e-6",
                           "relative_tolerance: 1.0e-9");
   }

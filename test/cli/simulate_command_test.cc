@@ -148,5 +148,50 @@ TEST(SimulateCommand, PrintsEveryPosture) {
   EXPECT_NE(longer.err.find("posture "), std::string::npos) << longer.err;
 }
 
+constexpr const char* kRod = R"(<robot name="p" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="n" value="3" lower="1" upper="5"/>
+  <codesign:parameter name="b" value="-2" lower="-3" upper="-1"/>
+  <link name="ground"/>
+  <link name="rod"><inertial><origin xyz="0 0 -0.25"/><mass value="1"/>
+    <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.001"/></inertial></link>
+  <joint name="pivot" type="continuous"><parent link="ground"/><child link="rod"/>
+    <axis xyz="0 1 0"/></joint>
+</robot>)";
+
+Json objective_of_rod(const std::string& objective, const std::string& tuned = "{b: {}}") {
+  const ScratchFolder folder;
+  const std::string study =
+      "duration: 0.1\ninitial_state: {pivot: {position: -1.0}}\nparameters: " + tuned +
+      "\nobjective: " + objective + "\n";
+  const Outcome outcome =
+      run_words({"gradient", folder.edited("p.urdf", kRod, "<robot", "<robot"),
+                 folder.edited("p.yaml", study, "duration", "duration"), "--json"});
+  EXPECT_EQ(outcome.code, kDone) << outcome.err;
+  return json_of(outcome);
+}
+
+// However the whole exponent is written: in the text, by its value, of the time and of signals.
+TEST(SimulateCommand, PowersOfNegativeNumbersAreExact) {
+  const auto value = [](const std::string& objective) {
+    return objective_of_rod(objective)["objective"].get<double>();
+  };
+  const auto of_time = [&](const std::string& power) {
+    return value("{integral: [{signal: pivot/position, reference: \"${" + power + " + 0*b}\"}]}");
+  };
+  EXPECT_NEAR(of_time("(t - 1)**(1+1)") / of_time("(t - 1)*(t - 1)"), 1.0, 1e-12);
+  EXPECT_NEAR(of_time("(t - 1)**n") / of_time("(t - 1)*(t - 1)*(t - 1)"), 1.0, 1e-12);
+  EXPECT_NEAR(value("{integral: [{signal: \"${pivot/position**n - b}\"}]}") /
+                  value("{integral: [{signal: \"${pivot/position*pivot/position*pivot/position - "
+                        "b}\"}]}"),
+              1.0, 1e-12);
+  const Json power =
+                 objective_of_rod("{terminal: [{signal: pivot/position, reference: \"${b**n}\"}]}"),
+             eight = objective_of_rod(
+                 "{terminal: [{signal: pivot/position, reference: \"${-8 + 12*(b + 2)}\"}]}");
+  EXPECT_EQ(power["objective"], eight["objective"]) << "(-2)^3, and 3 (-2)^2 for each b";
+  EXPECT_NEAR(power["gradient"]["b"].get<double>() / eight["gradient"]["b"].get<double>(), 1.0,
+              1e-12);
+}
+
 }  // namespace
 }  // namespace codesign::cli

@@ -6,6 +6,7 @@
 #include "equations/formulas.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
+#include "math/dense.h"
 #include "mechanism/mass_properties.h"
 
 namespace codesign {
@@ -221,7 +222,7 @@ TEST(Rotor, OfAGyrostatByHand) {
   ASSERT_TRUE(c.start().ok());
   Eigen::Matrix2d M;
   M << 0.4, 0.2 + 5.0 * 0.004, 0.2 + 5.0 * 0.004, 0.2 + 25.0 * 0.004;
-  const Eigen::Vector2d expected = M.inverse() * Eigen::Vector2d(0.0, 0.3);
+  const Eigen::Vector2d expected = solve_positive_definite(M, Eigen::Vector2d(0.0, 0.3));
   EXPECT_NEAR(2.0 * c.state.z[6], expected[0], 1e-14);
   EXPECT_NEAR(2.0 * c.state.z[13], expected[0] + expected[1], 1e-14);
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <regex>
 
+#include "edited_text.h"
 #include "equations/equations_fixture.h"
 #include "equations/formulas.h"
 #include "forces/bristles.h"
@@ -49,9 +49,8 @@ std::string mechanism(const std::string& gonthier = "gonthier",
            (model == "brown_mcphee" ? "" : " bristle_stiffness=\"3\" bristle_damping=\"0.2\"") +
            (model == "gonthier" ? " dwell_time=\"0.7\"" : "");
   };
-  return std::regex_replace(
-      std::regex_replace(std::string(kMechanism), std::regex("GONTHIER"), law(gonthier)),
-      std::regex("LUGRE"), law(lugre));
+  return replaced_all(replaced_all(std::string(kMechanism), "GONTHIER", law(gonthier)), "LUGRE",
+                      law(lugre));
 }
 
 const char* const kStudy = R"(
@@ -269,17 +268,16 @@ TEST(EquationsContacts, TheRateOfASlipIsNoSignal) {
 TEST(EquationsContacts, HingesWithoutClosedFormAreRefused) {
   // Three hinges through one point, not at right angles: still folded into a ball, but the single
   // hinges have no coordinates.
-  const std::string skew =
-      std::regex_replace(kContactMechanism,
-                         std::regex("<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics "
-                                    "damping=\"0.3\" friction=\"0.1\"/>"),
-                         "<child link=\"ball_b\"/><axis xyz=\"0.5 1 0\"/>");
+  const std::string skew = replaced_all(kContactMechanism,
+                                        "<child link=\"ball_b\"/><axis xyz=\"0 1 0\"/><dynamics "
+                                        "damping=\"0.3\" friction=\"0.1\"/>",
+                                        "<child link=\"ball_b\"/><axis xyz=\"0.5 1 0\"/>");
   ASSERT_NE(skew, kContactMechanism);
   EXPECT_THROW(EquationsFixture(skew, study_with("{}", "table_x/position")),
                InputError);  // because of the spring on ball_z
-  const std::string passive = std::regex_replace(
-      std::regex_replace(skew, std::regex("<codesign:torsion_spring[^>]*free_position[^>]*>"), ""),
-      std::regex("<dynamics damping=\"0.05\"/>"), "");
+  const std::string passive =
+      replaced_all(replaced_all(skew, "<codesign:torsion_spring[^>]*free_position[^>]*>", ""),
+                   "<dynamics damping=\"0.05\"/>", "");
   EXPECT_NO_THROW(EquationsFixture(passive, study_with("{}", "table_x/position")));
   EXPECT_THROW(EquationsFixture(passive, study_with("{}", "ball_x/velocity")), InputError);
 }

@@ -2,8 +2,7 @@
 // Each law's value at points computed by hand, and its derivatives by state and time.
 #include <gtest/gtest.h>
 
-#include <regex>
-
+#include "edited_text.h"
 #include "equations/arm.h"
 #include "equations/compiled.h"
 #include "equations/equations_fixture.h"
@@ -109,8 +108,8 @@ TEST(EquationsControllers, ComputedTorqueHasExactDerivatives) {
 
 /// arm() with an actuator, and so a rotor, in every joint.
 std::string geared_arm() {
-  return std::regex_replace(arm(), std::regex("</joint>"),
-                            "<codesign:actuator gear_ratio='-8' rotor_inertia='0.003'/></joint>");
+  return replaced_all(arm(), "</joint>",
+                      "<codesign:actuator gear_ratio='-8' rotor_inertia='0.003'/></joint>");
 }
 
 TEST(EquationsControllers, ComputedTorqueOfRotorsHasExactDerivatives) {

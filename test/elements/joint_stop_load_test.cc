@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <regex>
 
+#include "edited_text.h"
 #include "equations/compiled_system.h"
 #include "equations/equations_fixture.h"
 #include "equations/formulas.h"
@@ -56,9 +56,9 @@ TEST_P(EquationsLimitsTest, EveryDerivativeIsExact) {
 TEST(EquationsLimits, EveryDerivativeIsExactWithinThem) {
   EquationsFixture f(
       bounded(),
-      std::regex_replace(
+      replaced_all(
           study("{effort: true, position: true, stiffness: 20.0, dissipation: 0.3, width: 0.01}"),
-          std::regex("setpoint: [0-9.]*"), "setpoint: 0.1"));
+          "setpoint: [0-9.]*", "setpoint: 0.1"));
   for (VectorX<double>* x : {&f.state.q, &f.state.v, &f.state.s}) *x *= 0.01;
   for (int b = 0; b < f.system.layout().bodies; ++b) f.state.q[kBodySize * b + 3] = 1.0;
   f.expect_exact_derivatives(1e-10);

@@ -1,10 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Jobs whose ranks are lost; the tests of MpiEngine have ranks that answer.
+// Jobs whose ranks are lost; the tests of MpiEngine have ranks that answer. The test plays the
+// other rank, computes for rank 0, and moves the clock of the ranks, so that no wait depends on the
+// machine.
 #include "engine/dispatcher.h"
 
 #include <gtest/gtest.h>
 
-#include <deque>
+#include <atomic>
+#include <future>
 
 #include "engine/mpi_engine.h"
 #include "engine/rank_fixture.h"
@@ -15,6 +18,7 @@ namespace codesign {
 namespace {
 
 constexpr auto kNobody = [](MessageKind, std::uint64_t) { return std::optional<std::string>(); };
+constexpr std::chrono::seconds kSilence{2};
 
 std::vector<EvaluationTask> equal_tasks(const Problem& problem, int count) {
   return std::vector<EvaluationTask>(
@@ -22,25 +26,52 @@ std::vector<EvaluationTask> equal_tasks(const Problem& problem, int count) {
       {system_of(problem), problem.parameters(), Derivatives::kGradient});
 }
 
-constexpr std::chrono::seconds kSilence{2};
+/// A clock that stands still until it is moved.
+class TestClock {
+ public:
+  RankTimes times() {
+    RankTimes times;
+    times.first_sign = times.silence = kSilence;
+    times.sign = std::chrono::milliseconds(500);
+    times.now = [this] { return start_ + std::chrono::milliseconds(passed_ += step_); };
+    return times;
+  }
+  void move(int milliseconds) { passed_ += milliseconds; }
+  /// From now on it goes on whenever it is read.
+  void run() { step_ = 20; }
 
-RankTimes short_times() {
-  RankTimes times;
-  times.first_sign = times.silence = kSilence;
-  times.sign = std::chrono::milliseconds(50);
-  return times;
-}
+ private:
+  const PollPause::Clock::time_point start_ = PollPause::Clock::now();
+  std::atomic<int> passed_{0}, step_{0};
+};
 
-/// The statuses other than success that come out, which are all the same, and how many tasks
-/// succeeded.
-std::pair<Status, int> outcome_of(const std::vector<Evaluation>& results) {
-  std::pair<Status, int> outcome;
-  for (const Evaluation& one : results)
-    if (one.status.ok())
-      ++outcome.second;
-    else
-      outcome.first = one.status;
-  return outcome;
+/// Some tasks, whose results come from the other rank and from the test.
+struct PlayedBatch {
+  PlayedBatch(Dispatcher* dispatcher, const Problem& problem, int count,
+              const std::atomic<bool>* cancel = nullptr)
+      : ranks(dispatcher),
+        tasks(equal_tasks(problem, count)),
+        number(ranks->add(make_portable(problem))),
+        batch{tasks, std::vector<std::uint32_t>(tasks.size(), 0), number, cancel} {}
+  ~PlayedBatch() { ranks->remove(number); }
+
+  /// @returns the results.
+  std::vector<Evaluation> run() {
+    std::vector<Evaluation> results;
+    ranks->run(&batch, [&results](std::size_t, Evaluation one) { results.push_back(one); });
+    return results;
+  }
+
+  Dispatcher* const ranks;
+  const std::vector<EvaluationTask> tasks;
+  const std::uint32_t number;
+  RankBatch batch;
+};
+
+std::string late_answer(std::uint64_t task) {
+  Evaluation late;
+  late.objective = 7.0;
+  return write_result(task, late);
 }
 
 TEST(Dispatcher, AProgramThatRunsAloneHasOneRank) {
@@ -52,74 +83,79 @@ TEST(Dispatcher, AProgramThatRunsAloneHasOneRank) {
 
 TEST(Dispatcher, ARankThatFallsSilentEndsTheJobWithItsName) {
   const Problem problem = block("");
-  PlayedJob job(own_hello(), kNobody, short_times());
-  const auto [status, succeeded] =
-      outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 8), nullptr));
-  EXPECT_EQ(status.code, StatusCode::kWorkerLost);
-  EXPECT_NE(status.cause.find("rank 1 of 2 on host elsewhere has said nothing for"),
-            std::string::npos)
-      << status.cause;
-  EXPECT_GE(succeeded, 1) << "what rank 0 computed is there";
+  TestClock clock;
+  std::promise<void> has_task;
+  PlayedJob job(
+      own_hello(),
+      [&has_task](MessageKind kind, std::uint64_t) {
+        if (kind == MessageKind::kTask) has_task.set_value();
+        return std::optional<std::string>();
+      },
+      clock.times());
+  job.wait_for_hello();
+  PlayedBatch batch(job.ranks(), problem, 2);
+  std::thread rank_zero([&] {
+    has_task.get_future().wait();
+    const auto [taken, index] = job.ranks()->take_local(batch.number);
+    job.ranks()->give_local(taken, index, {}, nullptr);
+    clock.run();
+  });
+  EXPECT_EQ(batch.run().size(), 1U) << "what rank 0 computed is there";
+  rank_zero.join();
+  EXPECT_EQ(batch.batch.ended.code, StatusCode::kWorkerLost);
+  const std::string& cause = batch.batch.ended.cause;
+  EXPECT_NE(cause.find("rank 1 of 2 on host elsewhere has said nothing for 2 s"), std::string::npos)
+      << cause;
   EXPECT_EQ(job.ranks()->lost().code, StatusCode::kWorkerLost);
-  // The next call does not wait again.
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(
-      outcome_of(MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr)).second,
-      0);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, kSilence);
+  // The next call does not wait again, or rank 0 would compute meanwhile.
+  for (const Evaluation& one :
+       MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 2), nullptr))
+    EXPECT_EQ(one.status.code, StatusCode::kWorkerLost);
   EXPECT_FALSE(job.ranks()->finish());
 }
 
 TEST(Dispatcher, ARankThatGivesSignsOfLifeIsWaitedFor) {
   const Problem problem = block("");
-  std::deque<std::uint64_t> tasks;
-  const auto begin = std::chrono::steady_clock::now();
+  TestClock clock;
+  std::optional<std::uint64_t> task;
+  int signs = 0;
   PlayedJob job(
       own_hello(),
       [&](MessageKind kind, std::uint64_t number) -> std::optional<std::string> {
-        if (kind == MessageKind::kTask) tasks.push_back(number);
-        // The dispatcher's own signs of life drive the answers.
-        if (tasks.empty() || std::chrono::steady_clock::now() - begin < 1.5 * kSilence)
-          return write_numbered(MessageKind::kSign);
-        const std::uint64_t task = tasks.front();
-        tasks.pop_front();
-        Evaluation late;
-        late.objective = 7.0;
-        return write_result(task, late);
+        if (kind == MessageKind::kTask) task = number;
+        if (!task) return std::nullopt;
+        // The dispatcher's own signs of life drive the answers: three times the longest silence.
+        clock.move(600);
+        if (++signs < 10) return write_numbered(MessageKind::kSign);
+        return late_answer(*task);
       },
-      short_times());
+      clock.times());
   job.wait_for_hello();
-  std::vector<double> objectives;
-  // So many tasks that the other rank gets one even if it is slow.
-  for (const Evaluation& one :
-       MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 100), nullptr)) {
-    EXPECT_TRUE(one.status.ok()) << one.status.cause;
-    objectives.push_back(one.objective);
-  }
-  EXPECT_GE(std::count(objectives.begin(), objectives.end(), 7.0), 1);
+  PlayedBatch batch(job.ranks(), problem, 1);
+  const std::vector<Evaluation> results = batch.run();
+  ASSERT_EQ(results.size(), 1U) << batch.batch.ended.cause;
+  EXPECT_EQ(results[0].objective, 7.0);
+  EXPECT_TRUE(job.ranks()->lost().ok());
 }
 
 TEST(Dispatcher, AfterACancelARankThatDoesNotAnswerCountsAsLost) {
   const Problem problem = block("");
   for (const bool answers : {false, true}) {
     std::atomic<bool> cancel{false};
-    // So many tasks that the other rank gets one even if it is slow, and that the batch does not
-    // end before that rank is pinged.
-    const auto part = [answers, &cancel](MessageKind kind, std::uint64_t number) {
+    TestClock clock;
+    const auto part = [&](MessageKind kind, std::uint64_t number) -> std::optional<std::string> {
       if (kind == MessageKind::kTask) cancel = true;
-      return answers && kind == MessageKind::kPing
-                 ? std::optional<std::string>(write_numbered(MessageKind::kPong, number))
-                 : std::nullopt;
+      if (kind != MessageKind::kPing) return std::nullopt;
+      if (answers) return write_numbered(MessageKind::kPong, number);
+      // The time for an answer passes, and not that after which a silent rank is lost for good.
+      clock.move(400);
+      return std::nullopt;
     };
-    PlayedJob job(own_hello(), part, answers ? patient_times() : RankTimes{});
+    PlayedJob job(own_hello(), part, clock.times());
     job.wait_for_hello();
-    // Rank 0 may be at a task of its own when the cancel comes; that one is cancelled in either
-    // case.
-    bool has_lost = false;
-    for (const Evaluation& one :
-         MpiEngine(job.ranks(), problem).evaluate(equal_tasks(problem, 100), &cancel))
-      has_lost = has_lost || one.status.code == StatusCode::kWorkerLost;
-    EXPECT_EQ(has_lost, !answers);
+    PlayedBatch batch(job.ranks(), problem, 1, &cancel);
+    EXPECT_TRUE(batch.run().empty());
+    EXPECT_EQ(batch.batch.ended.code, answers ? StatusCode::kCancelled : StatusCode::kWorkerLost);
     EXPECT_TRUE(job.ranks()->lost().ok()) << "it may have been busy otherwise";
   }
 }
@@ -158,9 +194,9 @@ TEST(Dispatcher, AConnectionThatFailsIsNamed) {
   MailTransport transport(&mail, 0);
   transport.failure_ = "the cable is cut";
   Dispatcher dispatcher(&transport);
-  EXPECT_EQ(outcome_of(MpiEngine(&dispatcher, problem).evaluate(equal_tasks(problem, 400), nullptr))
-                .first.cause,
-            "the cable is cut");
+  PlayedBatch batch(&dispatcher, problem, 1);
+  EXPECT_TRUE(batch.run().empty());
+  EXPECT_EQ(batch.batch.ended.cause, "the cable is cut");
 }
 
 }  // namespace

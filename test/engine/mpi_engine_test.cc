@@ -106,8 +106,8 @@ TEST(MpiEngine, ACancelReachesEvaluationsThatRun) {
   {
     MpiEngine engine(job.ranks(), problem);
     std::atomic<bool> cancel{false};
-    std::thread canceller([&cancel] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    std::thread canceller([&] {
+      EXPECT_TRUE(comes_true([&job] { return job.taken() >= 2; })) << "both ranks compute";
       cancel = true;
     });
     for (const Evaluation& evaluation : engine.evaluate(block_tasks(problem, 9), &cancel))
@@ -120,15 +120,21 @@ TEST(MpiEngine, ACancelReachesEvaluationsThatRun) {
 }
 
 TEST(MpiEngine, AnExceptionOfAWorkerReachesTheCaller) {
-  const Problem problem = block("");
+  // Rank 0 is busy with one of the two tasks until the other rank has the other one.
+  const Problem problem = endless_block();
   const auto error =
       std::make_exception_ptr(InputError({{"block.yaml", 7}, "path", "too long", "9", "8"}));
-  PlayedJob job(own_hello(), [&error](MessageKind kind, std::uint64_t number) {
-    return kind == MessageKind::kTask ? std::optional<std::string>(write_error(number, error))
-                                      : std::nullopt;
-  });
+  std::atomic<bool> cancel{false};
+  PlayedJob job(own_hello(),
+                [&](MessageKind kind, std::uint64_t number) -> std::optional<std::string> {
+                  if (kind == MessageKind::kPing) return write_numbered(MessageKind::kPong, number);
+                  if (kind != MessageKind::kTask) return std::nullopt;
+                  cancel = true;
+                  return write_error(number, error);
+                });
+  job.wait_for_hello();
   try {
-    MpiEngine(job.ranks(), problem).evaluate(block_tasks(problem, 50), nullptr);
+    MpiEngine(job.ranks(), problem).evaluate(block_tasks(problem, 2), &cancel);
     ADD_FAILURE() << "no exception";
   } catch (const InputError& caught) {
     EXPECT_STREQ(caught.what(), "block.yaml:7: path: too long (value: 9, allowed: 8)");
@@ -224,8 +230,12 @@ class OrphanTest : public RankWorkerTest {
   OrphanTest() : RankWorkerTest(times()) {}
   static RankTimes times() {
     RankTimes times;
-    times.sign = std::chrono::milliseconds(20);
-    times.orphaned = std::chrono::milliseconds(600);
+    times.sign = std::chrono::milliseconds(500);
+    times.orphaned = std::chrono::seconds(5);
+    // A clock that goes on whenever it is read.
+    times.now = [passed = std::make_shared<std::atomic<int>>(0)] {
+      return PollPause::Clock::time_point(std::chrono::milliseconds(*passed += 20));
+    };
     return times;
   }
 };

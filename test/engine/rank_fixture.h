@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include "engine/dispatcher.h"
 #include "engine/mpi_engine.h"
 #include "mechanism_codesign/version.h"
+#include "patience.h"
 
 namespace codesign {
 
@@ -32,12 +34,16 @@ class Mail {
     if (box.empty()) return std::nullopt;
     Envelope first = std::move(box.front());
     box.pop_front();
+    if (ByteReader(first.bytes).get<MessageKind>() == MessageKind::kTask) ++taken_;
     return first;
   }
+  /// How many tasks the ranks have taken out of their boxes.
+  int taken() const { return taken_; }
 
  private:
   std::mutex mutex_;
   std::vector<std::deque<Envelope>> boxes_;
+  std::atomic<int> taken_{0};
 };
 
 class MailTransport final : public Transport {
@@ -59,7 +65,7 @@ class MailTransport final : public Transport {
 /// Times of a job whose ranks all live, however busy the machine is.
 inline RankTimes patient_times() {
   RankTimes times;
-  times.silence = times.orphaned = times.goodbye = times.answer = std::chrono::seconds(60);
+  times.silence = times.orphaned = times.goodbye = times.answer = kPatience;
   return times;
 }
 
@@ -82,6 +88,7 @@ class RankJob {
   RankJob(const RankJob&) = delete;
   RankJob& operator=(const RankJob&) = delete;
   Dispatcher* ranks() { return &*dispatcher_; }
+  int taken() const { return mail_.taken(); }
 
  private:
   Mail mail_;
@@ -118,7 +125,7 @@ class PlayedJob {
 
  private:
   static RankTimes without_goodbye(RankTimes times) {
-    times.goodbye = std::chrono::milliseconds(20);
+    times.goodbye = std::chrono::seconds(0);
     return times;
   }
   void play() {

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <set>
 #include <string>
 
 #include "description/study.h"
+#include "edited_text.h"
 #include "ensemble/ensemble_fixture.h"
 #include "integration/mechanisms.h"
 #include "paths.h"
@@ -54,14 +54,14 @@ Problem geared_arm(const std::string& ensemble) {
   };
   return load_problem(
       {"arm.urdf",
-       robot(parameter("eta", "0.8") + parameter("k", "300") + parameter("rub", "0.02") +
-             parameter("mass", "1") +
-             std::regex_replace(bar("bar"), std::regex("<mass value='1'"),
-                                "<mass value='1' codesign:value='${mass}'") +
-             hinge("hinge", "ground", "bar", "0 0 0",
-                   "<codesign:actuator gear_ratio='20' rotor_inertia='1e-3' efficiency='0.8' "
-                   "codesign:efficiency='${eta}' stiffness='300' codesign:stiffness='${k}' "
-                   "coulomb='0.02' codesign:coulomb='${rub}' transition_velocity='0.1'/>"))},
+       robot(
+           parameter("eta", "0.8") + parameter("k", "300") + parameter("rub", "0.02") +
+           parameter("mass", "1") +
+           replaced_all(bar("bar"), "<mass value='1'", "<mass value='1' codesign:value='${mass}'") +
+           hinge("hinge", "ground", "bar", "0 0 0",
+                 "<codesign:actuator gear_ratio='20' rotor_inertia='1e-3' efficiency='0.8' "
+                 "codesign:efficiency='${eta}' stiffness='300' codesign:stiffness='${k}' "
+                 "coulomb='0.02' codesign:coulomb='${rub}' transition_velocity='0.1'/>"))},
       {},
       {"arm.yaml",
        "duration: 0.5\ninitial_state: {hinge: {position: 0.8}}\nparameters: {p: {initial: 15.0}, "

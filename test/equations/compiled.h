@@ -19,26 +19,17 @@ struct Compiled {
 
   /// @param sharing of redundant constraints, see CompiledSystem; planar loops need some, or at
   /// least compliance.
-  Compiled(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {})
-      : Compiled(read_urdf({"test.urdf", urdf}), study, sharing) {}
-  Compiled(const RobotDescription& robot, const std::string& study, const ReactionSharing& sharing)
-      : system(robot, read_study({"test.yaml", study}, robot), sharing),
-        equations(system),
-        assembly(system) {}
+  Compiled(const std::string& urdf, const std::string& study, const ReactionSharing& sharing = {});
+  Compiled(const RobotDescription& robot, const std::string& study, const ReactionSharing& sharing);
+  ~Compiled();
 
   /// Assembles the start of a design.
-  Status start(const std::vector<double>& parameters) {
-    equations.set_design(parameters);
-    return assembly.solve(parameters, &equations, &state);
-  }
-  Status start() { return start(system.parameters()); }
+  Status start(const std::vector<double>& parameters);
+  Status start();
 };
 
 /// A study that only sets the mechanism going.
-inline std::string let_go(const std::string& initial, const std::string& signal,
-                          const std::string& more = "") {
-  return "duration: 1.0\ninitial_state: " + initial +
-         "\nobjective: {integral: [{signal: " + signal + "}]}\n" + more;
-}
+std::string let_go(const std::string& initial, const std::string& signal,
+                   const std::string& more = "");
 
 }  // namespace codesign

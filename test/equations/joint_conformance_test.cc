@@ -2,13 +2,13 @@
 // The same tests for every kind of joint, in the tree and as a loop, and for couplings.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <complex>
 
 #include "assembly/redundancy.h"
 #include "equations/formulas.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
+#include "math/dense.h"
 #include "math/differences.h"
 
 namespace codesign {
@@ -56,9 +56,7 @@ class JointConformance : public ::testing::TestWithParam<JointCase> {
 
 TEST_P(JointConformance, RowsAreAsManyAsTheJointTakesFreedoms) {
   EXPECT_EQ(layout().m, GetParam().rows + layout().bodies);
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(Phi_q);
-  lu.setThreshold(1e-9);
-  EXPECT_EQ(lu.rank(), layout().m);
+  EXPECT_EQ(pivot_columns(Phi_q, 1e-9).rank, layout().m);
   EXPECT_TRUE(analyse_redundancy(c.system, &c.equations, c.assembly, c.system.parameters(), c.state)
                   .rows.empty());
 }
@@ -75,7 +73,7 @@ TEST_P(JointConformance, PhiQIsTheJacobianOfPhi) {
   // along motions that the joint allows.
   Eigen::MatrixXd rigid(own + layout().bodies, layout().n);
   rigid << Phi_q.topRows(own), Phi_q.bottomRows(layout().bodies);
-  const Eigen::MatrixXd motions = Eigen::FullPivLU<Eigen::MatrixXd>(rigid).kernel();
+  const Eigen::MatrixXd motions = orthogonal_complement(rigid.transpose(), 1e-9);
   const int couplings = layout().couplings;
   EXPECT_LT(compare_jacobians(Phi_q.middleRows(own, couplings) * motions,
                               reference.middleRows(own, couplings) * motions)

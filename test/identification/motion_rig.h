@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 #include <vector>
 
@@ -14,27 +13,10 @@
 namespace codesign {
 
 /// A pendulum whose inertia, damping and dry friction are parameters.
-inline std::string motion_pendulum() {
-  return R"(<robot name="pendulum" xmlns:codesign="https://mechanism-codesign.org">
-  <codesign:parameter name="inertia" value="0.1" lower="0.001" upper="5"/>
-  <codesign:parameter name="viscous" value="0.1" lower="0" upper="10"/>
-  <codesign:parameter name="dry" value="0.2" lower="0" upper="10"/>
-  <link name="base"/>
-  <link name="bar"><inertial><origin xyz="0 0 -0.3"/><mass value="2"/>
-    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0" codesign:ixx="${inertia}" codesign:iyy="${inertia}" codesign:izz="${inertia}"/>
-  </inertial></link>
-  <joint name="hinge" type="continuous"><parent link="base"/><child link="bar"/><axis xyz="0 1 0"/>
-    <dynamics damping="0.1" friction="0.2" codesign:damping="${viscous}" codesign:friction="${dry}"/></joint>
-</robot>)";
-}
+std::string motion_pendulum();
 
 /// The blocks of a study that drive the pendulum.
-inline std::string motion_servo() {
-  return "initial_state: {hinge: {position: 0.3, velocity: 0.5}}\n"
-         "controllers: {servo: {type: pid, input: hinge/position, setpoint: {type: sine, "
-         "amplitude: 1.2, frequency: 0.6}, output: hinge, "
-         "gains: {p: 20.0, i: 4.0, d: 2.0}}}\n";
-}
+std::string motion_servo();
 
 /// The recording of `joint` on a rig in a run of `study`, at `rate` samples per second, with normal
 /// noise on positions and velocities.
@@ -45,52 +27,16 @@ struct MotionRig {
 
   /// @param changes values of parameters that differ from the model
   JointRecording record(const Problem& problem, const std::string& joint,
-                        const std::vector<double>& parameters) const {
-    Simulation simulation(problem, parameters,
-                          {joint + "/position", joint + "/velocity", joint + "/effort"});
-    JointRecording recording;
-    recording.file = "data.csv";
-    recording.element = "identify.data[0]";
-    recording.where = {"study.yaml", 2};
-    JointSamples samples{joint, {}, {}, {}};
-    std::mt19937 random(5);
-    std::normal_distribution<double> normal;
-    const Status status = simulate(
-        &simulation, duration, static_cast<int>(duration * rate) + 1, [&](const Frame& frame) {
-          recording.times.push_back(frame.time + begin);
-          recording.places.push_back(recording.times.size());
-          samples.position.push_back(frame.signals[0] + noise * normal(random));
-          if (with_velocity)
-            samples.velocity.push_back(frame.signals[1] + 5.0 * noise * normal(random));
-          if (with_effort) samples.effort.push_back(frame.signals[2]);
-          return true;
-        });
-    EXPECT_TRUE(status.ok()) << status.cause;
-    recording.joints = {samples};
-    return recording;
-  }
+                        const std::vector<double>& parameters) const;
 };
 
 /// A problem of the pendulum that identifies in motion. @param blocks of the study beside
 /// `identify` and `parameters`
-inline Problem motion_problem(const std::string& blocks, const std::string& identify,
-                              const std::string& parameters) {
-  return load_problem(
-      {"pendulum.urdf", motion_pendulum()}, {},
-      {"study.yaml",
-       blocks + "identify:\n  data: [{csv: data.csv}]\n  residual: motion\n" + identify +
-           "parameters: {" + parameters +
-           "}\noptimizer: {algorithm: levenberg_marquardt, relative_tolerance: 1.0e-10}\n"});
-}
+Problem motion_problem(const std::string& blocks, const std::string& identify,
+                       const std::string& parameters);
 
 /// The recording of a pendulum with other parameters than the model's: inertia 0.2, viscous 0.3,
 /// dry 0.5.
-inline JointRecording record_pendulum(const MotionRig& rig) {
-  const Problem truth = load_problem(
-      {"pendulum.urdf", motion_pendulum()}, {},
-      {"truth.yaml", "duration: 6.0\n" + motion_servo() +
-                         "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n"});
-  return rig.record(truth, "hinge", {0.2, 0.3, 0.5});
-}
+JointRecording record_pendulum(const MotionRig& rig);
 
 }  // namespace codesign

@@ -1,6 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Linkages whose loop is held in its plane, identified from the motor of their crank alone.
-#include <regex>
 
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"

@@ -16,37 +16,7 @@ namespace codesign {
 
 /// The study's run with some parameters at other values, as sensors without errors record it:
 /// positions and efforts at equal steps.
-inline JointRecording record_run(const Problem& problem, const std::map<std::string, double>& truth,
-                                 const std::vector<std::string>& joints, double rate) {
-  std::vector<double> parameters;
-  for (const Parameter& parameter : study_of(problem).parameters) {
-    const auto found = truth.find(parameter.name);
-    parameters.push_back(found == truth.end() ? parameter.value : found->second);
-  }
-  std::vector<std::string> signals;
-  JointRecording recording;
-  recording.file = "run.csv";
-  recording.element = "identify.data[0]";
-  recording.where = {"study.yaml", 2};
-  for (const std::string& joint : joints) {
-    signals.push_back(joint + "/position");
-    signals.push_back(joint + "/effort");
-    recording.joints.push_back({joint, {}, {}, {}});
-  }
-  Simulation simulation(problem, parameters, signals);
-  const double duration = study_of(problem).duration;
-  const Status status = simulate(&simulation, duration, static_cast<int>(duration * rate + 0.5) + 1,
-                                 [&](const Frame& frame) {
-                                   recording.times.push_back(frame.time);
-                                   recording.places.push_back(recording.times.size() + 1);
-                                   for (std::size_t k = 0; k < joints.size(); ++k) {
-                                     recording.joints[k].position.push_back(frame.signals[2 * k]);
-                                     recording.joints[k].effort.push_back(frame.signals[2 * k + 1]);
-                                   }
-                                   return true;
-                                 });
-  EXPECT_TRUE(status.ok()) << status.cause;
-  return recording;
-}
+JointRecording record_run(const Problem& problem, const std::map<std::string, double>& truth,
+                          const std::vector<std::string>& joints, double rate);
 
 }  // namespace codesign

@@ -10,17 +10,7 @@
 namespace codesign {
 
 /// Assembles a system and takes a span in `count` equal steps.
-inline void take_equal_steps(const CompiledSystem& system, double span, int count,
-                             RosenbrockStep<double>* step) {
-  Assembly assembly(system);
-  State<double> initial;
-  step->equations().set_design(system.parameters());
-  EXPECT_TRUE(assembly.solve(system.parameters(), &step->equations(), &initial).ok());
-  step->start(initial);
-  for (int k = 0; k < count; ++k) {
-    EXPECT_TRUE(step->attempt(span / count));
-    EXPECT_TRUE(step->accept());
-  }
-}
+void take_equal_steps(const CompiledSystem& system, double span, int count,
+                      RosenbrockStep<double>* step);
 
 }  // namespace codesign

@@ -3,11 +3,11 @@
 // McPhee's law, and properties that only they have.
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <tuple>
 
 #include "assembly/make_system.h"
 #include "description/study.h"
+#include "edited_text.h"
 #include "integration/mechanisms.h"
 #include "integration/simulation_of.h"
 #include "mechanism_codesign/simulation.h"
@@ -88,9 +88,8 @@ TEST(FrictionModels, BristlesHoldWhereASmoothCurveCreeps) {
 TEST(FrictionModels, GonthiersContactMustRestToHold) {
   // tan(0.33) = 0.343 lies between mu_d and mu_s: it slips at once, when it has not rested yet.
   // LuGre's has no memory of that and holds, if it is damped enough not to overshoot.
-  const std::string damped =
-      std::regex_replace(block(0.33), std::regex("mu_static"),
-                         "bristle_stiffness='1e5' bristle_damping='150' mu_static");
+  const std::string damped = replaced_all(
+      block(0.33), "mu_static", "bristle_stiffness='1e5' bristle_damping='150' mu_static");
   const Series slips = run(with_friction_model(damped, "gonthier"), 1.0, "{}",
                            {"plane/sliding_velocity"}, kLooseRosenbrock, 2);
   const Series holds = run(with_friction_model(damped, "lugre"), 1.0, "{}",

@@ -8,8 +8,6 @@
 
 #include <urdf_parser/urdf_parser.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <filesystem>
 #include <kdl/frames.hpp>
 #include <kdl/tree.hpp>
@@ -20,6 +18,7 @@
 #include "description/study.h"
 #include "equations/compiled_system.h"
 #include "integration/simulation_of.h"
+#include "math/dense.h"
 #include "mechanism/topology.h"
 #include "mechanism_codesign/simulation.h"
 #include "paths.h"
@@ -108,8 +107,7 @@ class KdlReference {
     }
     const Eigen::VectorXd scale = M.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
-    return scale.asDiagonal() *
-           scaled.fullPivLu().solve(Eigen::VectorXd(-(scale.asDiagonal() * bias)));
+    return scale.asDiagonal() * solve_positive_definite(scaled, -(scale.asDiagonal() * bias));
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/count_equations.h"
+#include "edited_text.h"
 #include "integration/driven_slides.h"
 #include "integration/planar_linkages.h"
 #include "integration/servo.h"
@@ -148,9 +149,8 @@ TEST(PlanarLoops, TheTreeCarriesWhatActsOutOfThePlane) {
       // the loop
       0.0, 0.0, 0.5 * weight, 0.0, 0.0, 0.0};
   for (const char* coordinates : {"joint", "absolute"}) {
-    const std::string chosen =
-        std::regex_replace(study, std::regex("solver: \\{\\}"),
-                           std::string("solver: {coordinates: ") + coordinates + "}");
+    const std::string chosen = replaced_all(
+        study, "solver: \\{\\}", std::string("solver: {coordinates: ") + coordinates + "}");
     const auto found = run(held_in_plane(offset_four_bar(kCentre, kPin)), chosen, signals);
     for (std::size_t k = 0; k < signals.size(); ++k)
       EXPECT_NEAR(found[0][k], expected[k], 1e-9) << signals[k] << " in " << coordinates;
@@ -158,8 +158,8 @@ TEST(PlanarLoops, TheTreeCarriesWhatActsOutOfThePlane) {
 }
 
 TEST(PlanarLoops, FrictionIsThatOfSharedLoopsWhereNothingActsOutOfThePlane) {
-  const std::string ring = std::regex_replace(four_bar(pin_friction()), std::regex("</loop>"),
-                                              std::string(pin_friction()) + "</loop>");
+  const std::string ring =
+      replaced_all(four_bar(pin_friction()), "</loop>", std::string(pin_friction()) + "</loop>");
   const std::vector<std::string> of_ring = {"left_hinge/friction", "right_pin/friction",
                                             "right_pin/normal_force", "left_hinge/position"},
                                  of_block = {"slide/friction", "slide/normal_force",

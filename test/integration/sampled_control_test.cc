@@ -2,12 +2,12 @@
 // Sampled controllers on a double integrator, whose motion between samples is known exactly.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
 #include "integration/servo.h"
 #include "integration/simulation_of.h"
+#include "math/dense.h"
 
 namespace codesign {
 namespace {
@@ -61,7 +61,9 @@ Eigen::MatrixXd closed_loop(double p, double d, int wait) {
   return A;
 }
 
-double spectral_radius(const Eigen::MatrixXd& A) { return A.eigenvalues().cwiseAbs().maxCoeff(); }
+double spectral_radius(const Eigen::MatrixXd& A) {
+  return general_eigen(A).values.cwiseAbs().maxCoeff();
+}
 
 /// The largest stable p of the loop without delay, by Jury's criterion for z^3 + (a + b - 2) z^2 +
 /// (1 + a) z - b with a = p T^2/2 and b = d T/2: a < 2 b (1 - b)/(1 + b). (Astrom and Wittenmark,

@@ -136,17 +136,30 @@ TEST_F(Locks, AFolderThatIsMissingIsAnOutputError) {
 
 TEST_F(Locks, OfManyProcessesEachGetsAnother) {
   constexpr int kProcesses = 16;
+  // Each says that it has its lock, and keeps it until all have one.
+  int has_lock[2], all_have[2];
+  ASSERT_EQ(pipe(has_lock), 0);
+  ASSERT_EQ(pipe(all_have), 0);
   for (int k = 0; k < kProcesses; ++k) {
     if (fork() != 0) continue;
+    close(all_have[1]);
     for (int number = 0;; ++number) {
       const auto lock = LockFile::create(path_ + std::to_string(number));
       if (!lock) continue;
       std::ofstream((directory_.path() / "log").string() + std::to_string(number), std::ios::app)
           << "x";
-      usleep(200000);
-      _exit(0);
+      char byte = 'x';
+      const bool is_told = write(has_lock[1], &byte, 1) == 1;
+      _exit(is_told && read(all_have[0], &byte, 1) == 0 ? 0 : 1);
     }
   }
+  char bytes[kProcesses];
+  for (int told = 0; told < kProcesses;) {
+    const ssize_t count = read(has_lock[0], bytes, sizeof bytes);
+    ASSERT_GT(count, 0);
+    told += static_cast<int>(count);
+  }
+  for (const int end : {has_lock[0], has_lock[1], all_have[0], all_have[1]}) close(end);
   for (int k = 0; k < kProcesses; ++k) waitpid(-1, nullptr, 0);
   for (int number = 0; number < kProcesses; ++number)
     EXPECT_EQ(

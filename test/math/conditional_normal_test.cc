@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include "math/dense.h"
 
 namespace codesign {
 namespace {
@@ -11,9 +11,9 @@ namespace {
 /// The covariance that the conditional distributions make together: x - m = slopes (x - m) + e.
 Eigen::MatrixXd composed(const ConditionalNormal& normal) {
   const Eigen::Index size = normal.slopes.rows();
-  const Eigen::MatrixXd root = (Eigen::MatrixXd::Identity(size, size) - normal.slopes).inverse() *
-                               normal.deviations.asDiagonal().toDenseMatrix();
-  return root * root.transpose();
+  const Eigen::MatrixXd root = least_norm(Eigen::MatrixXd::Identity(size, size) - normal.slopes)
+                                   .solve(normal.deviations.asDiagonal());
+  return product(root, root.transpose());
 }
 
 TEST(ConditionalNormal, OfTwoNumbersByHand) {

@@ -20,6 +20,11 @@ const char* pmi(const char* name) {
          : std::strcmp(name, "PMI_SIZE") == 0 ? "5"
                                               : nullptr;
 }
+const char* timeout(const char* name, const char* seconds) {
+  return std::strcmp(name, "OMPI_MCA_odls_base_sigkill_timeout") == 0 ? seconds : nullptr;
+}
+const char* ten_seconds(const char* name) { return timeout(name, "10"); }
+const char* no_number(const char* name) { return timeout(name, "soon"); }
 
 TEST(Launcher, IsFoundByItsEnvironment) {
   EXPECT_FALSE(find_launcher(nothing).has_value());
@@ -28,6 +33,12 @@ TEST(Launcher, IsFoundByItsEnvironment) {
   EXPECT_EQ(find_launcher(pmix)->rank, 2);
   EXPECT_EQ(find_launcher(pmix)->ranks, 0) << "it does not say";
   EXPECT_EQ(find_launcher(pmi)->ranks, 5);
+}
+
+TEST(Launcher, TellsHowLongRanksLiveAfterALoss) {
+  EXPECT_FALSE(seconds_to_end(nothing).has_value());
+  EXPECT_EQ(seconds_to_end(ten_seconds), 10.0);
+  EXPECT_FALSE(seconds_to_end(no_number).has_value());
 }
 
 }  // namespace

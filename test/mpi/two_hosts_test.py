@@ -6,10 +6,12 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "test"))
+from patience import PATIENCE, wait_until  # noqa: E402
+
 TWO_HOSTS = os.path.join(ROOT, "tools", "two_hosts")
 MODEL = os.path.join(ROOT, "urdf", "slider_crank.urdf")
 CODESIGN, MPIRUN = "codesign", "mpirun"
@@ -60,7 +62,7 @@ class TwoHostsTest(unittest.TestCase):
         return [TWO_HOSTS, MPIRUN, "-n", str(ranks), *words]
 
     def run_job(self, words):
-        return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
+        return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=2 * PATIENCE)
 
     def test_both_hosts_have_ranks(self):
         names = self.run_job(self.on_hosts(["hostname"])).stdout.split()
@@ -73,15 +75,12 @@ class TwoHostsTest(unittest.TestCase):
         self.assertEqual(without_times(self.path("spread", "result.json")), without_times(self.path("alone", "result.json")))
 
     def test_a_host_that_vanishes_is_missed_and_the_job_goes_on_without_it(self):
-        begin = time.monotonic()
         job = subprocess.Popen(self.on_hosts(self.job("--output", "cut", duration=0.5)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                text=True)
         journal = self.path("cut", "journal.jsonl")
-        while not os.path.exists(journal) or os.path.getsize(journal) < 4000:
-            self.assertLess(time.monotonic() - begin, 60, "no evaluation")
-            time.sleep(0.01)
+        wait_until(lambda: os.path.exists(journal) and os.path.getsize(journal) >= 4000, "no evaluation", pause=0.01)
         subprocess.run(["ip", "-n", f"two_hosts_beta_{job.pid}", "link", "set", "cable", "down"], check=True)
-        output = job.communicate(timeout=120)[0]
+        output = job.communicate(timeout=PATIENCE)[0]
         self.assertNotEqual(job.returncode, 0)
         # Either rank 0 notices it first, by the silence, or mpirun, which then interrupts the job.
         self.assertRegex(output, r"rank [23] of 4 on host beta (has said nothing|does not answer)")

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
 #include "ensemble/ensemble_fixture.h"
+#include "math/dense.h"
 
 namespace codesign {
 namespace {
@@ -177,7 +176,7 @@ TEST(SmoothProgram, ShapeCoefficientsReachTheLinearForceOfAQuadraticObjective) {
   const Eigen::Vector2d x(1.0 / 2.0, 1.0 / 6.0), v(1.0, 1.0 / 2.0);
   Eigen::Matrix2d hessian = a * x * x.transpose() + b * v * v.transpose();
   hessian += r * (Eigen::Matrix2d() << 1.0, 1.0 / 2.0, 1.0 / 2.0, 1.0 / 3.0).finished();
-  const Eigen::Vector2d c = hessian.ldlt().solve(a * 0.5 * x);
+  const Eigen::Vector2d c = solve_positive_definite(hessian, a * 0.5 * x);
   const double optimum = a * 0.25 - a * 0.5 * x.dot(c);
   for (const char* algorithm : {"auto", "lbfgs", "slsqp"}) {
     const SourceText study{"cart.yaml", R"(

@@ -34,12 +34,14 @@ TEST(Margins, AConstraintThatNoDesignMeetsIsDoubted) {
   expect_warning("{expression: \"${(Kp + 1)/(Kd + 1)}\", at_least: 202}");
   expect_warning("\"Kp*mass >= 500\"");
   expect_warning("\"mass >= 3\"");
+  expect_warning("\"sqrt(Kp) >= 15\"");
+  expect_warning("\"min(Kp, Kd**2) >= 201\"");
   EXPECT_TRUE(
       warnings_of("\"Kp + Kd >= 250\", {expression: \"${Kp - 2*Kd}\", at_most: -100}").empty());
   EXPECT_TRUE(warnings_of("\"Kp*mass >= 500\"", "", ", mass: {}").empty());
   EXPECT_TRUE(warnings_of("\"mass >= 3\"", "runs: {a: {set: {mass: 4}}}\n").empty())
       << "a run has another value";
-  EXPECT_TRUE(warnings_of("\"sqrt(Kp) >= 15\"").empty()) << "not known cheaply";
+  EXPECT_TRUE(warnings_of("\"sqrt(Kp - 1) >= 15\"").empty()) << "of Kp = 0 there is no root";
 }
 
 TEST(Margins, WhatCountsAsMetFollowsFromTheMagnitude) {

@@ -5,12 +5,15 @@ import os
 import re
 import subprocess
 import sys
+import threading
 
 import numpy as np
 
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 CODESIGN = os.environ["CODESIGN"]
+sys.path.insert(0, os.path.join(ROOT, "test"))
+from patience import PATIENCE, wait_until  # noqa: E402,F401
 
 PENDULUM = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
@@ -46,6 +49,37 @@ FIT = "duration: 4.0\nparameters: {mass: {}, viscous: {}}\n"
 FREE = re.sub("<codesign:friction[^>]*>", "", PENDULUM)
 LONG = SWING.replace("duration: 2.0", "duration: 1.0e+6").replace("position: 1.0", "velocity: 20.0") + (
     "solver: {method: rodas5p, relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11, maximum_steps: 1000000000}\n")
+
+
+class Asked(threading.Event):
+    """An event that counts its answers since it is set."""
+
+    def __init__(self):
+        super().__init__()
+        self.answers = 0
+
+    def is_set(self):
+        self.answers += super().is_set()
+        return super().is_set()
+
+    def set_and_seen(self):
+        """Sets it, and returns when a search has acted upon it: before it asks again."""
+        self.set()
+        first = self.answers
+        wait_until(lambda: self.answers >= first + 2, "nobody asks the event")
+
+
+def processor_time(process):
+    """Of all threads of a process so far [s]."""
+    with open(f"/proc/{process}/stat", encoding="utf-8") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
+
+
+def wait_for_computing(process, seconds):
+    """Returns when a process has computed for so many seconds of processor time from now on."""
+    begin = processor_time(process)
+    wait_until(lambda: processor_time(process) >= begin + seconds, "it does not compute")
 
 
 def case(name):

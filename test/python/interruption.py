@@ -1,12 +1,11 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """How soon a call ends behind Ctrl-C or its event, measured in a process of its own: for a test and for benchmark/python_calls.py."""
-import os
 import signal
 import subprocess
 import sys
 import time
 
-from fixture import ARM, FIT, FREE, LONG
+from fixture import ARM, FIT, FREE, LONG, processor_time, wait_for_computing
 
 # A recording whose preparation alone takes a while, with the torque of the arm of `fixture.recorded`.
 RECORDING = """
@@ -44,20 +43,13 @@ os._exit(0)
 """
 
 
-def processor_time(process):
-    """Of all its threads so far [s]."""
-    with open(f"/proc/{process}/stat", encoding="utf-8") as file:
-        fields = file.read().rpartition(")")[2].split()
-    return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
-
-
 def latency(call, after, by_event=False):
     """How `call` ends, and how long after SIGINT, or after its event was set, which come `after` seconds of computing: (end, time, processor time) [s]."""
     model, study, before, text = CALLS[call]
     program = PROGRAM.format(model=model, study=study, before=before, call=text)
     with subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
         assert child.stdout.readline() == "ready\n"
-        time.sleep(after)
+        wait_for_computing(child.pid, after)
         begin, spent = time.monotonic(), processor_time(child.pid)
         if by_event:
             child.stdin.write("\n")

@@ -9,7 +9,7 @@ import sys
 import threading
 import unittest
 
-from fixture import FREE, LONG, PENDULUM, SWING
+from fixture import FREE, LONG, PATIENCE, PENDULUM, SWING, wait_for_computing
 from interruption import CALLS, WITH_EVENT, latency
 
 import mechanism_codesign as codesign
@@ -53,17 +53,22 @@ except KeyboardInterrupt:
         with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
             self.assertEqual(child.stdout.readline(), "ready\n")
             child.send_signal(signal.SIGINT)
-            self.assertEqual(child.communicate(timeout=60)[0], "interrupted\n")
+            self.assertEqual(child.communicate(timeout=PATIENCE)[0], "interrupted\n")
 
     def test_a_handler_that_raises_nothing_ends_the_call_as_cancelled(self):
         seen = []
         before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
         self.addCleanup(signal.signal, signal.SIGINT, before)
         problem = codesign.Problem(FREE, LONG)
-        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
+
+        def interrupt():
+            wait_for_computing(os.getpid(), 0.3)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
         self.assertEqual(problem.optimize().status.code, "cancelled")
-        timer.join()
+        thread.join()
         self.assertEqual(seen, [signal.SIGINT])
         self.assertIsNotNone(codesign.Problem(PENDULUM, SWING).gradient(), "the next call begins anew")
         os.kill(os.getpid(), signal.SIGINT)

@@ -5,12 +5,11 @@ import concurrent.futures
 import os
 import tempfile
 import threading
-import time
 import unittest
 
 import numpy as np
 
-from fixture import ARM, FIT, FREE, LONG, PENDULUM, SWING, command_line, recorded
+from fixture import ARM, Asked, FIT, FREE, LONG, PENDULUM, SWING, command_line, recorded
 
 import mechanism_codesign as codesign
 
@@ -87,12 +86,11 @@ class Optimization(Files):
         self.assertFalse(os.path.exists(self.path("job")))
 
     def test_an_event_ends_it_with_the_best_point(self):
-        event = threading.Event()
+        event = Asked()
 
         def progress(trial):
             if isinstance(trial, codesign.Trial) and trial.evaluation == 3:
-                event.set()
-                time.sleep(0.2)  # the event is asked every 50 ms
+                event.set_and_seen()
 
         result = codesign.Problem(PENDULUM, SWING).optimize(progress, event)
         self.assertEqual((result.status.code, result.termination), ("cancelled", "cancelled"))
@@ -147,9 +145,8 @@ class Optimization(Files):
             raise ZeroDivisionError("mine")
 
         def progress(trial):
-            event = threading.Event()
-            event.set()
-            ends.append(problem.optimize(lambda trial: time.sleep(0.1), event).status.code)
+            event = Asked()
+            ends.append(problem.optimize(lambda trial: event.set_and_seen(), event).status.code)
             try:
                 problem.optimize(fail)
             except ZeroDivisionError as error:
@@ -183,7 +180,7 @@ class Threads(unittest.TestCase):
                 counted.append(len(counted))
                 if len(counted) == 1000:
                     event.set()  # which ends the search
-                time.sleep(0)
+                os.sched_yield()
 
         thread = threading.Thread(target=count)
         thread.start()

@@ -3,23 +3,21 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <string>
 #include <vector>
 
+#include "edited_text.h"
 #include "paths.h"
 
 namespace codesign {
 
 inline std::vector<std::string> split_at(const std::string& text, const std::string& separator) {
-  const std::regex pattern(separator);
-  return {std::sregex_token_iterator(text.begin(), text.end(), pattern, -1), {}};
+  return matches_in(text, separator, -1);
 }
 
 /// The texts in backticks.
 inline std::vector<std::string> quoted_in(const std::string& cell) {
-  static const std::regex kQuoted("`([^`]+)`");
-  return {std::sregex_token_iterator(cell.begin(), cell.end(), kQuoted, 1), {}};
+  return matches_in(cell, "`([^`]+)`", 1);
 }
 
 /// A row of a table of keys in doc/: "| `solver.initial_step`, `.maximum_step` | sentence | 0 |".

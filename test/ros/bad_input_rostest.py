@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """With bad input the nodes stay up, and services, action and diagnostics report the error."""
+import os
+import sys
 import threading
 import unittest
 
@@ -10,7 +12,8 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from mechanism_codesign.srv import Evaluate, EvaluateRequest, Optimize, OptimizeRequest
 
-TIMEOUT = 60.0
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from node_process import PATIENCE, wait_until  # noqa: E402
 
 
 class BadInputTest(unittest.TestCase):
@@ -25,13 +28,13 @@ class BadInputTest(unittest.TestCase):
                     found.set()
 
         subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, receive)
-        self.assertTrue(found.wait(TIMEOUT), f"{node} reports no error")
+        self.assertTrue(found.wait(PATIENCE), f"{node} reports no error")
         subscriber.unregister()
         return sentences[0]
 
     def test_services_say_what_is_wrong(self):
         for name, service, request in (("optimize", Optimize, OptimizeRequest()), ("evaluate", Evaluate, EvaluateRequest())):
-            rospy.wait_for_service(name, TIMEOUT)
+            rospy.wait_for_service(name, PATIENCE)
             reply = rospy.ServiceProxy(name, service)(request)
             self.assertFalse(reply.success)
             self.assertEqual(reply.code, "bad_input")
@@ -45,7 +48,7 @@ class BadInputTest(unittest.TestCase):
     def test_nodes_are_up(self):
         self.wait_for_error("simulation")
         for node in ("/optimization", "/simulation"):
-            self.assertTrue(rosnode.rosnode_ping(node, max_count=1), node)
+            wait_until(lambda node=node: rosnode.rosnode_ping(node, max_count=1), f"{node} does not answer")
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from mechanism_codesign.srv import Optimize, OptimizeRequest
 from sensor_msgs.msg import JointState
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, NodesTestCase  # noqa: E402
+from node_process import PATIENCE, SHARE, NodesTestCase  # noqa: E402
 
 RUN_TOPICS = ("joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers")
 
@@ -25,7 +25,7 @@ class EnsembleTest(NodesTestCase):
 
     @classmethod
     def setUpClass(cls):
-        rospy.wait_for_service("optimize", TIMEOUT)
+        rospy.wait_for_service("optimize", PATIENCE)
         cls.result = rospy.ServiceProxy("optimize", Optimize)(OptimizeRequest())
 
     @classmethod
@@ -85,7 +85,7 @@ class EnsembleTest(NodesTestCase):
         for run, arguments in (("nominal", []), ("worst", ["run:=worst"])):
             launch = subprocess.Popen(["roslaunch", "mechanism_codesign", "replay.launch", f"bag:={self.result.bag}", "rviz:=false", *arguments])
             try:
-                played[run] = {rospy.wait_for_message("tuned/joint_states", JointState, TIMEOUT).position for _ in range(3)}
+                played[run] = {rospy.wait_for_message("tuned/joint_states", JointState, PATIENCE).position for _ in range(3)}
                 played[run + " description"] = rospy.get_param("tuned/robot_description")
             finally:
                 launch.terminate()
@@ -102,10 +102,10 @@ class EnsembleTest(NodesTestCase):
             file.write(text + "runs: {slow: {controllers: {crank_speed: {setpoint: -9.0}}}, fast: {weight: 3.0}}\nmultistart: {starts: 3, screen: 6}\n")
         self.start("optimization", "many", model="slider_crank_haug", study=study, output_directory=self.folder)
         client = actionlib.SimpleActionClient("/many/optimize", OptimizeAction)
-        self.assertTrue(client.wait_for_server(rospy.Duration(TIMEOUT)))
+        self.assertTrue(client.wait_for_server(rospy.Duration(PATIENCE)))
         numbers = set()
         client.send_goal(OptimizeGoal(), feedback_cb=lambda feedback: feedback.progress.evaluation and numbers.add(feedback.progress.search))
-        self.assertTrue(client.wait_for_result(rospy.Duration(5 * TIMEOUT)))
+        self.assertTrue(client.wait_for_result(rospy.Duration(5 * PATIENCE)))
         result = client.get_result()
         self.assertTrue(result.success, result.message)
         self.assertEqual([(scenario.run, scenario.sample, scenario.weight) for scenario in result.scenarios], [("slow", 0, 0.25), ("fast", 0, 0.75)])

@@ -14,7 +14,7 @@ from mechanism_codesign.msg import JointFriction
 from std_msgs.msg import Float64
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import TIMEOUT, wait_until  # noqa: E402
+from node_process import PATIENCE, wait_until  # noqa: E402
 from robot_node import Latest  # noqa: E402
 
 LAYOUT = os.path.join(rospkg.RosPack().get_path("mechanism_codesign"), "plotjuggler", "slider_crank.xml")
@@ -26,7 +26,8 @@ def published():
 
 class FloatTopicsTest(unittest.TestCase):
     def test_the_topics_of_the_layout_exist(self):
-        wait_until(lambda: "/signals/crank_joint/position" in published(), "no topics of numbers")
+        # The node makes them before its first frame.
+        rospy.wait_for_message("/signals/crank_joint/position", Float64, PATIENCE)
         root = xml.etree.ElementTree.parse(LAYOUT).getroot()
         curves = [curve.get("name") for curve in root.iter("curve")]
         self.assertGreaterEqual(len(curves), 6)
@@ -45,7 +46,7 @@ class FloatTopicsTest(unittest.TestCase):
         wait_until(lambda: set(wanted) <= {message.data for message in numbers.messages}, f"{wanted} are not among the numbers")
 
     def test_every_number_of_joints_and_controllers_is_there(self):
-        rospy.wait_for_message("/signals/crank_speed/output", Float64, TIMEOUT)
+        rospy.wait_for_message("/signals/crank_speed/output", Float64, PATIENCE)
         topics = published()
         for name in ("ball_joint_x/position", "crank_joint/velocity", "crank_joint/effort", "slider_joint/normal_force",
                      "slider_joint/sliding_velocity", "crank_speed/setpoint", "crank_speed/input", "crank_speed/error", "crank_speed/integral"):

@@ -11,7 +11,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import SHARE, TIMEOUT  # noqa: E402
+from node_process import PATIENCE, SHARE, wait_until  # noqa: E402
 from robot_node import Robot  # noqa: E402
 
 
@@ -24,18 +24,26 @@ class FollowTrajectoryTest(unittest.TestCase):
         cls.client = re.search(r"```python\n(.*?)```", section, re.DOTALL).group(1)
 
     def run_client(self, text):
-        done = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True, timeout=TIMEOUT, env={**os.environ, "ROS_NAMESPACE": "/robot"})
+        done = subprocess.run([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, check=True, timeout=PATIENCE, env={**os.environ, "ROS_NAMESPACE": "/robot"})
         return done.stdout
 
     def test_it_reaches_the_last_point(self):
         self.assertRegex(self.run_client(self.client), "^succeeded 0.0")
-        state = self.robot.joints.last()
-        for joint, position in (("shoulder", 1.0), ("elbow", 0.4)):
-            self.assertAlmostEqual(state.position[state.name.index(joint)], position, delta=0.1)
+        target = {"shoulder": 1.0, "elbow": 0.4}
+
+        def is_there():
+            state = self.robot.joints.last()
+            return all(abs(state.position[state.name.index(joint)] - position) < 0.1 for joint, position in target.items())
+
+        wait_until(is_there, "the arm is elsewhere")
 
     def test_a_joint_that_does_not_get_there_is_told(self):
-        self.assertEqual(self.client.count("(2.0, [1.0, 0.4])"), 1)
-        self.assertRegex(self.run_client(self.client.replace("(2.0, [1.0, 0.4])", "(1.1, [1.0, 90.0])")), "^goal tolerance violated")
+        text = self.client
+        # It is asked for 0.1 s after its begin.
+        for old, new in (("(2.0, [1.0, 0.4])", "(2.0, [1.0, 2.0])"), ("patience=1.0", "patience=-1.9")):
+            self.assertEqual(text.count(old), 1)
+            text = text.replace(old, new)
+        self.assertRegex(self.run_client(text), "^goal tolerance violated")
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ class MockGains:
     """One server. `takes(values, number)` may change the values of a request, raise, or do anything else."""
 
     def __init__(self, name_space, largest=1000.0):
-        self.requests = []  # (time, values) of each
+        self.requests = []  # the values of each
         self.takes = lambda values, number: values
         self.started = False
         self.server = Server(toolbox_type(largest), self.on_change, name_space)
@@ -44,7 +44,7 @@ class MockGains:
     def on_change(self, config, _level):
         if self.started:
             values = {name: config[name] for name in START}
-            self.requests.append((time.monotonic(), values))
+            self.requests.append(values)
             config.update(self.takes(dict(values), len(self.requests)))
         return config
 
@@ -69,12 +69,10 @@ class MockJoints:
             self.publisher.publish(self.message)
 
     def set_effort(self, joint, value):
-        """Publishes the new value at once. Returns when that was."""
+        """Publishes the new value at once."""
         with self.lock:
             self.message.effort[self.message.name.index(joint)] = value
-        moment = time.monotonic()
         self.publish()
-        return moment
 
     def run(self):
         while self.running and not rospy.is_shutdown():

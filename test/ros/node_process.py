@@ -5,18 +5,22 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
-import time
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import roslib.packages
 import rospkg
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from mechanism_codesign.srv import Evaluate, Optimize
 
-TIMEOUT = 60.0
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+from patience import PATIENCE, wait_until  # noqa: E402,F401
+
 SHARE = rospkg.RosPack().get_path("mechanism_codesign")
 
 
@@ -36,26 +40,24 @@ class Node:
         self.process = subprocess.Popen([*prefix, path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
 
     def optimize(self, request):
-        rospy.wait_for_service(f"/{self.name}/optimize", TIMEOUT)
+        rospy.wait_for_service(f"/{self.name}/optimize", PATIENCE)
         return rospy.ServiceProxy(f"/{self.name}/optimize", Optimize)(request)
 
     def evaluate(self, request):
-        rospy.wait_for_service(f"/{self.name}/evaluate", TIMEOUT)
+        rospy.wait_for_service(f"/{self.name}/evaluate", PATIENCE)
         return rospy.ServiceProxy(f"/{self.name}/evaluate", Evaluate)(request)
 
-    def end(self, kind=signal.SIGINT, timeout=20.0):
-        """Sends the signal and returns how many seconds the node took to end."""
-        start = time.monotonic()
+    def end(self, kind=signal.SIGINT):
+        """Sends the signal and returns once the node has ended."""
         if self.process.poll() is None:
             self.process.send_signal(kind)
         try:
-            self.process.wait(timeout)
+            self.process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             self.process.kill()
             raise
         if rospy.has_param(f"/{self.name}"):
             rospy.delete_param(f"/{self.name}")
-        return time.monotonic() - start
 
     def output(self):
         self.log.seek(0)
@@ -72,17 +74,17 @@ class Launch:
 
     def end(self, kind=signal.SIGINT):
         """Repeats the signal, since roslaunch may miss one while it starts."""
-        end = time.monotonic() + TIMEOUT
-        while self.process.poll() is None:
-            assert time.monotonic() < end, "roslaunch does not end"
-            self.process.send_signal(kind)
+        for _ in range(6):
+            if self.process.poll() is None:
+                self.process.send_signal(kind)
             try:
-                self.process.wait(20)
+                return self.process.wait(PATIENCE / 6)
             except subprocess.TimeoutExpired:
                 continue
+        raise AssertionError("roslaunch does not end")
 
     def output(self):
-        self.process.wait(60)
+        self.process.wait(PATIENCE)
         self.log.seek(0)
         return self.log.read()
 
@@ -98,9 +100,26 @@ def state_of(name, wanted):
                 done.set()
 
     subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, receive)
-    assert done.wait(TIMEOUT), f"{name} never says {wanted}"
+    assert done.wait(PATIENCE), f"{name} never says {wanted}"
     subscriber.unregister()
     return found[0]
+
+
+def study_of(seconds, folder=None):
+    """The study of the slider-crank with runs of so many seconds instead of 2."""
+    with open(f"{SHARE}/config/slider_crank.yaml", encoding="utf-8") as file:
+        text = file.read()
+    assert text.count("duration: 2.0") == 1
+    path = tempfile.mktemp(suffix=".yaml", dir=folder)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace("duration: 2.0", f"duration: {seconds}"))
+    return path
+
+
+def content(message):
+    """All but the number that each topic gives to its messages."""
+    message.header.seq = 0
+    return str(message)
 
 
 def values_of(status):
@@ -126,11 +145,11 @@ class NodesTestCase(unittest.TestCase):
         return node
 
 
-def wait_until(condition, what):
-    end = time.monotonic() + TIMEOUT
-    while not condition():
-        assert time.monotonic() < end, what
-        time.sleep(0.02)
+def listeners(node, topic):
+    """How many subscribers a node sends a topic to. The master counts a subscriber earlier, when it is not connected yet and misses messages."""
+    master = rosgraph.Master(rospy.get_name())
+    _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo(rospy.get_name())
+    return sum((direction, sent) == ("o", topic) for _, _, direction, _, sent, *_ in connections)
 
 
 def files(folder, ending):

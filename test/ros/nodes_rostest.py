@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import rosbag
 import rospy
@@ -14,7 +13,7 @@ import tf2_ros
 from std_msgs.msg import String
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import SHARE, TIMEOUT, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, Launch, NodesTestCase, files, state_of, values_of, wait_until  # noqa: E402
 
 
 class NodesTest(NodesTestCase):
@@ -44,16 +43,17 @@ class NodesTest(NodesTestCase):
         self.assertIn("too many samples", state_of("too_many", "bad input").message)
         for node in self.nodes:
             self.assertIsNone(node.process.poll())
-            self.assertLess(node.end(), 5.0)
+            node.end()
 
     def test_a_node_at_a_high_rate_ends_when_it_is_told(self):
-        for program, parameters in (("simulation", {"rate": 1e6}), ("optimization", {"rate": 1e4, "output_directory": self.folder})):
+        """Its run would take weeks."""
+        for program, parameters in (("simulation", {"rate": 1e6, "duration": 1e6}), ("optimization", {"rate": 1e4, "output_directory": self.folder})):
             node = self.start(program, "eager", **parameters)
             state_of("eager", "running" if program == "simulation" else "ready")
-            self.assertLess(node.end(), 3.0)
+            node.end()
 
     def test_unknown_parameters_are_warnings_with_the_nearest_name(self):
-        self.start("simulation", "misspelt", rat=10.0)
+        self.start("simulation", "misspelt", rat=10.0, start_paused=True)
         status = state_of("misspelt", "running")
         self.assertEqual(status.level, 1)
         (warning,) = [value for key, value in values_of(status).items() if key.endswith("unknown_parameter")]
@@ -71,14 +71,18 @@ class NodesTest(NodesTestCase):
         before = rospy.get_param("/use_sim_time", None)
         rospy.set_param("/use_sim_time", True)
         recorded, own = f"{self.folder}/recorded.bag", f"{self.folder}/own.bag"
-        node = self.start("simulation", "fast", mode="as_fast_as_possible", rate=500.0, wait_for_subscribers=["joint_states", "loop_errors"], bag=own)
-        record = subprocess.Popen(["rosbag", "record", "-O", recorded, "joint_states", "loop_errors", "controller_states", "/clock"])
+        # rosbag record has queues of 100 messages, and no time to empty them on a busy machine.
+        node = self.start("simulation", "fast", mode="as_fast_as_possible", rate=500.0, duration=0.19, bag=own,
+                          wait_for_subscribers=["joint_states", "loop_errors", "controller_states"])
+        # It ends by itself when it has so many messages of each topic.
+        record = subprocess.Popen(["rosbag", "record", "--limit=96", "-O", recorded, "joint_states", "loop_errors", "controller_states", "/clock"])
         try:
             status = state_of("fast", "finished")
-            time.sleep(1.0)
+            self.assertEqual(record.wait(PATIENCE), 0)
         finally:
-            record.send_signal(signal.SIGINT)
-            record.wait(20)
+            if record.poll() is None:
+                record.send_signal(signal.SIGINT)
+            record.wait(PATIENCE)
             rospy.delete_param("/use_sim_time")
             if before is not None:
                 rospy.set_param("/use_sim_time", before)
@@ -92,7 +96,7 @@ class NodesTest(NodesTestCase):
                 for topic in topics:
                     names = [topic, "/" + topic]
                     stamps = [(m.transforms[0] if topic == "tf" else m).header.stamp.to_sec() for _, m, _ in bag.read_messages(topics=names)]
-                    self.assertEqual(len(stamps), 1001, f"{path} {topic}")
+                    self.assertEqual(len(stamps), 96, f"{path} {topic}")
                     self.assertTrue(all(abs(b - a - 0.002) < 1e-6 for a, b in zip(stamps, stamps[1:])), topic)
         with rosbag.Bag(own) as bag:
             (_, version, _), = bag.read_messages(topics=["version"])
@@ -100,10 +104,10 @@ class NodesTest(NodesTestCase):
 
     def test_the_bag_of_a_killed_node_is_removed_by_the_next_one(self):
         path = f"{self.folder}/run.bag"
-        killed = self.start("simulation", "recorded", bag=path, time_scale=0.05)
+        killed = self.start("simulation", "recorded", bag=path, start_paused=True)
         wait_until(lambda: files(self.folder, ".active"), "no bag is begun")
         state_of("recorded", "running")
-        beside = self.start("simulation", "beside", bag=path, time_scale=0.05)
+        beside = self.start("simulation", "beside", bag=path, start_paused=True)
         self.assertTrue(any("output_failed" in key for key in values_of(state_of("beside", "running .*warning"))))
         self.assertEqual(files(self.folder, ".active"), [path + ".active"], "a bag that is being written stays")
         beside.end()
@@ -118,7 +122,7 @@ class NodesTest(NodesTestCase):
             self.assertEqual(bag.get_message_count(["joint_states"]), 101)
 
     def test_an_optimization_node_in_the_same_folder_removes_the_bag_of_a_killed_node_too(self):
-        killed = self.start("simulation", "recorded", bag=f"{self.folder}/run.bag", time_scale=0.05)
+        killed = self.start("simulation", "recorded", bag=f"{self.folder}/run.bag", start_paused=True)
         wait_until(lambda: files(self.folder, ".active"), "no bag is begun")
         killed.end(signal.SIGKILL)
         self.start("optimization", "beside", output_directory=self.folder)
@@ -128,18 +132,19 @@ class NodesTest(NodesTestCase):
     def test_the_description_is_that_of_the_mechanism_and_the_rod_ends_in_the_slider(self):
         launch = Launch("simulate.launch", "rviz:=false", "set:={crank_length: 0.1}", "time_scale:=0.2")
         try:
-            text = rospy.wait_for_message("robot_description", String, TIMEOUT).data
+            text = rospy.wait_for_message("robot_description", String, PATIENCE).data
             self.assertEqual(rospy.get_param("robot_description").strip(), text.strip())
             self.assertIn('name="crank_length" value="0.1"', text)
             buffer = tf2_ros.Buffer()
             listener = tf2_ros.TransformListener(buffer)
             for _ in range(10):
-                pin = buffer.lookup_transform("slider", "rod", rospy.Time(0), rospy.Duration(TIMEOUT)).transform
+                transform = buffer.lookup_transform("slider", "rod", rospy.Time(0), rospy.Duration(PATIENCE))
+                stamp, pin = transform.header.stamp, transform.transform
                 r, p = pin.rotation, pin.translation
                 axis = (1 - 2 * (r.y**2 + r.z**2), 2 * (r.x * r.y + r.w * r.z), 2 * (r.x * r.z - r.w * r.y))
                 for end in (p.x + 0.3 * axis[0], p.y + 0.3 * axis[1], p.z + 0.3 * axis[2]):
                     self.assertAlmostEqual(end, 0.0, delta=1e-6)
-                time.sleep(0.1)
+                wait_until(lambda shown=stamp: buffer.get_latest_common_time("slider", "rod") > shown, "the run stands still")
             listener.unregister()
         finally:
             launch.end()
@@ -147,8 +152,8 @@ class NodesTest(NodesTestCase):
     def test_a_description_of_another_mechanism_is_a_warning(self):
         with open(f"{SHARE}/urdf/slider_crank.urdf", encoding="utf-8") as file:
             rospy.set_param("robot_description", file.read())
-        self.start("simulation", "alike", model="slider_crank", time_scale=0.5)
-        self.start("simulation", "unlike", set={"crank_length": 0.09})
+        self.start("simulation", "alike", model="slider_crank", start_paused=True)
+        self.start("simulation", "unlike", set={"crank_length": 0.09}, start_paused=True)
         self.assertEqual(state_of("alike", "running").level, 0)
         self.assertTrue(any("description_differs" in key for key in values_of(state_of("unlike", "running"))))
         rospy.delete_param("robot_description")
@@ -159,9 +164,9 @@ class NodesTest(NodesTestCase):
         buffer = tf2_ros.Buffer()
         listener = tf2_ros.TransformListener(buffer)
         for side, length in (("left", 0.09), ("right", 0.07)):
-            tip = buffer.lookup_transform(f"{side}/crank", f"{side}/rod", rospy.Time(0), rospy.Duration(TIMEOUT)).transform.translation
+            tip = buffer.lookup_transform(f"{side}/crank", f"{side}/rod", rospy.Time(0), rospy.Duration(PATIENCE)).transform.translation
             self.assertAlmostEqual((tip.x**2 + tip.y**2 + tip.z**2) ** 0.5, length, delta=1e-9)
-            buffer.lookup_transform("world", f"{side}/slider", rospy.Time(0), rospy.Duration(TIMEOUT))
+            buffer.lookup_transform("world", f"{side}/slider", rospy.Time(0), rospy.Duration(PATIENCE))
         listener.unregister()
 
 

@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import threading
 import unittest
 import xml.etree.ElementTree
@@ -17,7 +18,9 @@ from mechanism_codesign.srv import Evaluate, EvaluateRequest, Optimize, Optimize
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-TIMEOUT = 60.0
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from node_process import PATIENCE  # noqa: E402
+
 RUN_TOPICS = ("joint_states", "joint_friction", "controller_states", "loop_errors", "signals", "friction_markers")
 
 
@@ -25,8 +28,8 @@ class OptimizationTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("optimization_test")
-        rospy.wait_for_service("optimize", TIMEOUT)
-        rospy.wait_for_service("evaluate", TIMEOUT)
+        rospy.wait_for_service("optimize", PATIENCE)
+        rospy.wait_for_service("evaluate", PATIENCE)
         cls.result = rospy.ServiceProxy("optimize", Optimize)(OptimizeRequest())
 
     @classmethod
@@ -44,12 +47,12 @@ class OptimizationTest(unittest.TestCase):
         self.assertNotEqual(result.termination, "")
 
     def test_progress_is_latched(self):
-        progress = rospy.wait_for_message("optimization_progress", OptimizationProgress, TIMEOUT)
+        progress = rospy.wait_for_message("optimization_progress", OptimizationProgress, PATIENCE)
         self.assertEqual(progress.evaluation, self.result.evaluations)
         self.assertEqual(list(progress.parameters), list(self.result.parameters))
 
     def test_tuned_description_is_latched_and_holds_the_tuned_values(self):
-        text = rospy.wait_for_message("tuned/robot_description", String, TIMEOUT).data
+        text = rospy.wait_for_message("tuned/robot_description", String, PATIENCE).data
         namespace = "{urn:mechanism_codesign}"
         values = {node.get("name"): float(node.get("value")) for node in xml.etree.ElementTree.fromstring(text).iter(namespace + "parameter")}
         tuned = dict(zip(self.result.parameters, self.result.tuned))
@@ -130,7 +133,7 @@ class OptimizationTest(unittest.TestCase):
     def test_replay(self):
         launch = subprocess.Popen(["roslaunch", "mechanism_codesign", "replay.launch", f"bag:={self.result.bag}", "rviz:=false"])
         try:
-            places = rospy.wait_for_message("tf_static", TFMessage, TIMEOUT)
+            places = rospy.wait_for_message("tf_static", TFMessage, PATIENCE)
             self.assertEqual([t.child_frame_id for t in places.transforms], ["initial", "tuned", "caption"])
             missing, complete = {"initial/slider", "tuned/slider", "initial/rod", "tuned/rod"}, threading.Event()
 
@@ -140,7 +143,7 @@ class OptimizationTest(unittest.TestCase):
                     complete.set()
 
             rospy.Subscriber("tf", TFMessage, receive)
-            self.assertTrue(complete.wait(TIMEOUT), missing)
+            self.assertTrue(complete.wait(PATIENCE), missing)
             self.assertIn("crank_length", rospy.get_param("initial/robot_description"))
             self.assertNotEqual(rospy.get_param("initial/robot_description"), rospy.get_param("tuned/robot_description"))
         finally:

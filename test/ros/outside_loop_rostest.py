@@ -12,10 +12,12 @@ import unittest
 import rosbag
 import rospy
 import rostest
+from mechanism_codesign.msg import Commands
 from sensor_msgs.msg import JointState
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import NodesTestCase, state_of, wait_until  # noqa: E402
+from node_process import NodesTestCase, state_of, values_of, wait_until  # noqa: E402
+from robot_node import Latest  # noqa: E402
 
 TARGET = {"shoulder": 0.8, "elbow": 0.5}
 P = {"shoulder": 80.0, "elbow": 30.0}
@@ -27,8 +29,13 @@ class Controller:
     """Answers each joint state with efforts that have its stamp."""
 
     def __init__(self, node):
+        self.subscriber = None
         self.publisher = rospy.Publisher(f"/{node}/command/effort", JointState, queue_size=100, tcp_nodelay=True)
-        self.lock, self.command, self.integral, self.laws = threading.Lock(), None, dict.fromkeys(TARGET, 0.0), {}
+        self.lock, self.integral, self.laws = threading.Lock(), dict.fromkeys(TARGET, 0.0), {}
+
+    def listen(self):
+        """Once the node takes commands: it waits for the first answer, which must not be lost."""
+        wait_until(lambda: self.publisher.get_num_connections() > 0, "the node does not listen")
         self.subscriber = rospy.Subscriber("/joint_states", JointState, self.answer, queue_size=1000, tcp_nodelay=True)
 
     def answer(self, state):
@@ -40,15 +47,8 @@ class Controller:
                 error = TARGET[joint] - state.position[k]
                 self.integral[joint] += 0.01 * error
                 command.effort.append(P[joint] * error + INTEGRAL * self.integral[joint] - D[joint] * state.velocity[k])
-            self.command = command
             self.laws[round(100.0 * (state.header.stamp.to_sec() - 1.0))] = list(command.effort)
             self.publisher.publish(command)
-
-    def insist(self):
-        """Repeats the last answer: the first one is lost if the connection stands later than the first frame."""
-        with self.lock:
-            if self.command is not None:
-                self.publisher.publish(self.command)
 
     def end(self):
         self.subscriber.unregister()
@@ -64,13 +64,8 @@ class OutsideLoopTest(NodesTestCase):
         path = os.path.join(self.folder, "loop.bag")
         controller = Controller("outside")
         self.start_arm("outside", duration=4.0, bag=path)
-
-        def is_over():
-            controller.insist()
-            rospy.sleep(0.3)
-            return os.path.exists(path)
-
-        wait_until(is_over, "the run does not end")
+        controller.listen()
+        wait_until(lambda: os.path.exists(path), "the run does not end")
         state_of("outside", "finished")
         controller.end()
         with rosbag.Bag(path) as bag:
@@ -92,24 +87,29 @@ class OutsideLoopTest(NodesTestCase):
             self.assertAlmostEqual(states[-1].velocity[k], 0.0, delta=0.05)
 
     def test_without_an_answer_the_run_waits(self):
-        states = []
-        listener = rospy.Subscriber("/joint_states", JointState, states.append, queue_size=1000)
+        joints, commands = Latest("/joint_states", JointState), Latest("/commands", Commands)
+        states = joints.messages
         self.start_arm("waiting", duration=1.0)
-        wait_until(lambda: states, "no first frame")
         publisher = rospy.Publisher("/waiting/command/effort", JointState, queue_size=10)
         wait_until(lambda: publisher.get_num_connections() > 0, "the node does not listen")
-        rospy.sleep(0.5)
-        self.assertEqual(len(states), 1)
-        early = JointState(name=["elbow"], effort=[1.0])
-        early.header.stamp = states[0].header.stamp - rospy.Duration(0.005)
-        publisher.publish(early)
-        rospy.sleep(0.5)
-        self.assertEqual(len(states), 1, "an answer to an earlier frame is none")
-        publisher.publish(JointState(name=["elbow"], effort=[1.0]))
+        wait_until(lambda: states and commands.messages, "no first frame")
+        self.assertEqual(values_of(state_of("waiting", "running"))["waits for"], "a command")
+
+        def command(effort, stamp):
+            """Sends it, and returns the stamp of the frame at which it takes effect: that at which the run waits."""
+            message = JointState(name=["elbow"], effort=[effort])
+            message.header.stamp = stamp
+            publisher.publish(message)
+            wait_until(lambda: effort in commands.last().efforts, f"{effort} has no effect")
+            return commands.last().header.stamp
+
+        first = states[0].header.stamp
+        self.assertEqual(command(1.0, first - rospy.Duration(0.005)), first, "the run has waited for it")
+        self.assertEqual(command(2.0, rospy.Time()), first, "an answer to an earlier frame is none")
         wait_until(lambda: len(states) == 2, "a command without a stamp steps the run")
-        rospy.sleep(0.5)
-        self.assertEqual(len(states), 2)
-        listener.unregister()
+        self.assertEqual(command(3.0, first), states[1].header.stamp, "by one frame")
+        joints.subscriber.unregister()
+        commands.subscriber.unregister()
 
 
 if __name__ == "__main__":

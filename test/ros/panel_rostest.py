@@ -20,8 +20,8 @@ import rostest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "scripts")]
 import browser  # noqa: E402
-from node_process import SHARE, Node, wait_until  # noqa: E402
-from robot_node import Robot, settled  # noqa: E402
+from node_process import PATIENCE, SHARE, Node, wait_until  # noqa: E402
+from robot_node import Robot, time_in  # noqa: E402
 
 
 class Page:
@@ -29,7 +29,7 @@ class Page:
 
     def __init__(self, address, *signals):
         self.address, self.state, self.points = address, {}, {name: [] for name in signals}
-        self.stream = urllib.request.urlopen(address + "events?" + "&".join(f"signal={name}" for name in signals), timeout=60)
+        self.stream = urllib.request.urlopen(address + "events?" + "&".join(f"signal={name}" for name in signals), timeout=PATIENCE)
         self.thread = threading.Thread(target=self.read, daemon=True)
         self.thread.start()
 
@@ -53,7 +53,7 @@ class Page:
 
     def do(self, what, **fields):
         request = urllib.request.Request(self.address + "do", json.dumps({"do": what, **fields}).encode(), {"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=60) as answer:
+        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
             return json.load(answer)
 
     def done(self, what, **fields):
@@ -83,14 +83,14 @@ class PanelTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.panel.send_signal(signal.SIGINT)
-        cls.panel.wait(20)
+        cls.panel.wait(PATIENCE)
         cls.panel.stdout.close()
 
     def setUp(self):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.page.done("restart")
         self.page.do("resume")
+        self.robot.restart([0.0], [-10.0])
 
     def start_jobs(self, model="slider_crank", seconds=2.0):
         """The node `job`, with the study of a case in the folder of the test, with runs of so many seconds."""
@@ -104,8 +104,7 @@ class PanelTest(unittest.TestCase):
     def test_curves_have_every_frame_of_the_node(self):
         time = {name: points[-1][0] for name, points in self.page.points.items() if points}
         wait_until(lambda: all(points and points[-1][0] > time.get(name, 0.0) + 0.5 for name, points in self.page.points.items()), "the curves do not go on")
-        self.page.done("pause")
-        settled(self.robot.joints.messages)
+        self.robot.wait_for_frame(self.page.done("pause"))
         frames = self.robot.joints.messages[-20:]
         crank = frames[0].name.index("crank_joint")
         wanted = [(frame.header.stamp.to_sec(), float(f"{frame.position[crank]:.6g}")) for frame in frames]
@@ -118,11 +117,14 @@ class PanelTest(unittest.TestCase):
         self.assertNotEqual(self.page.points["slider_joint/friction"][-1][1], 0.0)
 
     def test_pause_step_and_resume(self):
-        self.assertIn("paused after t = ", self.page.done("pause"))
+        paused = self.page.done("pause")
+        self.assertIn("paused after t = ", paused)
         self.page.wait(lambda state: state["simulation"]["values"]["waits for"] == "~step or ~resume", "the page does not say that the run is paused")
-        frames = settled(self.robot.joints.messages)
-        self.assertIn("t = ", self.page.done("step"))
-        wait_until(lambda: len(self.robot.joints.messages) == frames + 1, "a step is one frame")
+        last = self.robot.wait_for_frame(paused)
+        stepped = self.page.done("step")
+        period = self.robot.elapsed(self.robot.joints.messages[1])
+        self.assertAlmostEqual(time_in(stepped) - time_in(paused), period, delta=1e-6, msg="a step is one frame")
+        wait_until(lambda: self.robot.joints.last().header.stamp > last.header.stamp, "a step without a frame")
         self.page.done("resume")
         refused = self.page.do("step")
         self.assertFalse(refused["success"])
@@ -162,7 +164,7 @@ class PanelTest(unittest.TestCase):
         self.assertEqual(result["values"]["crank_length"], 0.06)
         self.assertTrue(os.path.isfile(result["bag"]))
         self.assertFalse(self.page.state["job"]["running"])
-        with urllib.request.urlopen(self.address + "report.html", timeout=60) as answer:
+        with urllib.request.urlopen(self.address + "report.html", timeout=PATIENCE) as answer:
             self.assertIn("sandbox", answer.headers["Content-Security-Policy"])
             self.assertIn("crank_length", answer.read().decode())
 
@@ -183,7 +185,7 @@ class PanelTest(unittest.TestCase):
         mu = next(row for row in result["rows"] if row[0] == "mu_static")
         self.assertAlmostEqual(mu[2], 0.4, delta=0.01)
         self.assertEqual(result["values"]["mu_static"], mu[2])
-        with urllib.request.urlopen(self.address + "report.html", timeout=60) as answer:
+        with urllib.request.urlopen(self.address + "report.html", timeout=PATIENCE) as answer:
             report = answer.read().decode()
         self.assertIn("fitted recording 1", report)
         self.assertIn(f'replay.launch bag:={result["bag"]}', report)
@@ -208,7 +210,7 @@ class PanelTest(unittest.TestCase):
         for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}):
             request = urllib.request.Request(self.address + "do", b'{"do": "pause"}', {"Content-Type": "application/json", **headers})
             with self.assertRaises(urllib.error.HTTPError) as caught:
-                urllib.request.urlopen(request, timeout=60)
+                urllib.request.urlopen(request, timeout=PATIENCE)
             self.assertEqual(caught.exception.code, 403)
             caught.exception.close()
 
@@ -221,7 +223,6 @@ class PanelTest(unittest.TestCase):
         page.run("document.getElementById('pause').focus()")
         page.press("Enter")
         page.wait("document.getElementById('state').textContent === 'paused slider_crank'")
-        settled(self.robot.joints.messages)
         self.assertEqual(page.errors, [])
 
 

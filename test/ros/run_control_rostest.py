@@ -2,7 +2,6 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Pause, resume, step and restart of the simulation node in real time, and its real-time factor."""
 import os
-import re
 import sys
 import unittest
 
@@ -13,12 +12,11 @@ from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import TIMEOUT, state_of, wait_until  # noqa: E402
-from robot_node import Latest, Robot, settled  # noqa: E402
+from node_process import PATIENCE, state_of, wait_until  # noqa: E402
+from robot_node import Latest, Robot, time_in  # noqa: E402
 
-
-def time_in(message):
-    return float(re.search(r"t = ([0-9.e-]+) s", message).group(1))
+# Of the crank.
+START = ([0.0], [-10.0])
 
 
 class RunControlTest(unittest.TestCase):
@@ -28,49 +26,51 @@ class RunControlTest(unittest.TestCase):
         cls.factor = Latest("/robot/simulation/real_time_factor", Float64)
 
     def test_pause_step_and_resume(self):
-        self.assertTrue(self.robot.call("restart").success)
-        rospy.sleep(0.2)
+        self.robot.restart(*START)
+        wait_until(lambda: len(self.robot.joints.messages) > 5, "the run goes on")
         paused = self.robot.call("pause")
         self.assertTrue(paused.success)
-        frames = settled(self.robot.joints.messages)
-        rospy.sleep(0.3)
-        self.assertEqual(len(self.robot.joints.messages), frames, "a paused run stands still")
+        last = self.robot.wait_for_frame(paused.message)
+        self.assertAlmostEqual(self.robot.elapsed(last), time_in(paused.message), delta=1e-4, msg="a pause names the last frame")
+        frames = self.robot.joints.messages.index(last) + 1
+        state_of("robot/simulation", "running")
+        # Each tells the time of the run behind it: the run has moved by the two frames of a step and, standing still meanwhile, by no other.
         first, second = self.robot.call("step"), self.robot.call("step")
         self.assertTrue(first.success and second.success, second.message)
+        self.assertAlmostEqual(time_in(first.message) - time_in(paused.message), 2 / 50.0, delta=1e-9)
         self.assertAlmostEqual(time_in(second.message) - time_in(first.message), 2 / 50.0, delta=1e-9)
-        self.assertAlmostEqual(time_in(first.message) - time_in(paused.message), 2 / 50.0, delta=1e-9, msg="a pause names the last frame")
         wait_until(lambda: len(self.robot.joints.messages) >= frames + 4, "two steps of two frames")
-        self.assertEqual(settled(self.robot.joints.messages), frames + 4)
-        self.assertTrue(self.robot.call("resume").success)
+        # Answered once the run stands again. The pause is longer than a frame.
+        self.assertEqual(time_in(self.robot.call("pause").message), time_in(second.message))
+        rospy.sleep(0.1)
+        before = rospy.Time.now()
+        resumed = self.robot.call("resume")
+        self.assertTrue(resumed.success)
+        self.assertEqual(time_in(resumed.message), time_in(second.message))
         wait_until(lambda: len(self.robot.joints.messages) > frames + 6, "a resumed run goes on")
-        # Stamps are of the present: a resumed run does not hurry to make up for its pause.
-        self.assertLess(abs((rospy.Time.now() - self.robot.joints.last().header.stamp).to_sec()), 20.0)
+        self.assertGreater(self.robot.joints.messages[frames + 4].header.stamp, before, "a resumed run does not hurry to make up for its pause")
         self.assertFalse(self.robot.call("step").success, "a run that is not paused takes no steps")
 
     def test_the_run_ends_and_restarts(self):
-        self.robot.call("restart")
-        self.robot.call("resume")
-        state_of("robot/simulation", "finished slider_crank")
-        answer = self.robot.call("step")
+        friction = Latest("/brief/joint_friction", JointFriction)
+        brief = Robot("/brief", paused=True)
+        brief.call("resume")
+        state_of("brief/simulation", "finished slider_crank")
+        answer = brief.call("step")
         self.assertFalse(answer.success)
         self.assertIn("finished", answer.message)
-        frames = len(self.robot.joints.messages)
-        self.assertTrue(self.robot.call("restart").success)
-        wait_until(lambda: len(self.robot.joints.messages) > frames, "a restarted run publishes")
-        first = self.robot.joints.messages[frames]
-        self.assertAlmostEqual(first.position[0], 0.0, delta=1e-9)
-        self.assertAlmostEqual(first.velocity[0], -10.0, delta=1e-9)
-        self.assertTrue(rospy.wait_for_message("/robot/joint_friction", JointFriction, TIMEOUT).name)
+        brief.restart(*START)
+        state_of("brief/simulation", "finished slider_crank")
+        wait_until(lambda: friction.messages and friction.last().name, "a restarted run has no friction")
 
     def test_the_real_time_factor_is_published(self):
-        self.robot.call("restart")
+        self.robot.restart(*START)
         wait_until(lambda: self.factor.messages, "no real-time factor")
         self.assertGreater(self.factor.last().data, 0.0)
-        self.assertLess(self.factor.last().data, 3.0)
 
     def test_with_bad_input_the_services_say_so(self):
         for service in ("pause", "resume", "step", "restart"):
-            rospy.wait_for_service(f"/robot/no_model/{service}", TIMEOUT)
+            rospy.wait_for_service(f"/robot/no_model/{service}", PATIENCE)
             answer = rospy.ServiceProxy(f"/robot/no_model/{service}", Trigger)()
             self.assertFalse(answer.success)
             self.assertIn("/nonexistent/robot.urdf", answer.message)

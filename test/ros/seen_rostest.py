@@ -19,9 +19,9 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import TIMEOUT, Launch, NodesTestCase, wait_until  # noqa: E402
+from node_process import PATIENCE, Launch, NodesTestCase, listeners, study_of, wait_until  # noqa: E402
 
-LONG = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000)
+LONG, SECONDS = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000), 100.0  # of a run: minutes of computing
 # The pendulum of the README, without a visual.
 MODEL = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <link name="ground"/>
@@ -47,7 +47,7 @@ class Watch:
         self.address = self.process.stdout.readline().split()[0]
 
     def get(self, path):
-        with urllib.request.urlopen(self.address + path, timeout=TIMEOUT) as reply:
+        with urllib.request.urlopen(self.address + path, timeout=PATIENCE) as reply:
             return reply.read().decode()
 
     def points(self):
@@ -55,13 +55,13 @@ class Watch:
 
     def end(self):
         self.process.terminate()
-        self.process.wait(TIMEOUT)
+        self.process.wait(PATIENCE)
         self.process.stdout.close()
 
 
 class SeenTest(NodesTestCase):
     def cancel(self, name):
-        rospy.wait_for_service(f"/{name}/cancel", TIMEOUT)
+        rospy.wait_for_service(f"/{name}/cancel", PATIENCE)
         return rospy.ServiceProxy(f"/{name}/cancel", Trigger)()
 
     def optimize_in_background(self, node, request):
@@ -71,18 +71,19 @@ class SeenTest(NodesTestCase):
         return thread, answers
 
     def test_cancel_ends_a_job_of_the_service_and_keeps_the_best_point(self):
-        node = self.start("optimization", "cancelled", output_directory=self.folder)
+        node = self.start("optimization", "cancelled", study=study_of(SECONDS, self.folder), output_directory=self.folder)
         reply = self.cancel("cancelled")
         self.assertFalse(reply.success)
         self.assertIn("no optimization and no identification is running", reply.message)
         told = []
         rospy.Subscriber("/cancelled/optimization_progress", OptimizationProgress, told.append)
+        wait_until(lambda: listeners("/cancelled", "/cancelled/optimization_progress") > 0, "the test does not listen")
         thread, answers = self.optimize_in_background(node, LONG)
         wait_until(lambda: any(message.evaluation >= 2 for message in told), "no trial point")
         reply = self.cancel("cancelled")
         self.assertTrue(reply.success)
         self.assertIn("cancelled the optimization", reply.message)
-        thread.join(TIMEOUT)
+        thread.join(PATIENCE)
         self.assertEqual(answers[0].code, "cancelled")
         self.assertLessEqual(answers[0].objective, answers[0].initial_objective)
         self.assertTrue(os.path.exists(answers[0].bag))
@@ -97,7 +98,7 @@ class SeenTest(NodesTestCase):
         self.assertFalse(self.cancel("bad").success)
 
     def test_watch_shows_the_points_of_the_running_job(self):
-        node = self.start("optimization", "watched", output_directory=self.folder)
+        node = self.start("optimization", "watched", study=study_of(SECONDS, self.folder), output_directory=self.folder)
         watch = Watch("watched")
         try:
             self.assertIn("<svg", watch.get(""))
@@ -105,13 +106,13 @@ class SeenTest(NodesTestCase):
             told = []
             rospy.Subscriber("/watched/optimization_progress", OptimizationProgress, told.append)
             # Points that come before a subscriber is connected are lost.
-            wait_until(lambda: self.listeners("/watched/optimization_progress") >= 2, "watch does not listen")
+            wait_until(lambda: listeners("/watched", "/watched/optimization_progress") == 2, "watch does not listen")
             thread, answers = self.optimize_in_background(node, LONG)
             wait_until(lambda: len(watch.points()["points"]) >= 3, "no points on the page")
             state = watch.points()
             self.assertIn(state["stage"], ("searching", "screening"))
             self.assertTrue(self.cancel("watched").success)
-            thread.join(TIMEOUT)
+            thread.join(PATIENCE)
             # The last message of a job, after its last trial point, has no time left.
             wait_until(lambda: told[-1].seconds_left == 0.0 and watch.points()["seconds_left"] == 0.0, "the page does not follow to the end")
             trials = {message.evaluation: message for message in told if message.evaluation > 0}
@@ -127,28 +128,23 @@ class SeenTest(NodesTestCase):
         finally:
             watch.end()
 
-    @staticmethod
-    def listeners(topic):
-        subscribers = rospy.get_master().getSystemState()[2][1]
-        return len(dict(subscribers).get(topic, []))
-
     def test_a_run_has_a_scene_and_a_link_without_visual_is_drawn(self):
         for name, text in (("pendulum.urdf", MODEL), ("swing.yaml", STUDY)):
             with open(f"{self.folder}/{name}", "w", encoding="utf-8") as file:
                 file.write(text)
         launch = Launch("simulate.launch", "model:=pendulum.urdf", "study:=swing.yaml", "rviz:=false", "loop:=true", cwd=self.folder)
         try:
-            scene = rospy.wait_for_message("scene", Scene, TIMEOUT)
+            scene = rospy.wait_for_message("scene", Scene, PATIENCE)
             # Released at 1 rad, 0.25 m below the pivot.
             self.assertLess(scene.smallest[0], -0.2)
             self.assertGreater(scene.largest[2], 0.0)
             self.assertLess(scene.floor, -0.24)
             self.assertLess(scene.distance, 3.0)
             self.assertGreater(scene.distance, 0.3)
-            description = rospy.wait_for_message("robot_description", String, TIMEOUT).data
+            description = rospy.wait_for_message("robot_description", String, PATIENCE).data
             self.assertIn('<visual name="stick">', description)
             self.assertEqual(rospy.get_param("robot_description").strip(), description.strip(), "what rviz shows")
-            caption = rospy.wait_for_message("caption", MarkerArray, TIMEOUT)
+            caption = rospy.wait_for_message("caption", MarkerArray, PATIENCE)
             self.assertRegex(caption.markers[0].text, r"^t = [0-9.e-]+ s, objective so far ")
             self.assertIn("friction torque", caption.markers[1].text)
         finally:
@@ -161,10 +157,10 @@ class SeenTest(NodesTestCase):
             launch = Launch("replay.launch", f"bag:={bag}", "rviz:=false", f"overlay:={overlay}")
             try:
                 # Latched by the player; another topic of that type is not on this master.
-                places = rospy.wait_for_message("tf_static", TFMessage, TIMEOUT).transforms
+                places = rospy.wait_for_message("tf_static", TFMessage, PATIENCE).transforms
                 found = {place.child_frame_id: place.transform.translation for place in places}
                 self.assertEqual(found["initial"].x == found["tuned"].x and found["initial"].y == found["tuned"].y, overlay == "true")
-                labels = rospy.wait_for_message("labels", MarkerArray, TIMEOUT).markers
+                labels = rospy.wait_for_message("labels", MarkerArray, PATIENCE).markers
                 self.assertEqual(len(labels), 1 if overlay == "true" else 2)
             finally:
                 launch.end()
@@ -175,7 +171,7 @@ class SeenTest(NodesTestCase):
         with rosbag.Bag(f"{self.folder}/old.bag", "w") as bag:
             bag.write("labels", String("an old one"), rospy.Time(1))
         rospy.set_param("/player/bag", f"{self.folder}/old.bag")
-        reply = subprocess.run([path, "--overlay", "__name:=player"], stderr=subprocess.PIPE, text=True, check=False, timeout=TIMEOUT)
+        reply = subprocess.run([path, "--overlay", "__name:=player"], stderr=subprocess.PIPE, text=True, check=False, timeout=PATIENCE)
         rospy.delete_param("/player")
         self.assertNotEqual(reply.returncode, 0)
         self.assertIn("nothing to lay over each other", reply.stderr)

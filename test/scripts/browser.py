@@ -6,11 +6,13 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
-import time
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from patience import PATIENCE, wait_until  # noqa: E402
 
 PATH = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-PATIENCE = 60.0  # [s]
 KEYS = {"Tab": 9, "Enter": 13, " ": 32, "ArrowRight": 39, "ArrowUp": 38}
 
 
@@ -86,6 +88,19 @@ class Browser:
         self.send("Page.navigate", url=address)
         self.wait("document.readyState === 'complete'")
 
+    def reload(self):
+        """Returns once the new page is there: the old one still answers for a while."""
+        self.run("window.isOld = true")
+        self.send("Page.reload")
+
+        def is_new():
+            try:
+                return self.run("!window.isOld && document.readyState === 'complete'")
+            except RuntimeError:  # between the two pages
+                return False
+
+        self.wait_for(is_new, "the page is not loaded again")
+
     def run(self, script):
         """The value of an expression in the page."""
         result = self.send("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
@@ -95,10 +110,7 @@ class Browser:
 
     @staticmethod
     def wait_for(condition, what):
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end, what
-            time.sleep(0.05)
+        wait_until(condition, what, pause=0.05)
 
     def wait(self, script):
         """Until an expression is true."""

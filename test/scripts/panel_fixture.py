@@ -12,10 +12,11 @@ import unittest
 
 sys.dont_write_bytecode = True
 PANEL = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "panel"
-sys.path.insert(0, str(PANEL.parent))
+sys.path[:0] = [str(PANEL.parent), str(pathlib.Path(__file__).resolve().parents[1])]
 from codesign_panel import server  # noqa: E402
 from codesign_panel.board import Board  # noqa: E402
 from codesign_panel.requests import Refused  # noqa: E402
+from patience import PATIENCE  # noqa: E402
 
 LONG_NAME = "a_controller_of_the_left_" + "shoulder_" * 8
 
@@ -59,7 +60,7 @@ class PanelTestCase(unittest.TestCase):
 
     def ask(self, method, path, body=None, hosts=None, **headers):
         """Code, headers and text of an answer. `hosts`: the Host headers, by default the right one; headers with _ for -."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
         with contextlib.closing(connection):
             connection.putrequest(method, path, skip_host=True)
             for host in [f"localhost:{self.port}"] if hosts is None else hosts:

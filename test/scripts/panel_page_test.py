@@ -143,7 +143,7 @@ class PageTest(PanelTestCase):
         self.assertEqual(self.page.run(names), ["elbow/friction", "elbow/position", f"{LONG_NAME}/position"])
         self.page.run("document.querySelector('figure button').click()")
         self.page.open(f"http://localhost:{self.port}/" + self.page.run("location.hash"))
-        self.page.send("Page.reload")
+        self.page.reload()
         self.page.wait("document.querySelectorAll('svg').length === 2")
         self.assertEqual(self.page.run(names), ["elbow/position", f"{LONG_NAME}/position"])
         self.page.run("document.getElementById('signal').value = 'elbow/friction'; document.getElementById('add').click()")

@@ -120,6 +120,7 @@ class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory()
+        cls.pages = {}
         for name, text in (("arm.urdf", PENDULUM), ("arm.yaml", STUDY), ("many.yaml", STUDY + ENSEMBLE)):
             with open(cls.path(name), "w", encoding="utf-8") as file:
                 file.write(text)
@@ -137,6 +138,12 @@ class Report(unittest.TestCase):
         return os.path.join(cls.scratch.name, *names)
 
     def page_of(self, job):
+        """The page of a job, made once, as most tests look at the same two."""
+        if job not in self.pages:
+            self.pages[job] = self.made_page(job)
+        return self.pages[job]
+
+    def made_page(self, job):
         """The page, made by the program as a user makes it, and checked for what holds for all pages."""
         before = processor_time_of_children()
         done = run("report", self.path(job), "-o", self.path("page.html"))
@@ -243,12 +250,12 @@ class Report(unittest.TestCase):
             json.dump(fit, file)
         with open(os.path.join(folder, "residuals.csv"), "w", encoding="utf-8") as file:
             file.write("set,recording,time,hinge/recorded,hinge/computed\ndata,1,0,1,1.5\ndata,1,0.1,2,1.75\nholdout,1,0,3,2.5\n")
-        _, page = self.page_of("fit")
+        _, page = self.made_page("fit")
         self.assertNotIn("asked", page.ids)
         with open(os.path.join(folder, "job_study.yaml"), "w", encoding="utf-8") as file:
             file.write("identify:\n  data: [{csv: bench.csv}, {csv: more.csv, to: 4.5}]\n  residual: motion\n  segment: 0.75\n"
                        "parameters: {mu: {upper: 0.5}}\n")
-        text, page = self.page_of("fit")
+        text, page = self.made_page("fit")
         self.assertIn("asked", page.ids)
         for words in ("data[1]", "{csv: more.csv, to: 4.5}", "residual", "0.75", "{mu: {upper: 0.5}}", "Fit the model to these recordings",
                       "codesign simulate identified.urdf job_study.yaml"):
@@ -265,7 +272,7 @@ class Report(unittest.TestCase):
             shutil.copy(os.path.join(folder, name), self.path("arm_1." + name))
         with open(bag, "wb"):
             pass
-        _, of_node = self.page_of("arm_1.bag")
+        _, of_node = self.made_page("arm_1.bag")
         self.assertIn("hinge, holdout recording 1", of_node.text)
         self.assertIn("codesign simulate arm_1.identified.urdf arm_1.job_study.yaml --result arm_1.identification.json", of_node.text)
         self.assertIn(f"replay.launch bag:={bag}", of_node.text)
@@ -281,7 +288,7 @@ class Report(unittest.TestCase):
                 file.write(",".join(["time", *signals]) + "\n")
                 for row in range(501):
                     file.write(",".join(f"{math.sin(0.1 * row * (k + 1)):.17g}" if k else str(row) for k in range(601)) + "\n")
-        self.page_of("large")
+        self.made_page("large")
 
     def page_of_efforts(self, name, study):
         for suffix, text in ((".urdf", PENDULUM), (".yaml", study)):

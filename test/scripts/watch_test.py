@@ -13,6 +13,9 @@ import unittest
 import urllib.error
 import urllib.request
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from patience import PATIENCE  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WATCH = ROOT / "scripts" / "watch"
 HEADER = "evaluation,iteration,status,objective,best_objective,gradient_norm,length,Kp\n"
@@ -111,7 +114,7 @@ class PageTest(unittest.TestCase):
         self.addCleanup(self.server.shutdown)
 
     def get(self, path):
-        with urllib.request.urlopen(f"http://127.0.0.1:{self.server.server_address[1]}{path}", timeout=30) as reply:
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.server.server_address[1]}{path}", timeout=PATIENCE) as reply:
             return reply.read().decode()
 
     def test_points_and_a_page_that_loads_nothing_from_elsewhere(self):
@@ -143,7 +146,7 @@ class PageTest(unittest.TestCase):
 
 class BadInputTest(unittest.TestCase):
     def refusal(self, *arguments):
-        reply = subprocess.run([WATCH, *arguments], stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+        reply = subprocess.run([WATCH, *arguments], stderr=subprocess.PIPE, text=True, check=False, timeout=PATIENCE)
         self.assertNotEqual(reply.returncode, 0)
         return reply.stderr
 
@@ -152,7 +155,7 @@ class BadInputTest(unittest.TestCase):
         self.assertIn("allowed: 0 to 65535", self.refusal("--port", "70000"))
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "convergence.csv").write_text(HEADER + "1,2\n", encoding="utf-8")
-            done = subprocess.run([WATCH, folder, "--port", "0"], stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+            done = subprocess.run([WATCH, folder, "--port", "0"], stderr=subprocess.PIPE, text=True, check=False, timeout=PATIENCE)
             self.assertEqual((done.returncode, done.stderr),
                              (2, f"watch: {folder}/convergence.csv:2: 2 cells, the first line has 8; the table is damaged\n"))
         with tempfile.TemporaryDirectory() as folder:

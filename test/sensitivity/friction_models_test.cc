@@ -3,8 +3,7 @@
 // that slides.
 #include <gtest/gtest.h>
 
-#include <regex>
-
+#include "edited_text.h"
 #include "equations/compiled_system.h"
 #include "integration/servo.h"
 #include "mechanism_codesign/gradient.h"
@@ -26,16 +25,15 @@ std::string rubbing(const std::string& model) {
   const auto parameter = [](const char* name, const char* value) {
     return std::string("<codesign:parameter name='") + name + "' value='" + value + "'/>";
   };
-  return std::regex_replace(double_pendulum(coefficients), std::regex("<link name='ground'/>"),
-                            "<link name='ground'/>" + parameter("mu_s", "0.2") +
-                                parameter("v_s", "0.02") + parameter("sigma_0", "2000") +
-                                parameter("sigma_1", "4") + parameter("tau", "0.5"));
+  return replaced_all(double_pendulum(coefficients), "<link name='ground'/>",
+                      "<link name='ground'/>" + parameter("mu_s", "0.2") +
+                          parameter("v_s", "0.02") + parameter("sigma_0", "2000") +
+                          parameter("sigma_1", "4") + parameter("tau", "0.5"));
 }
 
 std::shared_ptr<const CompiledSystem> rubbing_servo(const std::string& model,
                                                     const std::string& solver) {
-  std::string study =
-      std::regex_replace(servo_study(solver), std::regex("duration: 0.6"), "duration: 0.25");
+  std::string study = replaced_all(servo_study(solver), "duration: 0.6", "duration: 0.25");
   study.replace(study.find("parameters: {"), 13,
                 std::string("parameters: {mu_s: {tune: true}, v_s: {tune: true}, sigma_0: {tune: "
                             "true}, sigma_1: {tune: true}, ") +
@@ -96,11 +94,10 @@ INSTANTIATE_TEST_SUITE_P(Models, FrictionLaws, ::testing::Values("gonthier", "lu
 /// normal by the angle whose sine is 0.6.
 Evaluation slide(const std::string& model, bool turned) {
   std::string urdf = with_friction_model(puck(), model);
-  urdf = std::regex_replace(urdf, std::regex("rpy='0 0.6 0'"),
-                            turned ? "rpy='0 0 0.6435011087932844'" : "rpy='0 0 0'");
+  urdf =
+      replaced_all(urdf, "rpy='0 0.6 0'", turned ? "rpy='0 0 0.6435011087932844'" : "rpy='0 0 0'");
   if (turned)
-    urdf = std::regex_replace(urdf, std::regex("xyz='0 0.1 0'"),
-                              "xyz='0.06 0.08 0' rpy='0 0 -0.6435011087932844'");
+    urdf = replaced_all(urdf, "xyz='0 0.1 0'", "xyz='0.06 0.08 0' rpy='0 0 -0.6435011087932844'");
   const std::string study =
       "duration: 0.3\ngravity: [5.5, 0.0, -8.1]\ninitial_state: {}\ncontrollers: {}\nparameters: "
       "{weight: {initial: 1.0}}\n"

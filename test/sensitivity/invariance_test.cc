@@ -1,10 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <regex>
-
 #include "assembly/make_system.h"
 #include "description/study.h"
+#include "edited_text.h"
 #include "mechanism_codesign/gradient.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
@@ -17,7 +16,7 @@ namespace {
 std::string text_of(const std::string& path) { return read_source(source_dir() + "/" + path).text; }
 
 std::string replaced(const std::string& text, const std::string& pattern, const std::string& by) {
-  const std::string result = std::regex_replace(text, std::regex(pattern), by);
+  const std::string result = replaced_all(text, pattern, by);
   EXPECT_NE(result, text) << pattern;
   return result;
 }
@@ -58,11 +57,10 @@ void expect_same(const Evaluation& variant) {
 /// them in their own order anyway.
 std::string reversed(const std::string& urdf) {
   std::vector<std::string> blocks;
-  const std::regex element("<(link|joint|loop)\\b[^>]*?(/>|>[\\s\\S]*?</\\1>)");
-  for (std::sregex_iterator it(urdf.begin(), urdf.end(), element), end; it != end; ++it)
-    blocks.push_back(it->str());
+  const std::string element("<(link|joint|loop)\\b[^>]*?(/>|>[\\s\\S]*?</\\1>)");
+  blocks = matches_in(urdf, element);
   EXPECT_EQ(blocks.size(), 12U);
-  std::string rest = std::regex_replace(urdf, element, ""), body;
+  std::string rest = replaced_all(urdf, element, ""), body;
   for (auto block = blocks.rbegin(); block != blocks.rend(); ++block) body += *block + "\n";
   return rest.insert(rest.rfind("</robot>"), body);
 }
@@ -95,9 +93,7 @@ TEST(Invariance, TheCutDoesNotMatter) {
   // The tree runs over the rod to the slider, and the sliding joint with its friction closes the
   // loop.
   std::string urdf = text_of("urdf/slider_crank.urdf");
-  std::smatch joint;
-  ASSERT_TRUE(std::regex_search(urdf, joint, std::regex("<codesign:friction[\\s\\S]*?/>")));
-  const std::string friction = joint.str();
+  const std::string friction = matches_in(urdf, "<codesign:friction[\\s\\S]*?/>").at(0);
   urdf = replaced(urdf, "<joint name=\"slider_joint\"[\\s\\S]*?</joint>", "");
   urdf = replaced(
       urdf, "<loop name=\"slider_pin\"[\\s\\S]*?</loop>",
@@ -109,7 +105,7 @@ TEST(Invariance, TheCutDoesNotMatter) {
       "0\"/></joint>"
       "<loop name=\"rail\" type=\"prismatic\"><predecessor link=\"ground\"/><successor "
       "link=\"slider\"/><axis xyz=\"1 0 0\"/>" +
-          std::regex_replace(friction, std::regex("\\$"), "$$$$") + "</loop>");
+          replaced_all(friction, "\\$", "$$$$") + "</loop>");
   expect_same(evaluate(urdf, text_of("config/slider_crank.yaml")));
 }
 

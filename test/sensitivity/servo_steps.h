@@ -20,29 +20,8 @@ namespace codesign {
 struct ServoSteps {
   static constexpr double kSize = 2e-3;
 
-  explicit ServoSteps(const std::string& method)
-      : tableau(rosenbrock_tableau(method_named(method))),
-        step(*system, tableau),
-        tangent(*system, tableau),
-        adjoint(*system, tableau),
-        assembly(*system) {
-    step.equations().set_design(parameters);
-    EXPECT_TRUE(assembly.solve(parameters, &step.equations(), &initial).ok());
-    step.start(initial);
-    std::vector<Lanes<8>> lanes(parameters.begin(), parameters.end());
-    for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k].v[static_cast<int>(k)] = 1.0;
-    tangent.start(lanes, assembly, initial);
-    begin = tangent.directions();
-    points.push_back(initial);
-    for (int k = 0; k < 3; ++k) {
-      EXPECT_TRUE(step.attempt(kSize));
-      tangent.attempt(&step);
-      EXPECT_TRUE(step.accept());
-      tangent.accept(step);
-      points.push_back(step.unprojected());
-    }
-    end = tangent.directions();
-  }
+  explicit ServoSteps(const std::string& method);
+  ~ServoSteps();
 
   /// The adjoint at the start for a given adjoint at the end. @param visit called with each point's
   /// index after its step has been reversed.

@@ -11,25 +11,6 @@ namespace codesign {
 
 /// Adds watched signals to a case: its default signals, every second one as a peak in the
 /// objective, the others within bounds that the test does not use.
-inline GradientCase with_watched(GradientCase test) {
-  std::vector<std::string> texts = default_signals(test.robot, test.study.controllers);
-  if (texts.size() > 8) texts.resize(8);
-  for (const JointDescription& joint : test.robot.joints)
-    if (joint.type == JointType::kRevolute || joint.type == JointType::kContinuous) {
-      texts.push_back(joint.name + "/acceleration");
-      break;
-    }
-  bool peak = false;
-  for (const std::string& text : texts) {
-    WatchedSignal& watched = test.study.watched.emplace_back();
-    watched.role = peak ? WatchedSignal::Role::kPeak : WatchedSignal::Role::kPath;
-    watched.signal = parse_signal(text, {}, "signal");
-    watched.upper = Quantity(1.0);
-    watched.after = 0.1 * test.study.duration;
-    watched.before = 0.95 * test.study.duration;
-    peak = !peak;
-  }
-  return test;
-}
+GradientCase with_watched(GradientCase test);
 
 }  // namespace codesign

@@ -13,9 +13,7 @@ namespace codesign {
 
 constexpr double kGravity = 9.81, kPi = 3.141592653589793;
 
-inline Problem loaded(const std::string& urdf, const std::string& study) {
-  return load_problem({"model.urdf", urdf}, {}, {"study.yaml", study});
-}
+Problem loaded(const std::string& urdf, const std::string& study);
 
 /// `what()` of the InputError that a function throws; the test fails if it throws none.
 template <class Function>
@@ -29,43 +27,17 @@ std::string refused(const Function& function) {
   return "";
 }
 
-inline std::string body(const std::string& name, double mass, const std::string& centre = "0 0 0") {
-  const std::string number = std::to_string(mass);
-  return "<link name=\"" + name + "\"><inertial><origin xyz=\"" + centre + "\"/><mass value=\"" +
-         number +
-         "\"/><inertia ixx=\"0.01\" iyy=\"0.01\" izz=\"0.01\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>" +
-         "</inertial></link>";
-}
+std::string body(const std::string& name, double mass, const std::string& centre = "0 0 0");
 
-inline std::string joint(const std::string& name, const std::string& type,
-                         const std::string& parent, const std::string& child,
-                         const std::string& origin, const std::string& axis,
-                         const std::string& more = "") {
-  return "<joint name=\"" + name + "\" type=\"" + type + "\"><parent link=\"" + parent +
-         "\"/><child link=\"" + child + "\"/><origin xyz=\"" + origin + "\"/><axis xyz=\"" + axis +
-         "\"/>" + more + "</joint>";
-}
+std::string joint(const std::string& name, const std::string& type, const std::string& parent,
+                  const std::string& child, const std::string& origin, const std::string& axis,
+                  const std::string& more = "");
 
 /// A crank of 0.1 m that turns about -y, a rod of 0.3 m without mass, and a slider along x.
-inline std::string planar_slider_crank(const std::string& slider_friction = "") {
-  return R"(<robot name="slider_crank" xmlns:codesign="urn:mechanism_codesign"><link name="base"/>)" +
-         body("crank", 0.5) + body("slider", 1.0) +
-         joint("crank_joint", "continuous", "base", "crank", "0 0 0", "0 -1 0") +
-         joint("slider_joint", "prismatic", "base", "slider", "0 0 0", "1 0 0",
-               slider_friction + R"(<limit lower="-1" upper="1" effort="100" velocity="10"/>)") +
-         R"(<loop name="rod" type="codesign:distance"><predecessor link="crank"><origin xyz="0.1 0 0"/>
-            </predecessor><successor link="slider"/><codesign:length value="0.3"/></loop></robot>)";
-}
+std::string planar_slider_crank(const std::string& slider_friction = "");
 
 /// An arm whose centre is 0.5 m above its hinge, at which it turns about y, with a spring of no
 /// free length from 0.4 m above the hinge to 0.25 m along the arm. It is balanced if k a b = m g l.
-inline std::string balanced_arm(double mass, double stiffness) {
-  return R"(<robot name="arm" xmlns:codesign="urn:mechanism_codesign"><link name="base"/>)" +
-         body("bar", mass, "0 0 0.5") +
-         joint("hinge", "continuous", "base", "bar", "0 0 0", "0 1 0") +
-         R"(<codesign:spring_damper name="spring" stiffness=")" + std::to_string(stiffness) +
-         R"("><predecessor link="base"><origin xyz="0 0 0.4"/></predecessor><successor link="bar">
-            <origin xyz="0 0 0.25"/></successor></codesign:spring_damper></robot>)";
-}
+std::string balanced_arm(double mass, double stiffness);
 
 }  // namespace codesign

@@ -1,11 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
 #include "math/conditional_normal.h"
+#include "math/dense.h"
 #include "sampling/measure.h"
 #include "sampling/samples.h"
 #include "statistics/parameter_covariance.h"
@@ -40,7 +40,7 @@ std::vector<UncertainQuantity> identified(const Numbers& robot, std::mt19937* ra
     noise = 0.8 * noise + 0.6 * normal(*random);
     one += 0.1 + 0.3 * noise;
   }
-  const Eigen::VectorXd fit = kTerms.householderQr().solve(effort);
+  const Eigen::VectorXd fit = least_norm(kTerms).solve(effort);
   const ParameterCovariance known =
       parameter_covariance(kTerms * fit - effort, kTerms, {kTimes}, {});
   const auto given = conditional_normal(known.covariance.topLeftCorner(2, 2));

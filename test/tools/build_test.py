@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""How tools/build calls CMake, with a stand-in for it; how many jobs tools/jobs allows; that tools/sanitize names tests that exist; which home
+"""How tools/build calls CMake, with a stand-in for it; how many jobs tools/jobs allows; what tools/sanitize builds and runs; which home
 folder tools/environment chooses.
 
 Usage: build_test.py [-v]
@@ -94,13 +94,56 @@ class JobsTest(unittest.TestCase):
     def test_a_wish_is_respected(self):
         self.assertEqual(self.jobs(4, 2, JOBS="7"), 7)
 
+    def test_in_continuous_integration_compilers_give_way(self):
+        for variables, words in (({"CI": "true"}, "nice -n 10"), ({}, "")):
+            result = subprocess.run(["bash", "-ec", '. tools/jobs; echo "${niced[*]}"'], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True,
+                                    env={"PATH": os.environ["PATH"], **variables})
+            self.assertEqual(result.stdout.strip(), words)
+
 
 class SanitizeTest(unittest.TestCase):
-    def test_every_program_of_tests_has_its_folder_and_is_run(self):
-        targets = words_of(r"sanitizers=address,undefined\s+targets=\((.*)\)", "tools", "sanitize")
-        folders = [target[len("test_"):] for target in targets if target.startswith("test_")]
-        self.assertEqual([folder for folder in folders if not os.path.isdir(os.path.join(ROOT, "test", folder))], [])
-        self.assertEqual(words_of(r"tests='\^\(([a-z|]+)\)", "tools", "sanitize")[0].split("|"), folders)
+    @staticmethod
+    def sanitize(*words):
+        """The targets that tools/sanitize builds, and the words for tools/run_tests."""
+        with Checkout() as checkout:
+            program(os.path.join(checkout.root, "tools"), "run_tests", 'echo "$*"\n')
+            os.makedirs(os.path.join(checkout.root, "build", words[0], "devel"))
+            for room in ("forces", "reading"):
+                os.makedirs(os.path.join(checkout.root, "test", room))
+            with open(os.path.join(checkout.root, "build", words[0], "devel", "setup.bash"), "w"):
+                pass
+            result = subprocess.run([os.path.join(checkout.root, "tools", "sanitize"), *words], check=True, stdout=subprocess.PIPE, text=True,
+                                    env={"PATH": checkout.bin})
+            with open(os.path.join(checkout.folder.name, "calls")) as calls:
+                return calls.read().splitlines()[1].split("--target ")[1], result.stdout.strip()
+
+    def test_every_unit_test_runs_with_the_address_sanitizer(self):
+        self.assertEqual(self.sanitize("address"), ("unit_tests", "build/address -L ^unit$"))
+        self.assertEqual(self.sanitize("address", "--report", "a.xml"), ("unit_tests", "build/address -L ^unit$ --report a.xml"))
+
+    def test_rooms_may_be_named(self):
+        self.assertEqual(self.sanitize("address", "forces", "reading", "-V"),
+                         ("codesign test_forces test_reading", "build/address -L ^unit$ -R ^(forces|reading)[._] -V"))
+
+    def test_threads_have_a_program_of_their_own(self):
+        self.assertEqual(self.sanitize("thread"), ("test_threads", r"build/thread -R ^threads\."))
+
+    def test_every_case_that_is_left_out_exists(self):
+        """Names of cases without the shards and prefixes of parameters: test/slow_cases.txt, for tools/test --quick, and tools/sanitize."""
+        sources = ""
+        for folder, _, files in os.walk(os.path.join(ROOT, "test")):
+            for name in files:
+                if name.endswith((".cc", ".h")):
+                    with open(os.path.join(folder, name)) as file:
+                        sources += file.read()
+        cases = {".".join(words) for words in re.findall(r"TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)", sources)}
+        with open(os.path.join(ROOT, "test", "slow_cases.txt")) as file:
+            names = file.read().split() + words_of(r"unfit=\(([^)]*)\)", "tools", "sanitize")
+        self.assertGreater(len(names), 20)
+        suites = {case.split(".")[0] for case in cases}
+        for name in names:
+            suite, case = name.lstrip("*").split("/")[0].split(".")
+            self.assertTrue(suite in suites if case == "*" else f"{suite}.{case}" in cases, name)
 
     def test_every_test_of_threads_exists(self):
         names = words_of(r"set\(thread_tests ([^)]*)\)", "cmake", "Tests.cmake")

@@ -20,7 +20,7 @@ class CheckTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root, self.bin = os.path.join(folder.name, "checkout"), os.path.join(folder.name, "bin")
         os.mkdir(self.bin)
-        for name in ("tools/check", "tools/jobs", "test/layering/check_layering.py", ".clang-format"):
+        for name in ("tools/changed", "tools/check", "tools/jobs", "test/layering/check_layering.py", ".clang-format"):
             os.makedirs(os.path.dirname(os.path.join(self.root, name)), exist_ok=True)
             shutil.copy(os.path.join(ROOT, name), os.path.join(self.root, name))
         self.plant("src/math/twice.h", "inline int twice(int x) { return 2 * x; }\n")

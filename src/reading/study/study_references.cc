@@ -175,6 +175,12 @@ std::optional<ReferenceDescription> read_expression(const YamlValue& value,
   at_start.push_back(0.0);
   if (!std::isfinite(expression.formula->value(at_start)))
     value.fail("not finite at t = 0 and the parameters' start", kAllowed);
+  if (has_switches(expression.formula->steps()))
+    for (const int k : used)
+      expression.parameters.push_back(
+          k == expression.time
+              ? nullptr
+              : std::make_shared<const Expression>(table.names[to_index(k)], table.names));
   return reference;
 }
 

@@ -80,6 +80,9 @@ RampOptions ramp_options(const mechanism_codesign::ApplyRequest& request) {
   RampOptions options;
   options.ramp = checked_time(request.ramp, "ramp", options.ramp);
   options.hold = checked_time(request.hold, "hold", options.hold);
+  // Who accepts joint states that are older accepts answers that come later.
+  options.patience =
+      std::max(options.patience, checked_time(request.max_age, "max_age", options.patience));
   return options;
 }
 

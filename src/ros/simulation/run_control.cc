@@ -88,12 +88,18 @@ bool RunControl::wants_restart() const {
 }
 
 std_srvs::TriggerResponse RunControl::refusal() const {
-  return trigger_reply(false, stopped_ ? why_ : why_ + "; ~restart begins again");
+  return trigger_reply(false, stopped_ || !begun_ ? why_ : why_ + "; ~restart begins again");
+}
+
+std::unique_lock<std::mutex> RunControl::lock_when_known() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return begun_ || stopped_ || !why_.empty(); });
+  return lock;
 }
 
 // Answered when the run stands: the frame that is computed meanwhile is still published.
 std_srvs::TriggerResponse RunControl::pause() {
-  std::unique_lock<std::mutex> lock(mutex_);
+  std::unique_lock<std::mutex> lock = lock_when_known();
   if (stopped_ || !running_) return refusal();
   paused_ = true;
   steps_left_ = 0;
@@ -107,7 +113,7 @@ std_srvs::TriggerResponse RunControl::pause() {
 }
 
 std_srvs::TriggerResponse RunControl::resume() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::unique_lock<std::mutex> lock = lock_when_known();
   if (stopped_ || !running_) return refusal();
   paused_ = stands_ = false;
   steps_left_ = 0;
@@ -117,7 +123,7 @@ std_srvs::TriggerResponse RunControl::resume() {
 }
 
 std_srvs::TriggerResponse RunControl::step() {
-  std::unique_lock<std::mutex> lock(mutex_);
+  std::unique_lock<std::mutex> lock = lock_when_known();
   if (stopped_ || !running_) return refusal();
   if (steps_left_ > 0) return trigger_reply(false, "another ~step has not ended");
   // A frame that is on its way, such as the first of a run, is none of those that this request asks
@@ -140,9 +146,8 @@ std_srvs::TriggerResponse RunControl::step() {
 }
 
 std_srvs::TriggerResponse RunControl::restart() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  if (stopped_) return trigger_reply(false, why_);
-  if (!begun_) return trigger_reply(false, why_);
+  std::unique_lock<std::mutex> lock = lock_when_known();
+  if (stopped_ || !begun_) return trigger_reply(false, why_);
   leaving_ = restart_ = true;
   const std::uint64_t run = runs_;
   bell_->ring();

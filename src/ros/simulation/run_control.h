@@ -36,8 +36,8 @@ class RunControl {
   void begin_run();
   /// To be called when a frame was published, at `time` [s] of the run.
   void note_frame(double time);
-  /// To be called when the run has ended; requests other than ~restart are then refused with this
-  /// sentence.
+  /// To be called when the run has ended, or waits for something before it begins; requests other
+  /// than ~restart are then refused with this sentence.
   void end_run(const std::string& why);
   /// To be called when no run will follow: ends all waits, and refuses each request with this
   /// sentence.
@@ -53,7 +53,8 @@ class RunControl {
   /// Set while the run is to end early, for Simulation::obey().
   const std::atomic<bool>* leaving() const { return &leaving_; }
 
-  // The services.
+  // The services. A request that comes while the node starts waits for the first run, or for the
+  // reason why there is none.
   std_srvs::TriggerResponse pause();
   std_srvs::TriggerResponse resume();
   std_srvs::TriggerResponse step();
@@ -63,6 +64,7 @@ class RunControl {
   using Service = std_srvs::TriggerResponse (RunControl::*)();
   void serve(ros::NodeHandle* node, const std::string& name, Service service);
   std_srvs::TriggerResponse refusal() const;
+  std::unique_lock<std::mutex> lock_when_known();
 
   Bell* bell_;
   mutable std::mutex mutex_;
@@ -73,7 +75,7 @@ class RunControl {
   std::int64_t step_frames_ = 1, steps_left_ = 0;
   std::uint64_t runs_ = 0;
   double time_ = 0.0;  ///< [s] of the last frame
-  std::string why_ = "the run has not begun";
+  std::string why_;    ///< why no run is there; empty while the node starts
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -192,8 +192,10 @@ void SimulationNode::wait_for_subscribers() {
            publisher.getNumSubscribers() > transformers_of(publisher.getTopic());
   };
   const std::vector<std::string>& topics = options_.wait_for_subscribers;
-  state_.set(NodeState::Level::kOk, "waiting for subscribers of " + list_names(topics) +
-                                        ", robot_state_publisher not counted");
+  const std::string sentence =
+      "waiting for subscribers of " + list_names(topics) + ", robot_state_publisher not counted";
+  state_.set(NodeState::Level::kOk, sentence);
+  control_.end_run("the run has not begun: " + sentence);
   std::uint32_t connections = 0;
   ros::WallTime since;
   while (!stopping()) {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <regex>
 #include <type_traits>
 
+#include "edited_text.h"
 #include "reading/page_rows.h"
 #include "text/number_text.h"
 
@@ -48,9 +48,8 @@ struct PageCheck {
     if (row.sentence.rfind("as in ", 0) == 0) return;
     for (const double bound : {range.least, range.most}) {
       const bool is_said = bound == 0.0 || bound == 1.0 || bound >= std::numeric_limits<int>::max();
-      const std::string text = bound < 1.0
-                                   ? std::regex_replace(to_decimal(bound), std::regex("e-0"), "e-")
-                                   : split_at(std::to_string(bound), "\\.")[0];
+      const std::string text = bound < 1.0 ? replaced_all(to_decimal(bound), "e-0", "e-")
+                                           : split_at(std::to_string(bound), "\\.")[0];
       EXPECT_TRUE(is_said || row.sentence.find(text) != std::string::npos)
           << block << "." << key << ": " << text;
     }

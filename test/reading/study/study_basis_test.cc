@@ -50,25 +50,5 @@ TEST(StudyBasis, AListOfQuantitiesDeclaresNothing) {
   EXPECT_EQ(study.controllers.at(0).basis.coefficients.at(1).nominal(), 0.3);
 }
 
-TEST(StudyBasis, WhatCannotBeIsRefused) {
-  const std::string at = "controllers.push";
-  expect_fault(push("coefficients: {count: 1}"), at + ".coefficients.count", "out of range", 3);
-  expect_fault(push("coefficients: {count: 3, shape: cubic}"), at + ".coefficients.shape",
-               "unknown key", 3);
-  expect_fault(push("coefficients: {count: 3}, shape: cubic"), at + ".coefficients",
-               "found 3 coefficients", 3);
-  expect_fault(push("coefficients: {count: 3}, shape: kubic"), at + ".shape",
-               "did you mean \"cubic\"", 3);
-  expect_fault(push("coefficients: {count: 3, initial: [1, 2]}"), at + ".coefficients.initial",
-               "found 2 values for 3", 3);
-  expect_fault(push("coefficients: {count: 3, initial: 4, upper: 2}"), at + ".coefficients.initial",
-               "outside the bounds", 3);
-  expect_fault(push("coefficients: {count: 3}, duration: 0.0"), at + ".duration",
-               "must be positive", 3);
-  expect_fault(push("coefficients: {count: 3}", "parameters: {push_c1: {initial: 0.0}}\n"),
-               at + ".coefficients", "already", 4);
-  expect_fault(push("coefficients: {count: 3}, setpoint: 1.0"), at + ".setpoint", "unknown key", 3);
-}
-
 }  // namespace
 }  // namespace codesign

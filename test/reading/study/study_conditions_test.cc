@@ -179,31 +179,6 @@ TEST(StudyLoads, ReadsAWrench) {
   EXPECT_EQ(study.loads.at(1).force[0].of_time.constant.nominal(), 0.0);
 }
 
-TEST(StudyLoads, RefusesWhatActsOnNothingOrTwice) {
-  expect_fault(with("{effort: 1}"), "loads[0]", "one joint or on one link", 5);
-  expect_fault(with("{joint: slider_joint, link: ball, effort: 1}"), "loads[0]",
-               "one joint or on one link", 5);
-  expect_fault(with("3"), "loads[0]", "must be a map", 5);
-  expect_fault(with("{link: ball}"), "loads[0]", "needs a force or a torque", 5);
-  expect_fault(with("{link: ball, torque: [0, 0, 1], point: [0, 0, 0]}"), "loads[0].point",
-               "where the force acts", 5);
-}
-
-TEST(StudyLoads, RefusesNamesAndNumbers) {
-  expect_fault(with("{joint: slider_jont, effort: 1}"), "loads[0].joint",
-               "did you mean \"slider_joint\"", 5);
-  expect_fault(with("{joint: ball_joint, effort: 1}"), "loads[0].joint", "no single coordinate", 5);
-  expect_fault(with("{joint: slider_joint, force: [1, 0, 0]}"), "loads[0].force", "unknown key", 5);
-  expect_fault(with("{link: bal, force: [1, 0, 0]}"), "loads[0].link", "did you mean \"ball\"", 5);
-  expect_fault(with("{link: ball, force: [1, 0]}"), "loads[0].force", "found 2", 5);
-  expect_fault(with("{link: ball, force: 1}"), "loads[0].force", "three components", 5);
-  expect_fault(with("{link: ball, force: [1, 0, x]}"), "loads[0].force[2]", "not a number", 5);
-  expect_fault(with("{link: ball, force: [1, 0, 0], frame: world}"), "loads[0].frame",
-               "unknown frame", 5);
-  expect_fault(with("{link: ball, force: [1, 0, 0], efort: 1}"), "loads[0].efort", "unknown key",
-               5);
-}
-
 TEST(StudyLoads, ReadsFunctionsOfTimeAndExpressionsOfSignals) {
   const Study study =
       read_text(with("{link: ball, force: [{type: sine, amplitude: 1, period: 2}, \"${push*t}\", "

@@ -30,52 +30,6 @@ TEST(StudyControllers, ReadsEveryField) {
   EXPECT_EQ(controller.where.line, 5);
 }
 
-TEST(StudyControllers, RefusesBadFields) {
-  const std::string input = "crank_joint/velocity";
-  const std::string gains = "{p: 1}";
-  expect_fault(text_of("pdi", input, "0", "crank_joint", gains), "controllers.speed.type",
-               "did you mean \"pid\"", 5);
-  expect_fault(text_of("pid", "crank_joint", "0", "crank_joint", gains), "controllers.speed.input",
-               "needs a quantity", 5);
-  expect_fault(text_of("pid", "crank_jint/velocity", "0", "crank_joint", gains),
-               "controllers.speed.input", "\"crank_joint\"", 5);
-  expect_fault(text_of("pid", "crank_joint/velocty", "0", "crank_joint", gains),
-               "controllers.speed.input", "\"velocity\"", 5);
-  expect_fault(text_of("pid", input, "fast", "crank_joint", gains), "controllers.speed.setpoint",
-               "not a number", 5);
-  expect_fault(text_of("pid", input, "0", "crank_jont", gains), "controllers.speed.output",
-               "did you mean \"crank_joint\"", 5);
-  expect_fault(text_of("pid", input, "0", "ball_joint", gains), "controllers.speed.output",
-               "no single coordinate", 5);
-  expect_fault(text_of("pid", input, "0", "crank_joint", "{}"), "controllers.speed.gains",
-               "at least one gain", 5);
-  expect_fault(text_of("pid", input, "0", "crank_joint", "{k: 1}"), "controllers.speed.gains.k",
-               "unknown key", 5);
-  expect_fault(text_of("pid", input, "0", "crank_joint", "{p: \"${Kq}\"}"),
-               "controllers.speed.gains.p", "Kp", 5);
-}
-
-TEST(StudyControllers, RefusesMissingFields) {
-  const std::string start =
-      kLeastStudy + "controllers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, ";
-  expect_fault(start + "gains: {p: 1}}}\n", "controllers.speed.output", "required key is missing",
-               3);
-  expect_fault(start + "output: crank_joint}}\n", "controllers.speed.gains",
-               "required key is missing", 3);
-  expect_fault(start + "output: crank_joint, gains: {p: 1}, limit: 3}}\n",
-               "controllers.speed.limit", "unknown key", 3);
-}
-
-TEST(StudyControllers, RefusesTheNameOfAJointOrLink) {
-  const std::string rest =
-      ": {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: {p: "
-      "1}}}\n";
-  expect_fault(kLeastStudy + "controllers: {crank_joint" + rest, "controllers.crank_joint",
-               "has the same name", 3);
-  expect_fault(kLeastStudy + "controllers: {slider" + rest, "controllers.slider",
-               "has the same name", 3);
-}
-
 TEST(StudyControllers, AnInputMayReadEarlierControllersOnly) {
   const std::string outer =
       "  outer: {type: pid, input: slider_joint/position, setpoint: 0, output: slider_joint, "

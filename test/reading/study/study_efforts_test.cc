@@ -5,11 +5,6 @@
 namespace codesign {
 namespace {
 
-void expect_bad_efforts(const std::string& efforts, const std::string& element,
-                        const std::string& message) {
-  expect_fault("duration: 1\nefforts: " + efforts + "\n", element, message, 2);
-}
-
 TEST(StudyEfforts, ReadsPositionsAndRanges) {
   const PostureGrid grid =
       read_text(
@@ -22,24 +17,6 @@ TEST(StudyEfforts, ReadsPositionsAndRanges) {
   EXPECT_EQ(grid[0].where.line, 4);
   EXPECT_EQ(grid[1].positions, std::vector<double>{0.5});
   EXPECT_TRUE(read_text("duration: 1\n").grid.empty());
-}
-
-TEST(StudyEfforts, RefusesWhatIsNoGrid) {
-  expect_bad_efforts("{}", "efforts.grid", "required key is missing");
-  expect_bad_efforts("{grid: {}}", "efforts.grid", "no joint has a position");
-  expect_bad_efforts("{grid: {crank_joint: []}}", "efforts.grid.crank_joint", "found 0 positions");
-  expect_bad_efforts("{grid: {crank_joint: 1.0}}", "efforts.grid.crank_joint", "list");
-  expect_bad_efforts("{grid: {crank_jont: [0]}}", "efforts.grid.crank_jont",
-                     "did you mean \"crank_joint\"?");
-  expect_bad_efforts("{grid: {ball_joint: [0]}}", "efforts.grid.ball_joint", "coordinate");
-  expect_bad_efforts("{grid: {crank_joint: {from: 0, to: 1, count: 1}}}",
-                     "efforts.grid.crank_joint.count", "count out of range");
-  expect_bad_efforts("{grid: {crank_joint: {from: 0, to: 1}}}", "efforts.grid.crank_joint.count",
-                     "required key is missing");
-  expect_bad_efforts(
-      "{grid: {crank_joint: {from: 0, to: 1, count: 2000}, slider_joint: {from: 0, to: 1, count: "
-      "2000}}}",
-      "efforts.grid", "more than a million postures");
 }
 
 }  // namespace

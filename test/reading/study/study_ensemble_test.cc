@@ -11,11 +11,6 @@ EngineOptions engine_of(const std::string& text) {
   return read_text(kLeastStudy + "engine: " + text + "\n").ensemble.engine;
 }
 
-void expect_refused(const std::string& text, const std::string& element,
-                    const std::string& message) {
-  expect_fault(kLeastStudy + "engine: " + text + "\n", element, message, 3);
-}
-
 TEST(StudyEnsemble, ReadsAllBlocks) {
   const EnsembleDescription ensemble = read_text(kLeastStudy + R"(
 parameters: {crank_length: {}, payload: {initial: 1.0, lower: 0.0, upper: 5.0, tune: false}}
@@ -57,18 +52,6 @@ TEST(StudyEnsemble, KnowsWhetherAnEngineIsAskedFor) {
   EXPECT_EQ(read_text(kLeastStudy).ensemble.engine.where.file, "");
 }
 
-TEST(StudyEnsemble, RefusesOtherEngines) {
-  expect_refused("{type: mpi, workers: 2}", "engine.workers",
-                 "mpirun says how many workers the engine mpi has");
-  expect_refused("{type: thread}", "engine.type", "did you mean \"threads\"");
-  expect_refused("{type: serial, workers: 2}", "engine.workers",
-                 "the engine serial has no workers");
-  expect_refused("{workers: 0}", "engine.workers", "out of range");
-  expect_refused("{workers: 4097}", "engine.workers", "out of range");
-  expect_refused("{threads: 4}", "engine.threads", "unknown key");
-  expect_refused("serial", "engine", "expected a map");
-}
-
 const std::string kUncertainStudy =
     kLeastStudy + "uncertain: {rod_length: {uniform: [0.2, 0.4]}}\n";
 const std::string kTwoRuns =
@@ -76,11 +59,6 @@ const std::string kTwoRuns =
 
 RobustOptions robust_of(const std::string& text) {
   return read_text(kUncertainStudy + "robust: " + text + "\n").ensemble.robust.value();
-}
-
-void expect_bad_robust(const std::string& text, const std::string& element,
-                       const std::string& message) {
-  expect_fault(kUncertainStudy + "robust: " + text + "\n", element, message, 4);
 }
 
 TEST(StudyRobust, ReadsAllKeys) {
@@ -119,37 +97,6 @@ TEST(StudyRobust, MayBeLeftOut) {
   EXPECT_EQ(read_text(kTwoRuns).ensemble.robust.value().samples, 1);
   EXPECT_EQ(read_text(kTwoRuns + "robust: {measure: worst}\n").ensemble.robust.value().samples, 1);
   EXPECT_FALSE(read_text(kLeastStudy).ensemble.robust.has_value());
-}
-
-TEST(StudyRobust, NeedsSomethingToBeRobustAgainst) {
-  expect_fault(kLeastStudy + "robust: {measure: worst}\n", "robust", "nothing to be robust against",
-               3);
-  for (const char* key : {"samples: 8", "sampler: sobol", "seed: 1", "validate: 10"}) {
-    const std::string text = key;
-    expect_fault(kTwoRuns + "robust: {" + text + "}\n", "robust." + text.substr(0, text.find(':')),
-                 "no meaning without uncertain", 4);
-  }
-}
-
-TEST(StudyRobust, RefusesBadValues) {
-  expect_bad_robust("{measure: median}", "robust.measure", "unknown measure");
-  expect_bad_robust("{measure: worst, level: 0.9}", "robust.level", "level belongs to cvar");
-  expect_bad_robust("{level: 0.9}", "robust.level", "level belongs to cvar");
-  expect_bad_robust("{measure: cvar, level: 0}", "robust.level", "out of range");
-  expect_bad_robust("{measure: cvar, level: 1}", "robust.level", "out of range");
-  expect_bad_robust("{measure: cvar, factor: 1}", "robust.factor",
-                    "factor belongs to mean_plus_deviation");
-  expect_bad_robust("{measure: mean_plus_deviation, factor: -1}", "robust.factor", "out of range");
-  expect_bad_robust("{samples: 0}", "robust.samples", "out of range");
-  expect_bad_robust("{samples: 100001}", "robust.samples", "out of range");
-  expect_bad_robust("{samples: 1.5}", "robust.samples", "not an integer");
-  expect_bad_robust("{sampler: halton}", "robust.sampler", "unknown sampler");
-  expect_bad_robust("{seed: -1}", "robust.seed", "out of range");
-  expect_bad_robust("{validate: -1}", "robust.validate", "out of range");
-  expect_bad_robust("{validate: 1000001}", "robust.validate", "out of range");
-  expect_bad_robust("{failed: ignore}", "robust.failed", "unknown failed");
-  expect_bad_robust("{measures: cvar}", "robust.measures", "did you mean \"measure\"");
-  expect_bad_robust("cvar", "robust", "expected a map");
 }
 
 const std::string kTunedStudy =

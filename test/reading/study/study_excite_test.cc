@@ -15,11 +15,6 @@ ExcitationDescription excitation_of(const std::string& keys) {
   return read_text(kStudyToExcite + "excite: {" + keys + "}\n").excitation.value();
 }
 
-void expect_bad_excite(const std::string& keys, const std::string& element,
-                       const std::string& message) {
-  expect_fault(kStudyToExcite + "excite: {" + keys + "}\n", element, message, 3);
-}
-
 TEST(StudyExcite, Defaults) {
   EXPECT_FALSE(read_text(kLeastStudy).excitation.has_value());
   const ExcitationDescription description = excitation_of(kOneJoint);
@@ -64,39 +59,6 @@ TEST(StudyExcite, ReadsAllKeys) {
   EXPECT_EQ(description.seed, 9U);
   EXPECT_EQ(description.search, TrajectorySearchMethod::kCcsaq);
   EXPECT_EQ(description.max_evaluations, 50);
-}
-
-TEST(StudyExcite, RefusesWhatCannotBeMeant) {
-  expect_bad_excite("joints: {crank_joint: {}}", "excite.joints.crank_joint", "noisy");
-  expect_bad_excite("joints: {}, noise: 1", "excite.joints", "no joint");
-  expect_bad_excite("joints: {crank: {}}, noise: 1", "excite.joints.crank", "unknown");
-  expect_bad_excite("joints: {ball_joint: {}}, noise: 1", "excite.joints.ball_joint", "");
-  expect_bad_excite("joints: {crank_joint: {speed: 1}}, noise: 1",
-                    "excite.joints.crank_joint.speed", "unknown key");
-  expect_bad_excite("joints: {crank_joint: {velocity: 0}}, noise: 1",
-                    "excite.joints.crank_joint.velocity", "above zero");
-  expect_bad_excite("joints: {crank_joint: {position: [1, 1]}}, noise: 1",
-                    "excite.joints.crank_joint.position", "empty");
-  expect_bad_excite("joints: {crank_joint: {position: [1]}}, noise: 1",
-                    "excite.joints.crank_joint.position", "two ends");
-  expect_bad_excite(kOneJoint + ", limits: {crank_joint: {velocity: 1}}",
-                    "excite.limits.crank_joint", "excite.joints");
-  expect_bad_excite(kOneJoint + ", limits: {slider_joint: {effort: 1}}",
-                    "excite.limits.slider_joint.effort", "unknown key");
-  expect_bad_excite(kOneJoint + ", knots: 8", "excite.knots", "no knots");
-  expect_bad_excite(kOneJoint + ", trajectory: spline, harmonics: 8", "excite.harmonics",
-                    "no harmonics");
-  expect_bad_excite(kOneJoint + ", harmonics: 1", "excite.harmonics", "out of range");
-  expect_bad_excite(kOneJoint + ", period: 0.1", "excite", "do not show");
-  expect_bad_excite(kOneJoint + ", search: bobyqa", "excite.search", "unknown");
-  expect_bad_excite(kOneJoint + ", sample_rate: 1e6", "excite.sample_rate", "million");
-}
-
-TEST(StudyExcite, NeedsSomethingToIdentify) {
-  expect_fault("duration: 1.0\nparameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n",
-               "excite", "identifies nothing", 3);
-  expect_fault("parameters: {rod_length: {}}\nexcite: {" + kOneJoint + "}\n", "excite",
-               "identifies nothing", 2);
 }
 
 TEST(StudyExcite, DataAreNotThereYet) {

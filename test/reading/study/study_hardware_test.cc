@@ -52,50 +52,6 @@ TEST(StudyRealization, IsOffByDefault) {
   EXPECT_EQ(realization.queued(), 0);
 }
 
-TEST(StudyRealization, RefusesImpossibleNumbers) {
-  for (const char* key : {"i_clamp", "derivative_filter", "output_limit", "time_constant"}) {
-    expect_fault(realization_text(std::string(key) + ": 0"),
-                 "controllers.speed." + std::string(key), "must be positive", 5);
-    expect_fault(realization_text(std::string(key) + ": \"${tau - 1}\""),
-                 "controllers.speed." + std::string(key), "must be positive", 5);
-  }
-  expect_fault(realization_text("sample_time: 0"), "controllers.speed.sample_time",
-               "must be positive", 5);
-  expect_fault(realization_text("sample_time: \"${tau}\""), "controllers.speed.sample_time",
-               "must not depend on parameters", 5);
-  expect_fault(realization_text("sample_time: 0.01, delay: -1"), "controllers.speed.delay",
-               "must not be negative", 5);
-  expect_fault(realization_text("sample_time: 0.01, delay: 1.01"), "controllers.speed.delay",
-               "too many outputs wait at a time: 101", 5);
-  // More than an int counts.
-  expect_fault(realization_text("sample_time: 1.0e-9, delay: 3.0"), "controllers.speed.delay",
-               "too many outputs wait at a time: 3000000000", 5);
-  expect_fault(realization_text("sample_time: 1.0e-300, delay: 1.0e+300"),
-               "controllers.speed.delay", "too many outputs wait", 5);
-  expect_fault(realization_text("sample_time: 0.01, quantization: -1"),
-               "controllers.speed.quantization", "must not be negative", 5);
-  expect_fault(realization_text("antiwindup: 3, i_clamp: 1"), "controllers.speed.antiwindup", "",
-               5);
-}
-
-TEST(StudyRealization, RefusesKeysWithoutMeaning) {
-  expect_fault(realization_text("delay: 0.01"), "controllers.speed.delay", "needs sample_time", 5);
-  expect_fault(realization_text("quantization: 0.01"), "controllers.speed.quantization",
-               "needs sample_time", 5);
-  expect_fault(realization_text("antiwindup: true"), "controllers.speed.antiwindup",
-               "needs i_clamp", 5);
-  expect_fault(realization_text("i_clamp: 1", "{p: 1}"), "controllers.speed.i_clamp",
-               "needs a gain i", 5);
-  expect_fault(realization_text("derivative_filter: 1", "{p: 1}"),
-               "controllers.speed.derivative_filter", "needs a gain d", 5);
-  expect_fault(realization_text("sampletime: 1"), "controllers.speed.sampletime",
-               "did you mean \"sample_time\"", 5);
-  expect_fault(kLeastStudy +
-                   "controllers: {hold: {type: pd_gravity, setpoint: 0, output: crank_joint, "
-                   "gains: {p: 1.0}, i_clamp: 1}}\n",
-               "controllers.hold.i_clamp", "unknown key", 3);
-}
-
 TEST(StudyRealization, RefusesTheAdjointOfSamples) {
   expect_fault(realization_text("sample_time: 0.01") + "solver: {gradient: adjoint}\n",
                "solver.gradient", "does not go back over the samples", 6);
@@ -147,25 +103,6 @@ TEST(StudyHardware, NoIntegralNeedsNoClamp) {
   EXPECT_FALSE(study.hardware.at(0).i_clamp);
   EXPECT_FALSE(study.hardware.at(0).antiwindup);
   EXPECT_TRUE(read_text(kLeastStudy).hardware.empty());
-}
-
-TEST(StudyHardware, RefusesWhatNoRobotCouldRead) {
-  expect_fault(text_of("{sped: {namespace: a}}"), "hardware.sped", "did you mean \"speed\"", 7);
-  expect_fault(text_of("{push: {namespace: a}}"), "hardware.push", "no p, i and d", 7);
-  expect_fault(text_of("{speed: {namespce: a}}"), "hardware.speed.namespce", "unknown key", 7);
-  expect_fault(text_of("{speed: {}}"), "hardware.speed.namespace", "required key is missing", 7);
-  expect_fault(text_of("{speed: {namespace: a//b}}"), "hardware.speed.namespace", "not a namespace",
-               7);
-  expect_fault(text_of("{speed: {namespace: 2a}}"), "hardware.speed.namespace", "not a namespace",
-               7);
-  expect_fault(text_of("{speed: {namespace: /}}"), "hardware.speed.namespace", "not a namespace",
-               7);
-  expect_fault(text_of("{speed: {namespace: a}}", "{p: 1, i: 2}"), "hardware.speed",
-               "limits the integral", 7);
-  expect_fault(text_of("{speed: {namespace: a, i_clamp: -1}}"), "hardware.speed.i_clamp",
-               "must not be negative", 7);
-  expect_fault(text_of("{speed: {namespace: a, antiwindup: 2}}"), "hardware.speed.antiwindup", "",
-               7);
 }
 
 TEST(StudyHardware, TakesTheClampOfTheController) {

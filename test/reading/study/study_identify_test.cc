@@ -100,37 +100,6 @@ TEST(StudyIdentify, ANumberIsKnownAndAMapIsFitted) {
   EXPECT_FALSE(plain.delay.is_fitted);
 }
 
-TEST(StudyIdentify, RefusesWhatMakesNoSense) {
-  expect_bad_identify("residuals: effort", "identify.residuals", "did you mean \"residual\"");
-  expect_bad_identify("residual: efort", "identify.residual", "did you mean \"effort\"");
-  expect_bad_identify("segment: 0", "identify.segment", "not above zero");
-  expect_bad_identify("filter: {cutoff: -1}", "identify.filter.cutoff", "a cutoff is a frequency");
-  expect_bad_identify("filter: {order: 9}", "identify.filter.order", "order out of range");
-  expect_bad_identify("filter: {decimate: 0}", "identify.filter.decimate", "decimate out of range");
-  expect_bad_identify("loss: {scale: 1}", "identify.loss.type", "required key is missing");
-  expect_bad_identify("loss: {type: hubber}", "identify.loss.type", "did you mean \"huber\"");
-  expect_bad_identify("loss: {type: huber, scale: 0}", "identify.loss.scale", "not above zero");
-  expect_bad_identify("loss: {type: none, scale: 2}", "identify.loss.scale", "nothing to scale");
-  expect_bad_identify("intervals: {level: 95}", "identify.intervals.level", "a probability");
-  expect_bad_identify("intervals: {noise: white, lag: 3}", "identify.intervals.lag",
-                      "white noise has no lag");
-  expect_bad_identify("holdout: []", "identify.holdout", "no recording");
-}
-
-TEST(StudyIdentify, RefusesCalibrationsThatCannotBe) {
-  expect_bad_identify("joints: {crank_jiont: {}}", "identify.joints.crank_jiont",
-                      "did you mean \"crank_joint\"");
-  expect_bad_identify("joints: {ball_joint: {}}", "identify.joints.ball_joint",
-                      "no single coordinate");
-  expect_bad_identify("joints: {crank_joint: {scale: 1}}", "identify.joints.crank_joint.scale",
-                      "unknown key");
-  expect_bad_identify("joints: {crank_joint: {effort_scale: 0}}",
-                      "identify.joints.crank_joint.effort_scale", "leaves nothing");
-  expect_bad_identify("joints: {crank_joint: {delay: {initial: 1, upper: 0.5}}}",
-                      "identify.joints.crank_joint.delay.initial",
-                      "the start lies outside the bounds");
-}
-
 TEST(StudyIdentify, NeedsSomethingToIdentify) {
   EXPECT_TRUE(read_text(kStudyToIdentify + "identify: {}\n").identification->data.empty())
       << "a program may have them as arrays";

@@ -31,18 +31,6 @@ TEST(StudyMotion, IsAPositionOrTheIntegralOfAVelocity) {
   EXPECT_EQ(position.integral.start.nominal(), 0.08);
 }
 
-TEST(StudyMotion, RefusesWhatIsNoMotion) {
-  const std::string at = "motion.crank_joint";
-  expect_fault(with_motion("0.3"), at, "must be a map", 3);
-  expect_fault(with_motion("{}"), at, "either a position or a velocity", 3);
-  expect_fault(with_motion("{position: 1, velocity: 1}"), at, "either a position or a velocity", 3);
-  expect_fault(with_motion("{speed: 1}"), at + ".speed", "unknown key", 3);
-  expect_fault(kLeastStudy + "motion: {crank: {position: 1}}\n", "motion.crank", "joint", 3);
-  expect_fault(kLeastStudy + "motion: {ball_joint: {position: 1}}\n", "motion.ball_joint",
-               "no single coordinate", 3);
-  expect_fault(with_motion("{position: \"${1/t}\"}"), at + ".position", "not finite at t = 0", 3);
-}
-
 TEST(StudyMotion, RefusesVelocitiesThatJump) {
   const std::string at = "motion.crank_joint.position";
   const std::string points = "{position: {type: waypoints, times: [0.0, 1.0], positions: [0, 1], ";
@@ -59,22 +47,6 @@ TEST(StudyMotion, RefusesVelocitiesThatJump) {
   expect_fault(with_motion("{velocity: \"${t < 0.3 ? 0 : 2}\"}"), "motion.crank_joint.velocity",
                "the velocity jumps at 0.3 s", 3);
   read_text(with_motion("{velocity: \"${t < 0.3 ? 0 : 2*(t - 0.3)}\"}"));
-}
-
-TEST(StudyMotion, RefusesWhatContradictsIt) {
-  const std::string at = "motion.crank_joint";
-  for (const char* start : {"position: 0.1", "velocity: 1", "guess: 0.2"})
-    expect_fault(with_motion("{position: 1}",
-                             std::string("initial_state: {crank_joint: {") + start + "}}\n"),
-                 at, "contradicts or repeats", 3);
-  expect_fault(with_motion("{velocity: 1}", "initial_state: {crank_joint: {velocity: 1}}\n"), at,
-               "contradicts or repeats", 3);
-  expect_fault(with_motion("{position: 1}",
-                           "controllers: {c: {type: pid, input: crank_joint/position, setpoint: 0, "
-                           "output: crank_joint, gains: {p: 1}}}\n"),
-               at, "has no effect", 3);
-  expect_fault(with_motion("{position: 1}", "identify: {}\nexcite: {}\n"), "motion",
-               "`excite` seeks", 3);
 }
 
 }  // namespace

@@ -85,28 +85,6 @@ TEST(StudyOptions, ReadsTheOptimizer) {
   EXPECT_EQ(optimizer.relative_tolerance, 1e-3);
 }
 
-TEST(StudyOptions, RefusesBadSolverValues) {
-  expect_fault(with_line("solver: {integrator: euler}"), "solver.integrator", "unknown integrator",
-               3);
-  expect_fault(with_line("solver: {method: rodas4p}"), "solver.method", "did you mean", 3);
-  expect_fault(with_line("solver: {relative_tolerance: 0}"), "solver.relative_tolerance",
-               "out of range", 3);
-  expect_fault(with_line("solver: {absolute_tolerance: 1}"), "solver.absolute_tolerance",
-               "out of range", 3);
-  expect_fault(with_line("solver: {initial_step: -1}"), "solver.initial_step", "out of range", 3);
-  expect_fault(with_line("solver: {maximum_step: -1}"), "solver.maximum_step", "out of range", 3);
-  expect_fault(with_line("solver: {maximum_steps: 0}"), "solver.maximum_steps", "out of range", 3);
-  expect_fault(with_line("solver: {maximum_steps: 2.5}"), "solver.maximum_steps", "not an integer",
-               3);
-  expect_fault(with_line("solver: {maximum_speed: -1}"), "solver.maximum_speed", "out of range", 3);
-  expect_fault(with_line("solver: {gradient: backward}"), "solver.gradient", "unknown gradient", 3);
-  expect_fault(with_line("solver: {integrator: idas, gradient: adjoint}"), "solver.gradient",
-               "integrator rosenbrock only", 3);
-  expect_fault(with_line("solver: {sensitivity_tolerance: 1e-4, gradient: adjoint}"),
-               "solver.gradient", "no sensitivities", 3);
-  expect_fault(with_line("solver: {tolerance: 1e-6}"), "solver.tolerance", "unknown key", 3);
-}
-
 TEST(StudyOptions, ReadsTheLimits) {
   const LimitOptions none = read_text(kLeastStudy).limits;
   EXPECT_FALSE(none.effort || none.position);
@@ -129,17 +107,6 @@ TEST(StudyOptions, RefusesBadLimits) {
                  "limits." + std::string(key), "an option of the stops", 3);
   EXPECT_FALSE(read_text(with_line("limits: {position: false, stiffness: 5}")).limits.position);
   expect_fault(with_line("limits: {positions: true}"), "limits.positions", "unknown key", 3);
-}
-
-TEST(StudyOptions, RefusesBadOptimizerValues) {
-  expect_fault(with_line("optimizer: {algorithm: slqsp}"), "optimizer.algorithm",
-               "did you mean \"slsqp\"", 3);
-  expect_fault(with_line("optimizer: {max_evaluations: 0}"), "optimizer.max_evaluations",
-               "out of range", 3);
-  expect_fault(with_line("optimizer: {relative_tolerance: -1e-6}"), "optimizer.relative_tolerance",
-               "out of range", 3);
-  expect_fault(with_line("optimizer: {max_iterations: 5}"), "optimizer.max_iterations",
-               "unknown key", 3);
 }
 
 }  // namespace

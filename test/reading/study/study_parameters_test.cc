@@ -72,25 +72,6 @@ TEST(StudyParameters, RefusesBadRanges) {
             "[-5, 5]");
 }
 
-TEST(StudyParameters, RefusesBadEntries) {
-  expect_bad_parameters("{crank_lenght: {}}", "parameters.crank_lenght.initial",
-                        "did you mean \"crank_length\"");
-  expect_bad_parameters("{Kp: {start: 1}}", "parameters.Kp.start", "unknown key");
-  expect_bad_parameters("{2Kp: {initial: 1}}", "parameters.2Kp", "");
-  expect_bad_parameters("{sqrt: {initial: 1}}", "parameters.sqrt", "");
-  expect_bad_parameters("{crank_length: {tune: maybe}}", "parameters.crank_length.tune",
-                        "not a truth value");
-  expect_bad_parameters("{crank_length: {tune: [true]}}", "parameters.crank_length.tune",
-                        "not a truth value");
-  expect_bad_parameters("{Kp: 1}", "parameters.Kp", "expected a map");
-  expect_bad_parameters("{Kp: {initial: .inf}}", "parameters.Kp.initial", "not finite");
-  expect_bad_parameters("{Kp: {initial: \"${rod_length}\"}}", "parameters.Kp.initial",
-                        "not a number");
-  expect_bad_parameters("{rod_length: {}, rod_length: {}}", "parameters.rod_length",
-                        "repeated key");
-  expect_bad_parameters("[crank_length]", "parameters", "expected a map");
-}
-
 FittedNumber fitted_number(const std::string& text, double lower, double standard) {
   FittedNumber number(standard);
   read_fitted(YamlValue::parse({"study.yaml", "x: " + text + "\n"}).at("x"), lower, &number);
@@ -151,29 +132,6 @@ TEST(StudyConstraints, BoundSumsOfParameters) {
   EXPECT_NEAR(margin(study, 2, 0.1, 0.25), 0.15, 1e-15);
   EXPECT_NEAR(margin(study, 3, 0.1, 0.25), 0.2, 1e-15);
   EXPECT_EQ(study.used_parameters.count(0), 0U) << "a constraint moves nothing";
-}
-
-TEST(StudyConstraints, AreChecked) {
-  expect_fault(kLeastStudy + "constraints:\n  - rod_length >= 0.1\n  - Kp >= 1\n", "constraints[1]",
-               "Kp", 5);
-  expect_fault(kLeastStudy + "constraints: rod_length >= 0.1\n", "constraints", "expected a list",
-               3);
-  const auto refuse = [](const std::string& item, const std::string& element,
-                         const std::string& message) {
-    expect_fault(kLeastStudy + "constraints: [" + item + "]\n", element, message, 3);
-  };
-  refuse("{expresion: \"${rod_length}\", at_most: 1}", "constraints[0]", "not a constraint");
-  refuse("[rod_length]", "constraints[0]", "not a constraint");
-  refuse("{expression: \"${rod_lenght}\", at_most: 1}", "constraints[0].expression",
-         "did you mean 'rod_length'");
-  refuse("{expression: 3, at_most: 1}", "constraints[0].expression", "no parameter appears");
-  refuse("{expression: \"${rod_length}\"}", "constraints[0]", "needs bounds");
-  refuse("{expression: \"${rod_length}\", after: 1, at_most: 1}", "constraints[0].after",
-         "unknown key");
-  refuse("{expression: \"${rod_length}\", between: [0.3, 0.3]}", "constraints[0]",
-         "the lower bound, 0.3, must be less than the upper one");
-  refuse("{expression: \"${rod_length}\", between: [0.5, 0.4]}", "constraints[0]",
-         "must be less than");
 }
 
 }  // namespace

@@ -48,43 +48,5 @@ TEST(StudyPositions, OneIsEnough) {
   EXPECT_EQ(study.integral[0].reference.constant.nominal(), 0.3);
 }
 
-TEST(StudyPositions, TakeThePlaceOfAMotion) {
-  const std::string positions = "positions: {crank_joint: [0.1, 0.2]}\n";
-  expect_fault(positions + "duration: 1\n", "duration", "in place of a motion", 2);
-  expect_fault(positions + "controllers: {}\n", "controllers", "in place of a motion", 2);
-  expect_fault(positions + "solver: {integrator: idas}\n", "solver.integrator", "not integrated",
-               2);
-  expect_fault(positions + "solver: {gradient: adjoint}\n", "solver.gradient", "no adjoint", 2);
-  expect_fault(positions + "objective: {integral: []}\n", "objective.integral", "no integral", 2);
-  expect_fault("duration: 1\nobjective: {sum: []}\n", "objective.sum", "no postures", 2);
-  expect_fault(positions + "objective: {dwell: [{signal: slider/position/x, band: [0, 1]}]}\n",
-               "objective.dwell[0]", "no times", 2);
-  expect_fault(positions + "path: [{signal: slider/position/x, at_most: 1, after: 2}]\n", "path[0]",
-               "the interval from 2 to 1 is not part", 2);
-}
-
-TEST(StudyPositions, RefuseBadLists) {
-  expect_fault("positions: {}\n", "positions", "no joint", 1);
-  expect_fault("positions: {crank_joint: []}\n", "positions.crank_joint", "found 0 postures", 1);
-  expect_fault("positions: {crank_jiont: [1]}\n", "positions.crank_jiont",
-               "did you mean \"crank_joint\"", 1);
-  expect_fault("positions: {ball_joint: [1]}\n", "positions.ball_joint", "no single coordinate", 1);
-  expect_fault("positions: {crank_joint: [0, x]}\n", "positions.crank_joint[1]", "not a number", 1);
-  expect_fault("positions:\n  crank_joint: [0, 1]\n  slider_joint: [0, 1, 2]\n",
-               "positions.slider_joint", "found 3 positions, and of joint 'crank_joint' 2", 3);
-  expect_fault("positions: {crank_joint: {from: 0, to: 1, count: 1}}\n",
-               "positions.crank_joint.count", "found 1 postures", 1);
-  expect_fault("positions: {crank_joint: {from: 0, to: 1, count: 2.5}}\n",
-               "positions.crank_joint.count", "found 2.5 postures", 1);
-  expect_fault("positions: {crank_joint: {from: 0, count: 3}}\n", "positions.crank_joint.to",
-               "required key is missing", 1);
-  expect_fault("positions: {crank_joint: [0, 1]}\ninitial_state: {crank_joint: {position: 0.5}}\n",
-               "positions.crank_joint", "initial_state gives", 1);
-  expect_fault(
-      "positions: {crank_joint: [0, 1]}\nobjective: {sum: [{signal: slider/position/x, "
-      "reference: [1, 2, 3]}]}\n",
-      "objective.sum[0].reference", "found 3 values for 2 postures", 2);
-}
-
 }  // namespace
 }  // namespace codesign

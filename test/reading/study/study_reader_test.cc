@@ -58,14 +58,6 @@ TEST(StudyReader, TheRestHasDefaults) {
   EXPECT_EQ(study.optimizer.algorithm, "auto");
 }
 
-TEST(StudyReader, RefusesUnknownMissingAndRepeatedKeys) {
-  expect_fault(kLeastStudy + "solvr: {}\n", "solvr", "did you mean \"solver\"", 3);
-  expect_fault("objective: {integral: [{signal: crank_joint/velocity}]}\n", "duration",
-               "required key is missing", 1);
-  expect_fault(kLeastStudy + "duration: 3\n", "duration", "repeated key", 3);
-  expect_fault("- duration\n", "study", "expected a map", 1);
-}
-
 TEST(StudyReader, RefusesADurationThatIsNone) {
   const std::string objective = "\nobjective: {integral: [{signal: crank_joint/velocity}]}\n";
   expect_fault("duration: 0" + objective, "duration", "must be positive", 1);
@@ -76,31 +68,6 @@ TEST(StudyReader, RefusesADurationThatIsNone) {
   expect_fault("duration: [1]" + objective, "duration", "expected a number, found a list", 1);
   EXPECT_EQ(fault_in("duration: -1" + objective).value, "-1");
   EXPECT_EQ(fault_in("duration: -1" + objective).allowed, "more than 0 s");
-}
-
-TEST(StudyReader, RefusesGravityThatIsNoVector) {
-  expect_fault(kLeastStudy + "gravity: [0, 0]\n", "gravity", "three components, found 2", 3);
-  expect_fault(kLeastStudy + "gravity: -9.81\n", "gravity", "expected a list", 3);
-  expect_fault(kLeastStudy + "gravity: [0, 0, down]\n", "gravity[2]", "not a number", 3);
-}
-
-TEST(StudyReader, ChecksTheInitialState) {
-  const std::string start = kLeastStudy + "initial_state: ";
-  expect_fault(start + "{crank_jont: {position: 0}}\n", "initial_state.crank_jont",
-               "did you mean \"crank_joint\"", 3);
-  expect_fault(start + "{ball_joint: {position: 0}}\n", "initial_state.ball_joint.position",
-               "no position", 3);
-  expect_fault(start + "{crank_joint: {speed: 0}}\n", "initial_state.crank_joint.speed",
-               "unknown key", 3);
-  expect_fault(start + "{crank_joint: {}}\n", "initial_state.crank_joint",
-               "no initial state is given", 3);
-  expect_fault(start + "{crank_joint: 0.1}\n", "initial_state.crank_joint", "expected a map", 3);
-  expect_fault(start + "{crank_joint: {position: 0, guess: 0}}\n",
-               "initial_state.crank_joint.guess", "either", 3);
-  expect_fault(start + "{crank_joint: {position: fast}}\n", "initial_state.crank_joint.position",
-               "not a number", 3);
-  expect_fault(start + "{crank_joint: {position: \"${crank_lenght}\"}}\n",
-               "initial_state.crank_joint.position", "crank_length", 3);
 }
 
 }  // namespace

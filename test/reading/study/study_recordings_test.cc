@@ -82,39 +82,5 @@ TEST(StudyRecordings, WhereJointsWithoutPositionsStart) {
   expect_bad_recording("{csv: a.csv, start: {crank_joint: here}}", ".start.crank_joint", "");
 }
 
-TEST(StudyRecordings, RefusesOtherEntries) {
-  expect_bad_recording("excite.bag", "", "not a recording");
-  expect_bad_recording("{topic: a}", "", "a recording is one file");
-  expect_bad_recording("{bag: a, csv: b}", "", "a recording is one file");
-  expect_bad_recording("{bag: a.bag}", ".topic", "required key is missing");
-  expect_bad_recording("{bag: a.bag, topic: t, columns: {}}", ".columns", "unknown key");
-  expect_bad_recording("{csv: a.csv, topic: t}", ".topic", "unknown key");
-  expect_bad_recording("{csv: a.csv, from: 3, to: 3}", ".to", "ends before it begins");
-  expect_bad_recording("{csv: a.csv, delimiter: coma}", ".delimiter", "did you mean \"comma\"");
-  expect_bad_recording("{csv: a.csv, gaps: splt}", ".gaps", "did you mean \"split\"");
-  expect_fault(kRecordedStudy + "[]\n", "identify.data", "no recording", 4);
-}
-
-TEST(StudyRecordings, RefusesOtherColumns) {
-  const auto expect_bad_columns = [](const std::string& columns, const std::string& element,
-                                     const std::string& message) {
-    expect_bad_recording("{csv: a.csv, columns: {" + columns + "}}", ".columns" + element, message);
-  };
-  expect_bad_columns("crank_joint/position: q", "", "the column of the time is missing");
-  expect_bad_columns("time: t", "", "no column of a joint");
-  expect_bad_columns("time: t, crank_joint/positon: q", ".crank_joint/positon",
-                     "did you mean \"position\"");
-  expect_bad_columns("time: t, crank_jont/position: q", ".crank_jont/position",
-                     "did you mean \"crank_joint\"");
-  expect_bad_columns("time: t, ball_joint/position: q", ".ball_joint/position",
-                     "no single coordinate");
-  expect_bad_columns("tiem: t", ".tiem", "did you mean \"time\"");
-  expect_bad_columns("time: 0, crank_joint/position: q", ".time", "numbered from 1");
-  expect_bad_columns("time: 1.5, crank_joint/position: q", ".time", "not an integer");
-  expect_bad_columns("time: {scale: 2}", ".time.column", "required key is missing");
-  expect_bad_columns("time: {column: t, scale: 0}", ".time.scale", "leaves nothing");
-  expect_bad_columns("time: [1]", ".time", "not a column");
-}
-
 }  // namespace
 }  // namespace codesign

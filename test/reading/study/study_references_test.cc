@@ -105,12 +105,6 @@ TEST(StudyReferences, ATrajectoryInABagIsLeftToWhoCanReadIt) {
   EXPECT_TRUE(points.accelerations.empty());
 }
 
-TEST(StudyReferences, WithoutALoaderTheMessageSaysHowToConvertTheBag) {
-  expect_bad_reference(
-      kInBag, "",
-      "rosrun mechanism_codesign trajectory_from_bag moves.bag /arm/command crank_joint");
-}
-
 TEST(StudyReferences, ATrajectoryInATable) {
   const std::string table = "t,height,note\n0,0.5,a\n0.5,0.7,b\n1.5,nan,c\n";
   const auto read = [&](const std::string& reference, const std::string& text) {

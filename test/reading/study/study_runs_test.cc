@@ -114,12 +114,6 @@ TEST(StudyRuns, RefusesWhatIsNoRun) {
   expect_bad_run("{a: {weight: heavy}}", "runs.a.weight", "not a number");
 }
 
-TEST(StudyRuns, RefusesTooManyRuns) {
-  std::string many;
-  for (int k = 0; k <= 1000; ++k) many += (k > 0 ? ", r" : "r") + std::to_string(k) + ": {}";
-  expect_bad_run("{" + many + "}", "runs", "found 1001 runs");
-}
-
 TEST(StudyRuns, RefusesValuesThatCannotBeSet) {
   expect_bad_run("{a: {set: {mas: 1}}}", "runs.a.set.mas",
                  "unknown parameter, did you mean \"mass\"");
@@ -130,33 +124,6 @@ TEST(StudyRuns, RefusesValuesThatCannotBeSet) {
   expect_bad_run("{a: {set: {mass: .nan}}}", "runs.a.set.mass", "not finite");
   expect_bad_run("{a: {set: {mass: \"${Kp}\"}}}", "runs.a.set.mass", "not a number");
   expect_bad_run("{a: {set: [mass]}}", "runs.a.set", "expected a map");
-}
-
-TEST(StudyRuns, ErrorsNameThePlaceInTheRun) {
-  expect_bad_run("\n  a:\n    controllers:\n      hlod: {setpoint: 1}\n", "runs.a.controllers.hlod",
-                 "unknown controller of the study, did you mean \"hold\"", 13);
-  expect_bad_run("{a: {controllers: {hold: 3}}}", "runs.a.controllers.hold", "must be a map");
-  expect_bad_run("\n  a:\n    controllers: {hold: {set_point: 1}}\n",
-                 "runs.a.controllers.hold.set_point", "unknown key", 12);
-  expect_bad_run("{a: {controllers: {hold: {setpoint: \"${Kq}\"}}}}",
-                 "runs.a.controllers.hold.setpoint", "Kq");
-  expect_bad_run("{a: {controllers: {hold: {type: pd_gravity, setpoint: 0}}}}",
-                 "runs.a.controllers.hold.output", "required key is missing");
-  expect_bad_run("{a: {controllers: {shake: {feedforward: {period: 1}}}}}",
-                 "runs.a.controllers.shake.feedforward", "either a frequency or a period");
-  expect_bad_run("{a: {initial_state: {crank_joint: {guess: 1}}}}",
-                 "runs.a.initial_state.crank_joint.guess", "either a position or a guess");
-  expect_bad_run("{a: {initial_state: {crank_jont: {position: 1}}}}",
-                 "runs.a.initial_state.crank_jont", "did you mean \"crank_joint\"");
-  expect_bad_run("{a: {loads: [{joint: crank_joint}]}}", "runs.a.loads[0].effort",
-                 "required key is missing");
-  expect_bad_run("{a: {gravity: [0, 0]}}", "runs.a.gravity", "three components");
-}
-
-TEST(StudyRuns, AFaultElsewhereNamesTheRun) {
-  expect_bad_run(
-      "{a: {controllers: {hold: {type: state_feedback, output: crank_joint, feedforward: 1}}}}",
-      "objective.integral[1].signal", "with the changes of the run \"a\"", 9);
 }
 
 TEST(StudyRuns, RefusesOtherParameters) {

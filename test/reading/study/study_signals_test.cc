@@ -40,29 +40,6 @@ TEST(StudyObjective, MayBeEmptyOrLeftOut) {
   expect_fault(with_objective("[]"), "objective", "expected a map", 3);
 }
 
-TEST(StudyObjective, RefusesBadTerms) {
-  expect_fault(with_objective("{integrl: []}"), "objective.integrl", "did you mean \"integral\"",
-               3);
-  expect_fault(with_objective("{integral: {signal: speed/output}}"), "objective.integral",
-               "expected a list", 3);
-  expect_fault(with_objective("{integral: [{weight: 1}]}"), "objective.integral[0].signal",
-               "required key is missing", 3);
-  expect_fault(with_objective("{integral: [{signal: speed/output}, {signal: speed/ouput}]}"),
-               "objective.integral[1].signal", "\"output\"", 3);
-  expect_fault(with_objective("{integral: [{signal: sped/output}]}"),
-               "objective.integral[0].signal", "did you mean \"speed\"", 3);
-  expect_fault(with_objective("{integral: [{signal: crank_joint/friction}]}"),
-               "objective.integral[0].signal", "unknown quantity", 3);
-  expect_fault(with_objective("{terminal: [{signal: slider/position}]}"),
-               "objective.terminal[0].signal", "needs the component", 3);
-  expect_fault(with_objective("{terminal: [{signal: speed/output, wieght: 1}]}"),
-               "objective.terminal[0].wieght", "did you mean \"weight\"", 3);
-  expect_fault(with_objective("{terminal: [{signal: speed/output, weight: heavy}]}"),
-               "objective.terminal[0].weight", "not a number", 3);
-  expect_fault(with_objective("{terminal: [{signal: speed/output, reference: .nan}]}"),
-               "objective.terminal[0].reference", "not finite", 3);
-}
-
 std::string with_watched_text(const std::string& lines) {
   return "duration: 2\ncontrollers: {speed: {type: pid, input: crank_joint/velocity, setpoint: 0, "
          "output: crank_joint, gains: {p: 1}}}\n" +
@@ -119,48 +96,6 @@ TEST(StudyWatched, APeakWithinABoundIsABoundOnBothSides) {
   EXPECT_EQ(study.watched[3].role, WatchedSignal::Role::kPeak);
 }
 
-TEST(StudyWatched, RefusesBadPeaks) {
-  const auto refuse = [](const std::string& item, const std::string& element,
-                         const std::string& message) {
-    expect_fault(with_watched_text("constraints: [{" + item + "}]"), element, message, 3);
-  };
-  refuse("peak: speed/outptu, at_most: 1", "constraints[0].peak", "did you mean \"output\"");
-  refuse("peak: speed/output", "constraints[0].at_most", "required key is missing");
-  refuse("peak: speed/output, at_least: 1, at_most: 2", "constraints[0].at_least", "unknown key");
-  refuse("peak: speed/output, at_most: 0", "constraints[0].at_most", "must be positive");
-  refuse("peak: speed/output, at_most: \"${-rod_length}\"", "constraints[0].at_most",
-         "must be positive");
-  refuse("peak: speed/output, at_most: 1, after: 3", "constraints[0]", "not part of the study");
-  expect_fault(with_watched_text(
-                   "constraints: [{peak: speed/output, at_most: 1}]\nsolver: {gradient: adjoint}"),
-               "solver.gradient", "peaks in constraints", 4);
-}
-
-TEST(StudyWatched, RefusesBadConstraints) {
-  const std::string signal = "signal: speed/output, ";
-  const auto refuse = [&](const std::string& item, const std::string& element,
-                          const std::string& message) {
-    expect_fault(with_watched_text("path: [{" + item + "}]"), element, message, 3);
-  };
-  refuse("between: [0, 1]", "path[0].signal", "required key is missing");
-  refuse("signal: speed/outptu, between: [0, 1]", "path[0].signal", "did you mean \"output\"");
-  refuse(signal + "after: 0.1", "path[0]", "needs bounds");
-  refuse(signal + "between: [0, 1], at_most: 2", "path[0]", "needs bounds");
-  refuse(signal + "between: [0]", "path[0].between", "two bounds are needed, found 1");
-  refuse(signal + "between: [1, 1]", "path[0]", "must be less than");
-  refuse(signal + "at_least: 2, at_most: 1", "path[0]", "must be less than");
-  refuse(signal + "between: [0, one]", "path[0].between[1]", "not a number");
-  refuse(signal + "at_most: 1, after: 1, before: 1", "path[0]", "not part of the study");
-  refuse(signal + "at_most: 1, before: 2.5", "path[0]", "not part of the study");
-  refuse(signal + "at_most: 1, weight: 2", "path[0].weight", "unknown key");
-  expect_fault(with_watched_text("final: [{" + signal + "at_most: 1, after: 1}]"), "final[0].after",
-               "unknown key", 3);
-  expect_fault(with_watched_text("objective: {peak: [{" + signal + "weight: 0}]}"),
-               "objective.peak[0].weight", "must be positive", 3);
-  expect_fault(with_watched_text("path: [{" + signal + "at_most: 1}]\nsolver: {gradient: adjoint}"),
-               "solver.gradient", "adjoint", 4);
-}
-
 TEST(StudyWatched, ReadsMeasures) {
   const Study study = read_text(with_watched_text(
       "constraints: [{stroke: speed/output, at_most: 2}, {maximum: speed/output, at_least: 1, "
@@ -185,23 +120,6 @@ TEST(StudyWatched, ReadsMeasures) {
   EXPECT_EQ(study.watched[3].weight, -2.0);
   EXPECT_EQ(study.watched[4].measure, Measure::kArrival);
   EXPECT_TRUE(has_objective(study));
-}
-
-TEST(StudyWatched, RefusesBadMeasures) {
-  const auto refuse = [](const std::string& item, const std::string& element,
-                         const std::string& message) {
-    expect_fault(with_watched_text("constraints: [{" + item + "}]"), element, message, 3);
-  };
-  refuse("stroke: speed/output", "constraints[0]", "needs bounds");
-  refuse("stroke: speed/output, at_most: 0", "constraints[0]", "must be positive");
-  refuse("stroke: speed/output, at_most: 1, band: [0, 1]", "constraints[0].band", "unknown key");
-  refuse("dwell: speed/output, at_least: 1", "constraints[0].band", "required key is missing");
-  refuse("dwell: speed/output, at_least: 1, band: [1, 0]", "constraints[0].band",
-         "must be less than the upper one");
-  refuse("dwell: speed/output, at_least: 1, band: [0, 1, 2]", "constraints[0].band", "found 3");
-  refuse("maximum: speed/outptu, at_least: 1", "constraints[0].maximum", "did you mean");
-  expect_fault(with_watched_text("objective: {stroke: [{signal: speed/output, weight: 0}]}"),
-               "objective.stroke[0].weight", "has no effect", 3);
 }
 
 }  // namespace

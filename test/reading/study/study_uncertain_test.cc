@@ -74,21 +74,6 @@ TEST(StudyUncertain, AParameterMayHaveTheNameOfTheLaw) {
   EXPECT_TRUE(study.ensemble.uncertain[0].laws.empty());
 }
 
-TEST(StudyUncertain, RefusesOtherNames) {
-  expect_bad_uncertain("{}", "uncertain", "nothing is uncertain");
-  expect_bad_uncertain("[mass]", "uncertain", "expected a map");
-  expect_bad_uncertain("{mas: {uniform: [1, 2]}}", "uncertain.mas",
-                       "unknown parameter, did you mean \"mass\"");
-  expect_bad_uncertain("{friction_lw: {choice: [lugre, gonthier]}}", "uncertain.friction_lw",
-                       "did you mean \"friction_law\"");
-  expect_bad_uncertain("{Kp: {uniform: [1, 2]}}", "uncertain.Kp", "this parameter is tuned");
-  expect_bad_uncertain("{mass: {uniform: [1, 2]}, mass: {uniform: [1, 2]}}", "uncertain.mass",
-                       "repeated key");
-  expect_fault(
-      kCertainStudy + "runs: {a: {set: {mass: 1}}}\nuncertain: {mass: {uniform: [1, 2]}}\n",
-      "uncertain.mass", "the run \"a\" sets this parameter", 5);
-}
-
 TEST(StudyUncertain, RefusesOtherForms) {
   expect_bad_uncertain("{mass: {}}", "uncertain.mass", "one distribution");
   expect_bad_uncertain("{mass: [1, 2]}", "uncertain.mass", "expected a map");
@@ -129,23 +114,6 @@ TEST(StudyUncertain, RefusesBadNormalDistributions) {
   expect_bad_uncertain("{mass: {normal: [2, 1], between: [3, 4]}}", "uncertain.mass.normal[0]",
                        "the mean lies outside the range");
   EXPECT_EQ(allowed_by("{mass: {normal: [2, 1], between: [3, 4]}}"), "[3, 4]");
-}
-
-TEST(StudyUncertain, RefusesBadChoices) {
-  expect_bad_uncertain("{mass: {choice: [1]}}", "uncertain.mass.choice", "found 1 to choose from");
-  expect_bad_uncertain("{mass: {choice: [1, 6]}}", "uncertain.mass.choice[1]",
-                       "outside the bounds");
-  expect_bad_uncertain("{mass: {choice: [1, heavy]}}", "uncertain.mass.choice[1]", "not a number");
-  expect_bad_uncertain("{mass: {choice: [1, 2, 1.0]}}", "uncertain.mass.choice[2]",
-                       "repeated choice");
-  expect_bad_uncertain("{friction_law: {choice: [lugre]}}", "uncertain.friction_law.choice",
-                       "found 1 to choose from");
-  expect_bad_uncertain("{friction_law: {choice: [lugre, gontier]}}",
-                       "uncertain.friction_law.choice[1]", "did you mean \"gonthier\"");
-  expect_bad_uncertain("{friction_law: {choice: [lugre, lugre]}}",
-                       "uncertain.friction_law.choice[1]", "repeated choice");
-  expect_bad_uncertain("{friction_law: {uniform: [0, 1]}}", "uncertain.friction_law.uniform",
-                       "unknown key");
 }
 
 TEST(StudyUncertain, RefusesLawsThatTheModelCannotHave) {

@@ -41,16 +41,6 @@ TEST(ConstraintReader, ASphericalJointIsTheSame) {
   EXPECT_EQ(robot.joints[2].type, JointType::kSpherical);
 }
 
-TEST(ConstraintReader, ALoopInItsPlaceSilencesTheWarning) {
-  const std::string loop =
-      "<loop name=\"x\" type=\"continuous\"><predecessor link=\"b\"/><successor "
-      "link=\"a\"/></loop>";
-  expect_no_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "") + loop));
-  expect_no_warning(arms(
-      "<constraint type=\"spherical_joint\"><parent link=\"a\"/><child link=\"b\"/></constraint>" +
-      loop));
-}
-
 TEST(ConstraintReader, ACouplingMayRoll) {
   const auto coupling = [](const std::string& attributes, const std::string& a,
                            const std::string& b, const std::string& more) {
@@ -86,14 +76,6 @@ TEST(ConstraintReader, RollingIsACoupling) {
                                  "<origin xyz=\"-0.1 0 0\"/>")),
                    3.0);
   EXPECT_EQ(ratio(between("name=\"gear\" type=\"rolling\"", "", "")), 1.0);
-}
-
-TEST(ConstraintReader, WhatCannotBeReadIsNotDroppedInSilence) {
-  expect_warning(arms(between("name=\"x\" type=\"magnetic\"", "", "")), "loop_ignored",
-                 {"test.urdf:3:", "magnetic", "write the <loop>"});
-  expect_warning(arms("<constraint name=\"x\" type=\"position\"><predecessor "
-                      "link=\"aa\"/><successor link=\"b\"/></constraint>"),
-                 "loop_ignored", {"unknown link, did you mean", "(value: aa"});
 }
 
 }  // namespace

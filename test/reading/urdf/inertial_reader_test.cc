@@ -7,39 +7,6 @@
 namespace codesign {
 namespace {
 
-TEST(ShapeReader, ShapesWithoutMass) {
-  const auto with_shape = [](const std::string& shape) {
-    return with_inertial(from_shape("1000", "2"),
-                         "<visual><geometry>" + shape + "</geometry></visual>");
-  };
-  expect_error(with_inertial(from_shape("1000", "2")), {"the link has no <visual>"});
-  expect_error(with_shape("<mesh filename=\"x.stl\"/>"),
-               {"mass cannot be computed from this shape (value: <mesh>"});
-  expect_error(with_shape("<box size=\"1 0 1\"/>"), {"the box has no volume"});
-  expect_error(with_shape("<sphere radius=\"-1\"/>"), {"radius is not positive"});
-  expect_error(with_shape(""), {"exactly one shape"});
-  expect_error(with_inertial(from_shape("-1", "2"), kBox), {"the density is not positive"});
-  expect_error(with_inertial("<inertial codesign:density=\"1\" codesign:from=\"colision\"/>", kBox),
-               {"value: colision, allowed: visual or collision"});
-  expect_error(with_inertial("<inertial codesign:from=\"visual\"/>", kBox),
-               {"without codesign:density no mass can be computed"});
-}
-
-TEST(InertialCheck, WhatIsNoNumber) {
-  expect_error(with_numbers("nan", "1", "1", "1"), {"value is not finite"});
-  expect_error(with_numbers("heavy", "1", "1", "1"), {"is not a number"});
-}
-
-TEST(InertialCheck, WrittenValuesMustBeThoseOfTheShapes) {
-  expect_error(with_inertial(from_shape("1000", "2.1"), kBox),
-               {"mass, centre or inertia differ", "<mass value=\"2.1\"/>",
-                "allowed: <origin xyz=\"0 0 0.1\"/> <mass value=\"2"});
-  expect_error(with_inertial(from_shape("1000", "2", "0.00834"), kBox),
-               {"mass, centre or inertia differ"});
-  expect_error(with_inertial("<inertial codesign:density=\"1000\"/>", kBox),
-               {"which other readers of URDF need", "<mass value=\"2"});
-}
-
 TEST(InertialReader, ReadsNumbersAndTwins) {
   const RobotDescription robot = read_urdf(with_inertial(
       R"(<inertial><origin xyz="0 0 0.1" codesign:xyz="0 0 ${length/2}" rpy="0 0 1"/><mass value="2" codesign:value="${10*length}"/>
@@ -56,15 +23,6 @@ TEST(InertialReader, ReadsNumbersAndTwins) {
 TEST(InertialReader, NoMassIsNoInertial) {
   EXPECT_FALSE(read_urdf(with_inertial("")).links[0].inertial);
   EXPECT_FALSE(read_urdf(with_numbers("0", "0", "0", "0")).links[0].inertial);
-}
-
-TEST(InertialReader, MissingParts) {
-  expect_error(with_inertial("<inertial><mass value=\"1\"/></inertial>"),
-               {"the element <inertia> is missing"});
-  expect_error(with_inertial("<inertial><mass value=\"1\"/><inertia ixx=\"1\"/></inertial>"),
-               {"the attribute ixy is missing"});
-  expect_warning(with_inertial(std::string(kInertial) + "\n" + kInertial), "repeated_element",
-                 {"test.urdf:4:", "a second <inertial>"});
 }
 
 TEST(InertialReader, FromShapesFollowsTheParameters) {

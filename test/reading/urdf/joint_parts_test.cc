@@ -95,31 +95,6 @@ TEST(FrictionReader, AllAttributesAndTwins) {
   EXPECT_EQ(friction(std::string(kPlain) + " model=\"lugre\"").model, FrictionModel::kLuGre);
 }
 
-TEST(FrictionReader, Faults) {
-  const std::string plain = kPlain;
-  expect_error(text_with(plain + " model=\"brown_mcphe\""),
-               {"test.urdf:3: <joint name=\"hinge\"> <codesign:friction>: unknown friction model, "
-                "did you mean \"brown_mcphee\"?"});
-  expect_error(text_with("mu_static=\"0.4\""), {"the attribute mu_dynamic is missing"});
-  expect_error(text_with("mu_dynamic=\"0.4\""), {"the attribute mu_static is missing"});
-  expect_error(text_with("mu_static=\"0.3\" mu_dynamic=\"0.4\""),
-               {"mu_dynamic is above mu_static (value: 0.4, allowed: at most mu_static=0.3)"});
-  expect_error(text_with("mu_static=\"0.3\" mu_dynamic=\"-0.4\""), {"mu_dynamic is negative"});
-  for (const char* name : {"transition_velocity", "smoothing", "friction_arm", "joint_width"})
-    expect_error(text_with(plain + " " + name + "=\"0\""),
-                 {std::string(name) + " is not positive (value: 0, allowed: > 0)"});
-  for (const char* name : {"bristle_stiffness", "bristle_damping", "dwell_time"})
-    expect_error(text_with(plain + " model=\"gonthier\" " + name + "=\"0\""),
-                 {std::string(name) + " is not positive"});
-  for (const char* name : {"preload", "viscous"})
-    expect_error(text_with(plain + " " + name + "=\"-1\""), {std::string(name) + " is negative"});
-  expect_error(text_with(plain + " transverse_axis=\"2 0 0\""),
-               {"zero or parallel to the joint axis"});
-  expect_error(text_with(plain + " transverse_axis=\"0 0 0\""),
-               {"zero or parallel to the joint axis"});
-  expect_error(text_with(plain + " transverse_axis=\"0 1\""), {"wrong number"});
-}
-
 TEST(FrictionReader, NumbersAgainstTheAxis) {
   const std::string plain = kPlain;
   const FrictionDescription none = friction(plain);
@@ -141,21 +116,6 @@ TEST(FrictionReader, NumbersAgainstTheAxis) {
                 "with model=\"brown_mcphee\" or model=\"stribeck\")"});
   expect_error(text_with(plain + " viscous_backwards=\"1\""),
                {"did you mean \"viscous_backward\"?"});
-}
-
-TEST(FrictionReader, AttributesBelongToTheirModels) {
-  const std::string plain = kPlain;
-  expect_error(text_with(plain + " bristle_stiffness=\"1e4\""),
-               {"bristle_stiffness has no meaning for this friction model (value: 1e4, allowed: "
-                "with model=\"gonthier\" or model=\"lugre\")"});
-  expect_error(text_with(plain + " bristle_damping=\"10\""), {"bristle_damping has no meaning"});
-  expect_error(text_with(plain + " model=\"lugre\" dwell_time=\"1\""),
-               {"dwell_time has no meaning for this friction model (value: 1, allowed: with "
-                "model=\"gonthier\")"});
-  expect_error(text_with(plain + " model=\"gonthier\" bristle_stifness=\"1e4\""),
-               {"did you mean \"bristle_stiffness\"?"});
-  expect_error(text_with("model=\"lugre\" mu_static=\"0.3\" mu_dynamic=\"0\""),
-               {"mu_dynamic is zero: the LuGre model divides by it"});
 }
 
 TEST(FrictionReader, InNewtonMetres) {
@@ -184,29 +144,6 @@ TEST(FrictionReader, InNewtonMetresByDirection) {
   EXPECT_EQ(f.mu_static_backward.nominal(), 6.0) << "no static friction is given";
   EXPECT_EQ(friction(R"(coulomb="5" static="7" coulomb_backward="6")").mu_static_backward.nominal(),
             7.0);
-}
-
-TEST(FrictionReader, FaultsInNewtonMetres) {
-  expect_error(text_with("coulomb=\"-1\""), {"coulomb is negative"});
-  expect_error(text_with("coulomb=\"5\" static=\"4\""),
-               {"coulomb is above static (value: 5, allowed: at most static=4)"});
-  expect_error(text_with("coulomb=\"5\" viscous_exponent=\"0\""),
-               {"viscous_exponent is not positive"});
-  expect_error(text_with("coulomb=\"5\" mu_static=\"0.4\""),
-               {"mu_static has no meaning for friction in N m or N (value: 0.4, allowed: mu_static "
-                "and mu_dynamic in place of coulomb)"});
-  expect_error(text_with("coulomb=\"5\" transverse_axis=\"0 0 1\""),
-               {"transverse_axis has no meaning for friction in N m or N"});
-  expect_error(text_with(std::string(kPlain) + " static=\"4\""),
-               {"static has no meaning for friction by coefficients (value: 4, allowed: coulomb in "
-                "place of mu_static and mu_dynamic)"});
-  expect_error(text_with("coulomb=\"5\" model=\"lugre\" stribeck_velocity=\"1\""),
-               {"stribeck_velocity has no meaning for this friction model (value: 1, allowed: with "
-                "model=\"stribeck\")"});
-  expect_error(text_with("coulomb=\"0\" model=\"lugre\""),
-               {"coulomb is zero: the LuGre model divides by it"});
-  expect_error(text_with("coulomb=\"5\" stribek_velocity=\"1\""),
-               {"did you mean \"stribeck_velocity\"?"});
 }
 
 TEST(FrictionReader, ATransitionVelocityThatLuGresModelDoesNotReadIsRefused) {
@@ -257,28 +194,6 @@ TEST(GearReader, TheTransitionSuitsTheSpeedOfTheJoint) {
   EXPECT_EQ(transition("prismatic", "<limit effort='0' velocity='0'/>"), 0.001);
 }
 
-TEST(GearReader, Faults) {
-  const auto faulty = [](const std::string& attributes, const std::string& message) {
-    expect_error(pendulum("\n<codesign:actuator rotor_inertia=\"1e-5\" " + attributes + "/>"),
-                 {"test.urdf:3: <joint name=\"hinge\"> <codesign:actuator>: " + message});
-  };
-  faulty(
-      "efficiency=\"1.1\"",
-      "efficiency is above 1: the gear would give power (value: 1.1, allowed: > 0 and at most 1)");
-  faulty("efficiency=\"0\"", "efficiency is not positive");
-  faulty("efficiency=\"0.9\" backdrive_efficiency=\"1.5\"", "backdrive_efficiency is above 1");
-  faulty("coulomb=\"-1\"", "coulomb is negative");
-  faulty("backdrive_efficiency=\"0.5\"",
-         "backdrive_efficiency has no effect (value: 0.5, allowed: beside efficiency)");
-  faulty("transition_velocity=\"0.5\"",
-         "transition_velocity has no effect (value: 0.5, allowed: beside efficiency, coulomb or "
-         "viscous)");
-  faulty("efficiency=\"0.9\" bristle_stiffness=\"1e4\"", "bristle_stiffness has no meaning");
-  faulty("efficiency=\"0.9\" model=\"lugree\"", "unknown friction model");
-  expect_error(pendulum("<codesign:actuator rotor_inertia=\"0\" efficiency=\"0.5\"/>"),
-               {"a self-locking gear needs the inertia of its motor"});
-}
-
 TEST(ElasticGearReader, StiffnessDampingAndBacklash) {
   const auto actuator = [](const std::string& attributes) {
     return *read_urdf(pendulum("<codesign:actuator rotor_inertia='1e-5' " + attributes + "/>"))
@@ -298,27 +213,6 @@ TEST(ElasticGearReader, StiffnessDampingAndBacklash) {
   EXPECT_DOUBLE_EQ(all.stiffness.at(std::vector<double>{0.4}), 600.0);
   EXPECT_EQ(all.damping.nominal(), 2.0);
   EXPECT_DOUBLE_EQ(all.backlash->at(std::vector<double>{0.4}), 0.02);
-}
-
-TEST(ElasticGearReader, Faults) {
-  const auto faulty = [](const std::string& attributes, const std::string& message) {
-    expect_error(pendulum("\n<codesign:actuator " + attributes + "/>"),
-                 {"test.urdf:3: <joint name=\"hinge\"> <codesign:actuator>: " + message});
-  };
-  faulty("rotor_inertia='1' stiffness='-3'", "stiffness is not positive (value: -3, allowed: > 0)");
-  faulty("rotor_inertia='1' stiffness='0'", "stiffness is not positive (value: 0, allowed: > 0)");
-  faulty("rotor_inertia='1' stiffness='3' damping='-1'",
-         "damping is negative (value: -1, allowed: >= 0)");
-  faulty("rotor_inertia='1' stiffness='3' backlash='0'",
-         "backlash is not positive (value: 0, allowed: > 0)");
-  faulty("rotor_inertia='1' damping='2'",
-         "damping has no effect in a rigid gear: motor and joint move together (value: 2, allowed: "
-         "beside stiffness)");
-  faulty("rotor_inertia='1' backlash='0.01'", "backlash has no effect in a rigid gear");
-  faulty("rotor_inertia='0' stiffness='3'",
-         "behind an elastic gear the motor moves by itself, which needs an inertia (value: 0, "
-         "allowed: > 0, or no stiffness)");
-  expect_error(pendulum("<codesign:actuator stiffness='3'/>"), {"rotor_inertia"});
 }
 
 RobotDescription read_geared(

@@ -183,33 +183,6 @@ TEST(JointReader, WhatReadersOfURDFPassOverIsNotJudged) {
   EXPECT_EQ(read_urdf(damped).joints[0].damping.nominal(), 0.0);
 }
 
-TEST(JointReader, AnOverlayMeansWhatItSays) {
-  const auto refused = [](const std::string& joint, const char* fault) {
-    expect_error(pendulum("<limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
-                 {"notes.urdf:2:", fault},
-                 {overlay_text("<joint name=\"hinge\" type=\"revolute\">" + joint + "</joint>")});
-  };
-  refused("<dynamics damping=\"-1\"/>", "damping is negative (value: -1, allowed: >= 0)");
-  refused("<limit lower=\"2\"/>", "the lower limit is above the upper limit");
-  refused("<mimic joint=\"hing\"/>", "unknown joint to mimic");
-}
-
-TEST(JointReader, Links) {
-  expect_error(robot_text(kGround + link_with("arm") + joint_with("j", "fixed", "ground", "amr")),
-               {"<joint name=\"j\"> <child>: unknown link, did you mean \"arm\"? (value: amr"});
-  expect_error(robot_text(kGround + joint_with("j", "fixed", "grund", "ground")),
-               {"did you mean \"ground\"?"});
-  expect_error(robot_text(kGround + joint_with("j", "fixed", "ground", "ground")),
-               {"parent and child are the same link"});
-  expect_error(
-      robot_text("<link name=\"a\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>"),
-      {"the element <child> is missing"});
-  expect_error(robot_text("<link name=\"a\"/><joint name=\"j\"/>"),
-               {"the attribute type is missing"});
-  expect_error(robot_text("<link name=\"a\"/><joint type=\"fixed\"/>"),
-               {"the attribute name is missing"});
-}
-
 /// A robot with the loop on line 3.
 SourceText loop_text(
     const std::string& type, const std::string& content = "",
@@ -313,20 +286,6 @@ TEST(LoopReader, TakesFrictionDampingAndSprings) {
   EXPECT_EQ(l.damping.nominal(), 1.0);
   EXPECT_EQ(l.spring->stiffness.nominal(), 2.0);
   EXPECT_TRUE(l.friction);
-}
-
-TEST(LoopReader, Faults) {
-  expect_error(loop_text("fixed", "", "<predecessor link=\"ground\"/>"),
-               {"the element <successor> is missing"});
-  expect_error(loop_text("fixed", "", "<predecessor link=\"arm\"/><successor link=\"arm\"/>"),
-               {"predecessor and successor are the same link"});
-  expect_error(loop_text("fixed", "", "<predecessor link=\"arn\"/><successor link=\"ground\"/>"),
-               {"did you mean \"arm\"?"});
-  expect_error(pendulum("", "<loop type=\"fixed\"/>"), {"the attribute name is missing"});
-  expect_error(pendulum("",
-                        "<loop name=\"hinge\" type=\"fixed\"><predecessor "
-                        "link=\"ground\"/><successor link=\"arm\"/></loop>"),
-               {"test.urdf:3: <loop>: a second loop of this name"});
 }
 
 }  // namespace

@@ -73,15 +73,6 @@ TEST(Overlay, AddsLoopsAndSpringsOrMergesThemByName) {
   EXPECT_EQ(robot.joints[1].type, JointType::kRevolute);
 }
 
-TEST(Overlay, NamesMustExist) {
-  expect_error(vendor(),
-               {"notes.urdf:2: <joint name=\"hing\">: unknown joint of vendor.urdf, did you mean "
-                "\"hinge\"?"},
-               {overlay("<joint name=\"hing\"/>")});
-  expect_error(vendor(), {"notes.urdf:3: <link name=\"arn\">", "did you mean \"arm\"?"},
-               {overlay("\n<link name=\"arn\"/>")});
-}
-
 TEST(Overlay, AddsLinksAndJoints) {
   // A floating joint between a new ground and the vendor's root.
   const RobotDescription floating = read_urdf(
@@ -129,28 +120,6 @@ TEST(Overlay, SaysNothingTwice) {
       read_urdf(vendor(), {overlay("<joint name=\"hinge\">" + friction +
                                    "</joint>\n<joint name=\"hinge\"><dynamics damping=\"2\"/>"
                                    "</joint>")}));
-}
-
-TEST(Overlay, HoldsAnnotatedElementsOnly) {
-  expect_error(vendor(),
-               {"notes.urdf:2: <material name=\"x\">: an overlay cannot contain this element"},
-               {overlay("<material name=\"x\"/>")});
-  expect_error(vendor(), {"notes.urdf:2:", "the attribute name is missing"}, {overlay("<joint/>")});
-}
-
-TEST(Overlay, FaultsNameTheOverlayAndItsLine) {
-  expect_error(vendor(), {"notes.urdf:4: <joint name=\"hinge\"> <origin>: codesign:xyz is 0 0 0.3"},
-               {overlay("<codesign:parameter name=\"length\" value=\"0.3\"/>\n<joint "
-                        "name=\"hinge\">\n<origin codesign:xyz=\"0 0 "
-                        "${length}\"/></joint>")});
-  expect_error(vendor(), {"notes.urdf:3: <joint name=\"hinge\"> <dynamics>", "damping is negative"},
-               {overlay("<joint name=\"hinge\">\n<dynamics damping=\"-1\"/></joint>")});
-  expect_error(vendor(), {"notes.urdf:2:", "did you mean \"codesign:friction\"?"},
-               {overlay("<joint name=\"hinge\"><codesign:frction/></joint>")});
-  expect_error(vendor(), {"notes.urdf:1:", "the text is not XML"},
-               {{"notes.urdf", "<robot><joint></robot>"}});
-  expect_error(vendor(), {"notes.urdf:1:", "the prefix codesign is not declared"},
-               {{"notes.urdf", "<robot><codesign:parameter name=\"x\" value=\"1\"/></robot>"}});
 }
 
 /// Twins of all kinds: on a joint, in an annotation, in a second visual without a name, in an
@@ -217,33 +186,6 @@ TEST(SetValues, BoundsMayBeMoved) {
   EXPECT_EQ(robot.parameters[0].value, 0.5);
   EXPECT_EQ(robot.parameters[0].upper, 0.6);
   EXPECT_EQ(robot.parameters[0].lower, 0.1);
-}
-
-TEST(SetValues, AreCheckedStrictly) {
-  const auto refuse = [](const std::string& body, const std::vector<std::string>& parts) {
-    expect_error(arm(), parts, {setting(body)});
-  };
-  refuse(R"(<codesign:set name="lenght" value="0.3"/>)",
-         {"set.urdf:2", "unknown parameter of the model, did you mean \"length\"?"});
-  refuse(R"(<codesign:set name="length" value="0.5"/>)",
-         {"set.urdf:2", "outside the bounds", "[0.1, 0.4]"});
-  refuse(R"(<codesign:set name="length" value="0.3" lower="0.4" upper="0.2"/>)",
-         {"set.urdf:2", "the lower bound is above the upper bound"});
-  refuse(R"(<codesign:set name="length" value="long"/>)", {"set.urdf:2", "long"});
-  refuse(R"(<codesign:set name="length"/>)", {"set.urdf:2", "value"});
-  refuse(R"(<codesign:set name="length" value="0.3" unit="m"/>)",
-         {"set.urdf:2", "unknown attribute unit"});
-  refuse(std::string(kLonger) + "\n" + kLonger, {"set.urdf:3", "a second <codesign:set>"});
-  refuse(std::string(kLonger) + "\n" + R"(<codesign:parameter name="length" value="0.3"/>)",
-         {"set.urdf:3", "declares this parameter and sets it"});
-  refuse(std::string(R"(<codesign:parameter name="more" value="0.3"/>)") + "\n" +
-             R"(<codesign:set name="more" value="1"/>)",
-         {"set.urdf:3", "declares this parameter and sets it"});
-}
-
-TEST(SetValues, AModelHasNone) {
-  expect_error(pendulum("", kLonger), {"test.urdf:3", "only an overlay sets values of parameters",
-                                       "<codesign:parameter>"});
 }
 
 TEST(SetValues, AModelMustAgreeWithItsOwnValuesFirst) {

@@ -42,37 +42,6 @@ TEST(Twin, MustEqualThePlainValue) {
   EXPECT_NO_THROW(xyz_of(R"(xyz="0 0 1e-13" codesign:xyz="0 0 ${length - length}")"));
 }
 
-TEST(Twin, BadExpressions) {
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${lenght}")"),
-               {"unknown name 'lenght', did you mean 'length'?", "value: 0 0 ${lenght}"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length*}")"),
-               {"a number is missing"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${length")"), {"${ without its }"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 length")"),
-               {"'length' in codesign:xyz is not a number"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 2${length}")"),
-               {"'2${length}' is not an expression"});
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 0 ${sqrt(-length)}")"),
-               {"not finite at the default parameters"});
-  expect_error(with_origin(R"(xyz="0 0 ${length}")"),
-               {"a plain attribute contains an expression", "codesign:xyz"});
-}
-
-TEST(Twin, BadNumbers) {
-  expect_error(with_origin(R"(xyz="0 0 zero")"), {"'zero' in xyz is not a number"});
-  expect_error(with_origin(R"(xyz="0 0 1.2.3")"), {"is not a number"});
-  expect_error(with_origin(R"(xyz="0 0 nan")"), {"xyz is not finite"});
-  expect_error(with_origin(R"(xyz="0 0 -inf")"), {"xyz is not finite"});
-  expect_error(with_origin(R"(xyz="0 0 1e999")"), {"is not a number"});
-  expect_error(with_origin(R"(xyz="0 0")"), {"wrong number of values (2)", "3 values"});
-  expect_error(with_origin(R"(xyz="")"), {"the attribute xyz is empty"});
-}
-
-TEST(Twin, CountsOfTwinAndPlainMustAgree) {
-  expect_error(with_origin(R"(xyz="0 0 0.2" codesign:xyz="0 ${length}")"),
-               {"codesign:xyz has the wrong number"});
-}
-
 TEST(Twin, OfVisualsAreCheckedToo) {
   const auto visual = [](const char* box) {
     return robot_text(link_with(
@@ -139,24 +108,6 @@ TEST(ParameterReader, BoundsMayBeOpen) {
   const Parameter p = read_urdf(with_parameter(R"(name="k" value="-3")")).parameters.at(0);
   EXPECT_TRUE(std::isinf(p.lower) && p.lower < 0.0);
   EXPECT_TRUE(std::isinf(p.upper) && p.upper > 0.0);
-}
-
-TEST(ParameterReader, Faults) {
-  expect_error(with_parameter(R"(name="k" value="0.5" lower="1" upper="2")"),
-               {"test.urdf:2:", "outside its bounds", "value: 0.5, allowed: [1, 2]"});
-  expect_error(with_parameter(R"(name="k" value="1.5" lower="2" upper="1")"),
-               {"the lower bound is above the upper bound", "at most upper=1"});
-  expect_error(with_parameter(R"(name="k")"), {"the attribute value is missing"});
-  expect_error(with_parameter(R"(value="1")"), {"the attribute name is missing"});
-  expect_error(with_parameter(R"(name="k" value="inf")"), {"value is not finite"});
-  expect_error(with_parameter(R"(name="k" value="one")"), {"'one' in value is not a number"});
-  expect_error(with_parameter(R"(name="2k" value="1")"), {"'2k' is not an identifier"});
-  expect_error(with_parameter(R"(name="sin" value="1")"),
-               {"'sin' is a function or constant of expressions"});
-  expect_error(with_parameter(R"(name="k" value="1" min="0")"), {"unknown attribute min"});
-  expect_error(
-      with_parameter("name=\"k\" value=\"1\"/>\n<codesign:parameter name=\"k\" value=\"2\""),
-      {"test.urdf:3:", "a second parameter of this name"});
 }
 
 }  // namespace

@@ -13,20 +13,6 @@ TEST(TreeCheck, TheRootIsFoundWhereverItStands) {
             1);
 }
 
-TEST(TreeCheck, TwoRoots) {
-  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"b\"/>"),
-               {"test.urdf:3: <link name=\"b\">: a second root", "value: a, b", "one root link"});
-}
-
-TEST(TreeCheck, Rings) {
-  const std::string ab = "<link name=\"a\"/><link name=\"b\"/>" +
-                         joint_with("ab", "fixed", "a", "b") + joint_with("ba", "fixed", "b", "a");
-  expect_error(robot_text(ab), {"the joints form a ring that is not connected to the root"});
-  expect_error(
-      robot_text(kGround + ab),
-      {"<joint name=\"ba\">: the joints form a ring that is not connected to the root (value: a"});
-}
-
 TEST(TreeCheck, ASecondParentClosesALoop) {
   // b is the child of a, and also of a hinge on the ground, which comes first in the file.
   const SourceText text = robot_text(kGround + link_with("a") + link_with("b") + "\n" +
@@ -42,30 +28,7 @@ TEST(TreeCheck, ASecondParentClosesALoop) {
   EXPECT_TRUE(robot.joints[2].is_loop);
 }
 
-TEST(TreeCheck, InAnOverlayALinkHangsOnOneJoint) {
-  expect_error(
-      pendulum(""),
-      {"notes.urdf:2: <joint name=\"two\">: its child arm is already the child of the joint hinge",
-       "<loop>"},
-      {overlay_text(joint_with("two", "continuous", "ground", "arm"))});
-}
-
 TEST(TreeCheck, NoLinks) { expect_error(robot_text(""), {"the robot has no links"}); }
-
-TEST(TreeCheck, NamesAreUnique) {
-  expect_error(robot_text("<link name=\"a\"/>\n<link name=\"a\"/>"),
-               {"test.urdf:3: <link>: a second link of this name (value: a"});
-  expect_error(pendulum("", link_with("b") + joint_with("hinge", "fixed", "arm", "b")),
-               {"a second joint of this name (value: hinge"});
-  const std::string coupling =
-      "<coupling name=\"c\"><predecessor link=\"arm\"/><successor link=\"ground\"/><ratio "
-      "value=\"2\"/></coupling>";
-  expect_error(pendulum("", coupling + coupling), {"a second coupling of this name"});
-  const std::string spring =
-      "<codesign:spring_damper name=\"s\" stiffness=\"1\"><predecessor link=\"arm\"/><successor "
-      "link=\"ground\"/></codesign:spring_damper>";
-  expect_error(pendulum("", spring + spring), {"a second codesign:spring_damper of this name"});
-}
 
 TEST(TreeCheck, Mimics) {
   const auto second = [](const std::string& joint) {

@@ -54,11 +54,6 @@ TEST(AnnotatedUrdf, SpringDampers) {
                {"the element <successor> is missing"});
 }
 
-TEST(AnnotatedUrdf, ARobotHasAName) {
-  expect_error({"a.urdf", "<robot><link name=\"a\"/></robot>"},
-               {"a.urdf:1: <robot>: the attribute name is missing"});
-}
-
 RobotDescription shipped(const std::string& name) {
   return read_urdf(read_source(source_dir() + "/urdf/" + name + ".urdf"));
 }

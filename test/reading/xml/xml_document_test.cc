@@ -6,17 +6,6 @@
 namespace codesign {
 namespace {
 
-TEST(XmlDocument, WhatIsNoRobotIsRefusedWithItsLine) {
-  expect_error({"a.urdf", "<robot name=\"x\">\n<link>\n</robot>"},
-               {"a.urdf:2: the text is not XML", "does not end"});
-  expect_error({"a.urdf", "<robot name=\"x\"\n name=\"y\"/>"}, {"a.urdf:2: the text is not XML"});
-  expect_error({"a.urdf", "plain words"}, {"a.urdf"});
-  expect_error({"a.urdf", ""}, {"a.urdf"});
-  expect_error({"a.urdf", "<!-- nothing -->"}, {"a.urdf:1: the text contains no XML element"});
-  expect_error({"a.urdf", "\n<model/>"},
-               {"a.urdf:2: the root element is not a robot", "value: <model>, allowed: <robot>"});
-}
-
 TEST(XmlDocument, ADeclarationAfterACommentIsReadWithAWarning) {
   const XmlDocument late(
       {"a.urdf",

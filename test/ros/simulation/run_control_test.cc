@@ -57,6 +57,33 @@ TEST(RunControl, StepsOnlyWhilePausedAndAsManyFramesAsAskedFor) {
   EXPECT_FALSE(control.is_paused());
 }
 
+// The node offers its services before it has read its model.
+TEST(RunControl, AStepThatComesWhileTheNodeStartsWaitsForTheRun) {
+  Bell bell;
+  RunControl control(&bell);
+  std::thread node([&] {
+    bell.wait(0.05);
+    control.configure(true, 1);
+    control.begin_run();
+    control.note_frame(0.0);
+    while (control.stand_if_paused()) bell.wait(0.01);
+    control.note_frame(0.1);
+    EXPECT_TRUE(control.stand_if_paused());
+  });
+  const std_srvs::TriggerResponse response = control.step();
+  node.join();
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.message, "t = 0.1 s");
+}
+
+TEST(RunControl, ARequestToARunThatWaitsToBeginIsToldWhatItWaitsFor) {
+  Bell bell;
+  RunControl control(&bell);
+  control.end_run("waiting for subscribers");
+  EXPECT_EQ(control.step().message, "waiting for subscribers");
+  EXPECT_FALSE(control.restart().success);
+}
+
 // The node offers its services before the first frame.
 TEST(RunControl, AStepAsksForAFrameAfterTheFirst) {
   Bell bell;

@@ -1,0 +1,260 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "integration/mode_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integration/step_control.h"
+#include "math/arrays.h"
+
+namespace codesign {
+namespace {
+
+/// The place of the lowest point of the parabola through (0, a), (1, b), (2, c), if it is between
+/// them.
+double lowest(double a, double b, double c) {
+  const double curvature = a - 2.0 * b + c;
+  return curvature > 0.0 ? std::clamp(1.0 + 0.5 * (a - c) / curvature, 0.0, 2.0) : 1.0;
+}
+
+void move(const State<double>& from, const State<double>& rates, double h, State<double>* to) {
+  *to = from;
+  to->q += h * rates.q;
+  to->v += h * rates.v;
+  to->s += h * rates.s;
+  to->z += h * rates.z;
+  to->t += h;
+}
+
+}  // namespace
+
+ModeWatch::ModeWatch(const CompiledSystem& system) : system_(system) {}
+
+// The mode of the start is that of the motion behind it, which cross() finds.
+void ModeWatch::start(const State<double>& initial, Equations<double>* equations) {
+  equations->compiled().release();
+  mode_ = equations->compiled().mode_of(initial);
+  equations->hold(mode_);
+  guard_ = -1;
+  sizes_.resize(0);
+  returns_ = 0;
+  last_change_ = -1.0;
+  step_size_ = 0.0;
+  is_due_ = is_active();
+  if (!is_active()) return;
+  if (!along_) along_ = std::make_unique<Equations<Lanes<4>>>(system_);
+  const std::vector<double>& parameters = equations->parameters();
+  along_->set_design({parameters.begin(), parameters.end()});
+  along_->compiled().set_time_direction({1.0, 0.0, 0.0, 0.0});
+}
+
+void ModeWatch::restart(Equations<double>* equations) {
+  if (!is_active()) return;
+  const std::vector<double>& parameters = equations->parameters();
+  along_->set_design({parameters.begin(), parameters.end()});
+  equations->hold(mode_);
+  guard_ = -1;
+  is_due_ = true;
+}
+
+double ModeWatch::side_at(int k, double theta, RosenbrockStep<double>* step) {
+  step->interpolate_attempt(theta, &point_);
+  step->equations().compiled().switches(point_, &residual_, &right_);
+  return side(k, residual_);
+}
+
+// At both ends and between them; where a guard is lowest between two points, there as well.
+ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) {
+  const auto at = [&](int point) { return side(k, samples_.col(point)); };
+  for (int point = 1; point <= kPoints; ++point) {
+    const double to = static_cast<double>(point) / kPoints,
+                 from = static_cast<double>(point - 1) / kPoints;
+    if (has_left(k, at(point))) return {k, from, to};
+    if (point == kPoints || at(point) > at(point - 1) || at(point) > at(point + 1)) continue;
+    const double place =
+        (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints;
+    if (has_left(k, side_at(k, place, step))) return {k, from, place};
+  }
+  return {};
+}
+
+ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
+  const auto count = to_signed(mode_.size());
+  samples_.resize(count, kPoints + 1);
+  for (int point = 0; point <= kPoints; ++point) {
+    if (point == kPoints)
+      point_ = step->unprojected();
+    else
+      step->interpolate_attempt(static_cast<double>(point) / kPoints, &point_);
+    step->equations().compiled().switches(point_, &residual_, &right_);
+    samples_.col(point) = residual_;
+    if (sizes_.size() != count) sizes_.setZero(count);
+    sizes_ = sizes_.cwiseMax(kRounding * residual_.cwiseAbs())
+                 .cwiseMax(kCancelled * (right_.cwiseAbs() + (right_ - residual_).cwiseAbs()));
+  }
+  Crossing first;
+  double earliest = 2.0;
+  for (int k = 0; k < static_cast<int>(count); ++k) {
+    const Crossing crossing = crossing_of(k, step);
+    if (crossing.guard < 0 || crossing.from >= earliest) continue;
+    const double place = locate(crossing, step);
+    if (place >= earliest) continue;
+    earliest = place;
+    first = {k, place, place};
+  }
+  return first;
+}
+
+// The Illinois variant of the regula falsi, on the dense output.
+double ModeWatch::locate(const Crossing& crossing, RosenbrockStep<double>* step) {
+  constexpr int kMost = 60;
+  constexpr double kEnough = 1e-14;
+  double a = crossing.from, b = crossing.to, at_a = side_at(crossing.guard, a, step),
+         at_b = side_at(crossing.guard, b, step);
+  // A guard that begins at zero and falls: it crosses where the step begins.
+  if (at_a <= 0.0) return a;
+  int last = 0;
+  for (int k = 0; k < kMost && b - a > kEnough; ++k) {
+    const double middle = std::clamp((a * at_b - b * at_a) / (at_b - at_a), a, b),
+                 value = side_at(crossing.guard, middle, step);
+    if (value < 0.0) {
+      b = middle, at_b = value;
+      if (last == 1) at_a *= 0.5;
+      last = 1;
+    } else {
+      a = middle, at_a = value;
+      if (last == 2) at_b *= 0.5;
+      last = 2;
+      if (value == 0.0) return middle;
+    }
+  }
+  return b;
+}
+
+// A step of size h ends where the dense output of the longer one was; its own end differs from that
+// by the error of the dense output, which a few secant steps remove.
+bool ModeWatch::repeat(int guard, double h, RosenbrockStep<double>* step) {
+  constexpr int kMost = 6;
+  double before = 0.0, value_before = 0.0;
+  for (int k = 0; k < kMost; ++k) {
+    if (!step->attempt(h)) return false;
+    step->equations().compiled().switches(step->unprojected(), &residual_, &right_);
+    const double value = side(guard, residual_);
+    if (value == 0.0) return true;
+    double slope = 0.0;
+    if (k == 0) {
+      const double back = 1e-3;
+      slope = (value - side_at(guard, 1.0 - back, step)) / (back * h);
+    } else {
+      slope = (value - value_before) / (h - before);
+    }
+    const double change = -value / slope;
+    if (!std::isfinite(change) || std::abs(change) <= 4e-16 * std::max(h, step->state().t) ||
+        std::abs(change) > 0.1 * h || (k > 0 && std::abs(value) >= std::abs(value_before)))
+      return true;
+    before = h, value_before = value;
+    h += change;
+  }
+  return true;
+}
+
+bool ModeWatch::cut(RosenbrockStep<double>* step) {
+  guard_ = -1;
+  if (!is_active()) return true;
+  step_size_ = step->step_size();
+  const Crossing crossing = first_crossing(step);
+  if (crossing.guard < 0) return true;
+  const double least = smallest_step(step->state().t, system_.study().duration);
+  guard_ = crossing.guard;
+  is_due_ = true;
+  next_mode_ = mode_beyond(crossing, step);
+  return repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
+}
+
+// As near behind the crossing as its guard has another sign: the mode that the motion enters.
+std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
+  constexpr double kNearest = 1e-9, kFarther = 10.0;
+  for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
+    const double place = std::min(1.0, crossing.to + distance);
+    if (side_at(crossing.guard, place, step) >= 0.0) continue;
+    std::vector<bool> mode = step->equations().compiled().mode_of(point_);
+    if (mode != mode_) return mode;
+  }
+  std::vector<bool> mode = mode_;
+  mode[to_index(crossing.guard)] = !mode[to_index(crossing.guard)];
+  return mode;
+}
+
+double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {
+  const auto seed = [](const VectorX<double>& value, const VectorX<double>& rate,
+                       VectorX<Lanes<4>>* x) {
+    *x = value.cast<Lanes<4>>();
+    for (Eigen::Index i = 0; i < value.size(); ++i) (*x)[i].directions()[0] = rate[i];
+  };
+  moving_.resize(system_.layout());
+  moving_.t = at.t;
+  moving_.turns = at.turns;
+  seed(at.q, rates.q, &moving_.q);
+  seed(at.v, rates.v, &moving_.v);
+  seed(at.s, rates.s, &moving_.s);
+  seed(at.z, rates.z, &moving_.z);
+  VectorX<Lanes<4>> guards, right;
+  along_->compiled().switches(moving_, &guards, &right);
+  return guards[k].directions()[0];
+}
+
+// A little further along the motion, where the guards that are zero here have signs.
+std::vector<bool> ModeWatch::mode_behind(const State<double>& at, const State<double>& rates,
+                                         Equations<double>* equations) const {
+  const double least = smallest_step(at.t, system_.study().duration);
+  State<double> further;
+  move(at, rates, std::max(16.0 * least, 1e-9 * step_size_), &further);
+  return equations->compiled().mode_of(further);
+}
+
+// Both modes drive the motion to the guard: no step can leave it.
+Status ModeWatch::count_return(double t) {
+  constexpr int kEnough = 6;
+  constexpr double kAtOnce = 1e-7;  // of the duration
+  returns_ = t - last_change_ < kAtOnce * system_.study().duration ? returns_ + 1 : 0;
+  last_change_ = t;
+  if (returns_ < kEnough + 2 * static_cast<int>(mode_.size())) return {};
+  return {StatusCode::kSwitchHolds, t,
+          "the motion is held at a switch of an expression, whose both sides lead back to it; take "
+          "a friction law such as coulomb or gonthier in place of sign() of a velocity, or make "
+          "the expression continuous"};
+}
+
+Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
+                        Equations<double>* equations, ModeChange* change) {
+  is_due_ = false;
+  if (Status status = count_return(state.t); !status.ok()) return status;
+  *change = {};
+  change->guard = std::exchange(guard_, -1);
+  change->mode_before = mode_;
+  change->end = change->before = state;
+  if (Status status = assembly->solve_rates(equations, &change->before); !status.ok())
+    return status;
+  State<double>& before = change->before;
+  State<double> rates;
+  rates.resize(system_.layout());
+  rates.q = before.v;
+  rates.v = before.z.head(system_.layout().n);
+  rates.s = before.z.tail(system_.layout().states);
+  assembly->differentiate_rates(before, equations, &rates);
+  equations->residual(before, &residual_, &change->g_before);
+  along_->hold(mode_);
+  if (change->guard >= 0)
+    change->guard_rate = guard_rate(change->guard, before, rates);
+  change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
+  mode_ = change->mode;
+  equations->hold(mode_);
+  change->behind = before;
+  if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
+    return status;
+  equations->residual(change->behind, &residual_, &change->g);
+  return {};
+}
+
+}  // namespace codesign

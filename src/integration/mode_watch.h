@@ -1,0 +1,107 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "assembly/assembly.h"
+#include "equations/equations.h"
+#include "integration/rosenbrock_step.h"
+#include "mechanism_codesign/status.h"
+#include "system/state.h"
+
+namespace codesign {
+
+/// A change of the mode, theory (17d), between the end of a step and the beginning of the next one.
+struct ModeChange {
+  /// The switch whose guard became zero at the end of the step; -1 where the instant does not depend
+  /// on the motion: at the start, and where inputs jump.
+  int guard = -1;
+  /// The time derivative of that guard along the motion before the change, s_t + s_x f- [per s].
+  double guard_rate = 0.0;
+  std::vector<bool> mode_before, mode;  ///< before and after it
+  State<double> end;                    ///< of the step, with its own z
+  State<double> before, behind;         ///< the same q, v and s with the rates z of both modes
+  double g_before = 0.0, g = 0.0;       ///< integrands of the objective
+};
+
+/// Keeps each step within one mode of the equations: the set of outcomes of their switches, which
+/// are the places where formulas have a kink or a jump (is_below()); doc/theory.md (17d). The
+/// equations hold the mode during a step; where a guard leaves its sign, the step is cut at the
+/// first such instant, and the next one begins in the new mode.
+///
+/// A guard s_k is the difference y - x of its comparison x < y. It is on its side where s_k > 0 and
+/// the mode says x < y, or s_k <= 0 and it says x >= y. Without switches nothing is done.
+class ModeWatch {
+ public:
+  explicit ModeWatch(const CompiledSystem& system);
+
+  /// Holds the mode of a consistent state at the beginning of a run. @param equations of the steps;
+  /// must hold the design and outlive the run.
+  void start(const State<double>& initial, Equations<double>* equations);
+  /// The same while a run goes on from a state that was computed with a design or inputs of now: the
+  /// equations hold the mode as before, and it is looked at before the next step.
+  void restart(Equations<double>* equations);
+  /// Whether the equations have switches.
+  bool is_active() const { return !mode_.empty(); }
+  const std::vector<bool>& mode() const { return mode_; }
+
+  /// After an attempt that passes the error test: repeats it with the size at which the first guard
+  /// is zero, located to rounding, if one leaves its side within the attempt; cross() is then due.
+  /// @returns false if such an attempt fails: the step is to be repeated with a smaller size.
+  bool cut(RosenbrockStep<double>* step);
+  /// Whether the mode must be looked at before the next step.
+  bool is_due() const { return is_due_; }
+  /// After an instant at which inputs jumped or the design changed: the mode is looked at.
+  void look_again() { is_due_ = is_active(); }
+
+  /// Changes the mode at `state`, the end of the last step, whose z is solved for again.
+  /// @param equations of the steps. @param change what happened; nothing if both modes are equal.
+  /// @returns kSwitchHolds where the motion after the change leads back at once, or a status of
+  /// Assembly::solve_rates().
+  Status cross(const State<double>& state, Assembly* assembly, Equations<double>* equations,
+               ModeChange* change);
+
+ private:
+  /// What of a guard counts as zero, relative to its largest value and to the sizes of x and y.
+  static constexpr double kRounding = 1e-10, kCancelled = 1e-13;
+  static constexpr int kPoints = 5;  ///< at which guards are evaluated after the start of a step
+
+  struct Crossing {
+    int guard = -1;
+    double from = 0.0, to = 1.0;  ///< in parts of the step: on its side, and beyond it
+  };
+  /// s_k, positive on the side of the mode.
+  double side(int k, const VectorX<double>& guards) const {
+    return mode_[to_index(k)] ? guards[k] : -guards[k];
+  }
+  double side_at(int k, double theta, RosenbrockStep<double>* step);
+  /// Whether a value of side() has left its side by more than what rounding makes of the guard,
+  /// which may stay at zero: a bristle at rest.
+  bool has_left(int k, double value) const { return value < -sizes_[k]; }
+  Crossing first_crossing(RosenbrockStep<double>* step);
+  Crossing crossing_of(int k, RosenbrockStep<double>* step);
+  double locate(const Crossing& crossing, RosenbrockStep<double>* step);
+  bool repeat(int guard, double h, RosenbrockStep<double>* step);
+  double guard_rate(int k, const State<double>& at, const State<double>& rates);
+  Status count_return(double t);
+  std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
+  std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,
+                                Equations<double>* equations) const;
+
+  const CompiledSystem& system_;
+  std::vector<bool> mode_, next_mode_;
+  bool is_due_ = false;
+  int guard_ = -1;      ///< that cut the last step
+  int returns_ = 0;     ///< changes in turn without a step between them
+  double last_change_ = -1.0;  ///< [s]
+  double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
+  VectorX<double> sizes_;      ///< of what counts as zero of each guard
+  State<double> point_;
+  VectorX<double> residual_, right_;
+  Eigen::MatrixXd samples_;  ///< a column of guards per point of the step
+  std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion
+  State<Lanes<4>> moving_;
+};
+
+}  // namespace codesign

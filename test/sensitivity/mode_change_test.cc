@@ -1,0 +1,120 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// Gradients of motions whose formulas switch, theory (17d), (18f), against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "assembly/make_system.h"
+#include "reading/study/study_reader.h"
+#include "reading/urdf/urdf_reader.h"
+#include "sensitivity/gradient_check.h"
+#include "sensitivity/gradient_engine.h"
+
+namespace codesign {
+namespace {
+
+/// A mass of 1 kg that slides along x.
+constexpr const char* kSlide = R"(<robot name="cart" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="mass" value="1" lower="0.1" upper="10"/>
+  <link name="ground"/>
+  <link name="body"><inertial><mass value="1" codesign:value="${mass}"/>
+    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="slide" type="prismatic"><parent link="ground"/><child link="body"/>
+    <axis xyz="1 0 0"/><limit lower="-1000" upper="1000" effort="50" velocity="1000"/></joint>
+</robot>)";
+
+struct SwitchCase {
+  const char* name;
+  const char* study;
+  double objective;
+  std::vector<double> gradient;
+};
+
+/// x(2) after the force +1 until `ts` and -1 afterwards.
+double switched(double ts) { return ts * ts / 2.0 + ts * (2.0 - ts) - (2.0 - ts) * (2.0 - ts) / 2.0; }
+
+std::vector<SwitchCase> switch_cases() {
+  const double x = switched(0.8), beyond = 0.7 + 1.3 - 0.25 * 1.69;
+  // floor(2 t) N: v = 0, then 0.5 (t - 0.5), ...
+  return {
+      {"a tuned switching time", R"(
+loads: [{joint: slide, effort: "${t < ts ? 1 : -1}"}]
+parameters: {ts: {initial: 0.8, lower: 0.1, upper: 1.9}}
+objective: {terminal: [{signal: slide/position, reference: 2.0}]})",
+       (x - 2.0) * (x - 2.0), {2.0 * (x - 2.0) * 2.0 * 1.2}},
+      {"a tuned threshold of a position", R"(
+initial_state: {slide: {velocity: 1.0}}
+loads: [{joint: slide, effort: "${slide/position > xs ? -0.5 : 0}"}]
+parameters: {xs: {initial: 0.7, lower: 0.1, upper: 1.5}}
+objective: {terminal: [{signal: slide/position}]})",
+       beyond * beyond, {2.0 * beyond * (1.0 - (1.0 - 0.65))}},
+      // The start moves the instant at which the fixed threshold is passed.
+      {"a fixed threshold, a tuned start", R"(
+initial_state: {slide: {position: "${x0}", velocity: "${v0}"}}
+loads: [{joint: slide, effort: "${slide/position > 0.7 ? -0.5 : 0}"}]
+parameters: {x0: {initial: 0.0, lower: -1, upper: 0.5}, v0: {initial: 1.0, lower: 0.8, upper: 3}}
+objective: {terminal: [{signal: slide/position}]})",
+       beyond * beyond,
+       // With t_e = (0.7 - x0)/v0 and tau = 2 - t_e: x = 0.7 + v0 tau - tau^2/4.
+       {2.0 * beyond * (1.0 - 0.65), 2.0 * beyond * (1.3 + (1.0 - 0.65) * 0.7)}},
+      // A kink: the force max(0, t - ts) is continuous.
+      {"a ramp that begins at a tuned time", R"(
+loads: [{joint: slide, effort: "${max(0, t - ts)}"}]
+parameters: {ts: {initial: 0.5, lower: 0.1, upper: 1.9}}
+objective: {terminal: [{signal: slide/position, reference: 0}]})",
+       std::pow(std::pow(1.5, 3) / 6.0, 2), {-2.0 * std::pow(1.5, 3) / 6.0 * 1.5 * 1.5 / 2.0}},
+      // The integrand jumps: the integral of x^2 = t^2 (v = 1) from tw on.
+      {"a window of the objective", R"(
+initial_state: {slide: {velocity: 1.0}}
+parameters: {tw: {initial: 0.6, lower: 0.1, upper: 1.9}}
+objective: {integral: [{signal: "${t > tw ? slide/position : 0}"}]})",
+       (8.0 - 0.216) / 3.0, {-0.36}},
+      // Two crossings, a pulse of 2 N that is 1 ms long, 0.4 m behind the start.
+      {"a short pulse of a position", R"(
+initial_state: {slide: {velocity: 1.0}}
+loads: [{joint: slide, effort: "${abs(slide/position - xp) < 0.0005 ? 2/0.001*w : 0}"}]
+parameters: {xp: {initial: 0.4, lower: 0.1, upper: 1.9}, w: {initial: 0.0001, lower: 0, upper: 1}}
+objective: {terminal: [{signal: slide/velocity}]})",
+       1.0 + 4.0e-4, {0.0, 4.0}},
+      // floor(2 t) N on 1 kg: 0, 1, 2, 3 N for half a second each.
+      {"steps of time", R"(
+loads: [{joint: slide, effort: "${c*floor(2*t/period)}"}]
+parameters: {period: {initial: 1.0, lower: 0.5, upper: 2}, c: {initial: 1.0, lower: 0, upper: 2}}
+objective: {terminal: [{signal: slide/velocity}]})",
+       // v = sum over k of (2 - k/2 period) for k = 1, 2, 3
+       9.0, {2.0 * 3.0 * -3.0, 2.0 * 9.0}},
+  };
+}
+
+class ModeChangeTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ModeChangeTest, GradientsAreThoseOfClosedForms) {
+  const RobotDescription robot = read_urdf({"slide.urdf", kSlide});
+  for (const SwitchCase& test : switch_cases()) {
+    const std::string study = "duration: 2.0\nsolver: " + std::string(GetParam()) + test.study;
+    const auto system = make_system(robot, read_study({"study.yaml", study}, robot));
+    const GradientCheck check = check_design(system, system->parameters(),
+                                             CheckMethod::kComplexStep, nullptr, {});
+    ASSERT_TRUE(check.status.ok()) << test.name << ": " << describe(check.status);
+    EXPECT_NEAR(check.evaluation.objective, test.objective, 1e-7) << test.name;
+    for (std::size_t k = 0; k < test.gradient.size(); ++k)
+      EXPECT_NEAR(check.evaluation.gradient[static_cast<Eigen::Index>(k)], test.gradient[k],
+                  1e-6 * std::max(1.0, std::abs(test.gradient[k])))
+          << test.name << ", parameter " << k;
+    EXPECT_LT(check.largest_relative_difference, 1e-10) << test.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, ModeChangeTest,
+    ::testing::Values(
+        "{relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}",
+        "{method: rodas4, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}",
+        "{method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}",
+        "{method: dopri5, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10, coordinates: "
+        "absolute}"));
+
+}  // namespace
+}  // namespace codesign
