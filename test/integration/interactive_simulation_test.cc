@@ -274,12 +274,12 @@ TEST(InteractiveSimulation, HoursAtRestEndNothing) {
   EXPECT_TRUE(arm.run->warnings().empty());
 }
 
-// Without friction the error of each swing has the same sign.
+// Without friction the error of each swing has the same sign; the run ended after 271 s.
 TEST(InteractiveSimulation, HoursInMotionEndNothing) {
   const auto system = compile(pendulum(),
                               "duration: 5.0\ninitial_state: {hinge: {position: 2.0}}\n"
                               "objective: {integral: [{signal: hinge/position}]}\nsolver: "
-                              "{coordinates: joint, relative_tolerance: 1e-5}\n");
+                              "{coordinates: joint, relative_tolerance: 1e-4}\n");
   CommandOptions options;
   options.duration = 1e6;
   options.rate = 1.0;

@@ -19,7 +19,7 @@ inline std::string turning_parallelogram() {
            "izz='0.001'/></inertial></link>";
   };
   return robot(
-      "<codesign:parameter name='k' value='0.017'/>" + link("left", "0 0 0.05") +
+      "<codesign:parameter name='k' value='0.001'/>" + link("left", "0 0 0.05") +
       link("coupler", "0.1 0 0") + link("right", "0 0 0.05") +
       hinge("crank", "ground", "left", "0 0 0") + hinge("knee", "left", "coupler", "0 0 0.1") +
       hinge("follower", "ground", "right", "0.3 0 0") +
@@ -42,7 +42,7 @@ inline std::string rotor_with_slides(const std::string& more = "") {
            "'/><child link='" + child + "'/><axis xyz='" + axis +
            "'/><limit lower='-9' upper='9' effort='9' velocity='9'/></joint>";
   };
-  return robot("<codesign:parameter name='k' value='0.017'/>" + link("rotor", "0.007") +
+  return robot("<codesign:parameter name='k' value='0.001'/>" + link("rotor", "0.007") +
                link("middle", "0.005") + link("outer", "0.005") +
                hinge("crank", "ground", "rotor", "0 0 0") + slide("rotor", "middle", "1 0 0") +
                slide("middle", "outer", "0 0 1") +
@@ -52,9 +52,9 @@ inline std::string rotor_with_slides(const std::string& more = "") {
 }
 constexpr double kRotorInertia = 0.017;  // [kg m^2]
 
-/// A torsion spring of k [N m/rad] on the pin: with the rotor an oscillator of 1 rad/s.
+/// A torsion spring of k [N m/rad] on the pin, too weak to shorten the steps.
 inline const char* pin_spring() {
-  return "<codesign:torsion_spring stiffness='0.017' codesign:stiffness='${k}'/>";
+  return "<codesign:torsion_spring stiffness='0.001' codesign:stiffness='${k}'/>";
 }
 
 }  // namespace codesign
