@@ -50,6 +50,23 @@ TEST_P(LoopTurnsGradient, IsThatOfTheFormula) {
             check.method == CheckMethod::kComplexStep ? 1e-9 : 1e-3);
 }
 
+// Without a load steps are hundreds of turns long: psi = (0.3 + 2 v - 30)^2.
+TEST_P(LoopTurnsGradient, CountsTheTurnsOfLongSteps) {
+  const auto& [coordinates, more] = GetParam();
+  const auto system = compile(
+      rotor_with_slides(),
+      std::string("duration: 2.0\ngravity: [0, 0, 0]\ninitial_state: {crank: {position: 0.3, "
+                  "velocity: \"${v}\"}}\nparameters: {v: {initial: 40, lower: 1, upper: 100}}\n"
+                  "objective: {terminal: [{signal: pin/position, reference: 30}]}\nsolver: "
+                  "{coordinates: ") +
+          coordinates + ", " + more + "}\n");
+  const GradientCheck check =
+      check_gradient(system, Eigen::VectorXd::Constant(1, 40.0), CheckMethod::kComplexStep);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  EXPECT_NEAR(check.evaluation.objective, 50.3 * 50.3, 1.0);
+  EXPECT_NEAR(check.evaluation.gradient[0], 2.0 * 50.3 * 2.0, 0.1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, LoopTurnsGradient,
                          testing::Combine(testing::Values("joint", "absolute"),
                                           testing::Values("method: dopri5, gradient: direct",
