@@ -12,6 +12,7 @@
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
+#include "equations/turn_follower.h"
 #include "mechanism_codesign/status.h"
 #include "system/tree_kinematics.h"
 #include "text/cancel.h"
@@ -213,8 +214,11 @@ class Assembly {
   Status keep_branch(const Status& plain, const std::vector<double>& parameters,
                      Equations<double>* equations);
   bool follow(const std::vector<double>& parameters, Equations<double>* equations);
-  template <class PlaceAt>
-  bool walk(const std::vector<int>& free, const PlaceAt& place_at, Equations<double>* equations);
+  template <class PlaceAt, class Arrive>
+  bool walk(const std::vector<int>& free, const PlaceAt& place_at, const Arrive& arrive,
+            Equations<double>* equations);
+  void count_turns(const VectorX<double>& from, const std::vector<double>& parameters,
+                   Equations<double>* equations, TurnFollower<double>* turns, State<double>* state);
   /// Whether theta_ belongs to the branch of `other`.
   bool is_same(const VectorX<double>& other) const;
   bool converges_at_once(const std::vector<double>& parameters, const std::vector<int>& free,

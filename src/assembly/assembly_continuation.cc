@@ -88,17 +88,6 @@ bool Assembly::is_same(const VectorX<double>& other) const {
          kSameBranch * (1.0 + theta_.cwiseAbs().maxCoeff());
 }
 
-/// The turns of loops, which do not follow from the tree's coordinates.
-void Assembly::keep_loop_turns(const std::vector<double>& turns, State<double>* state) const {
-  for (std::size_t p = 0; p < system_.topology().pairs.size(); ++p) {
-    if (!system_.topology().pairs[p].is_loop) continue;
-    for (std::size_t e = 0; e < system_.topology().pairs[p].chain.size(); ++e) {
-      const auto slot = to_index(system_.layout().turn(static_cast<int>(p), static_cast<int>(e)));
-      state->turns[slot] = turns[slot];
-    }
-  }
-}
-
 void Assembly::note_origin() {
   // If all open coordinates had to move, the position has no dependent coordinates that other
   // designs could share.
@@ -165,17 +154,18 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
         is_held = part == 1.0;
         return work_.between;
       },
-      equations);
+      [] {}, equations);
   if (!is_held) equations->set_design(parameters);
   return reached;
 }
 
 /// Continues the position work_.followed along a line, with steps that are halved where Newton's
 /// method for the `free` coordinates does not converge at once, or to another solution than by way
-/// of the middle of the step. @param place_at (part of the way) -> the design there. @returns
-/// whether the end was reached; work_.followed is the last solution.
-template <class PlaceAt>
-bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
+/// of the middle of the step. @param place_at (part of the way) -> the design there. @param arrive
+/// called at the end of each step, where theta_ is the solution. @returns whether the end was
+/// reached; work_.followed is the last solution.
+template <class PlaceAt, class Arrive>
+bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at, const Arrive& arrive,
                     Equations<double>* equations) {
   const auto arrives = [&](double part) {
     const std::vector<double>& design = place_at(part);
@@ -196,6 +186,7 @@ bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at,
     }
     if (is_continued) {
       work_.followed = theta_;
+      arrive();
       reached = next;
       step *= 2.0;
     } else {
@@ -218,12 +209,19 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   work_.free = choose_columns(work_.positions);
   double furthest = 0.0;
   theta_rate_.setZero();
+  TurnFollower<double> turns(system_);
+  State<double> counted = *state;
+  VectorX<double> counted_at = theta_;
   const bool reached = walk(
       work_.free,
       [&](double part) -> const std::vector<double>& {
         time_ = posture_ = from + part;
         furthest = part;
         return parameters;
+      },
+      [&] {
+        count_turns(counted_at, parameters, equations, &turns, &counted);
+        counted_at = theta_;
       },
       equations);
   state->t = time_ = posture_ = from + 1.0;
@@ -235,10 +233,9 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
                 readable(100.0 * furthest, 2) + " % of the way"};
   set_extra_states(system_, parameters, &state->s);
   state->z.setZero();
-  const std::vector<double> turns = state->turns;
   if (Status status = solve_velocities(parameters, equations, state); !status.ok()) return status;
   set_turns(system_, tree_, theta_, state);
-  keep_loop_turns(turns, state);
+  keep_loop_turns(counted.turns, state);
   equations->track_turns(state);
   return solve_rates(equations, state);
 }

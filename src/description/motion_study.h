@@ -122,6 +122,9 @@ struct MotionStudy {
   ~MotionStudy();
 
   double duration = 0.0;  ///< [s]; of a study with postures: the number of its last one
+  /// [s] Over which the energy of a run is balanced, theory (17a); 0: the whole run. A run that
+  /// goes on beyond the study's duration balances over that duration, again and again.
+  double balance_time = 0.0;
   /// Number of postures that take the place of a motion, theory (21f); 0: a motion. Time is the
   /// number of a posture, from 0.
   int postures = 0;

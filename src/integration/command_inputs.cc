@@ -109,6 +109,11 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
     const double factor = std::max(1.0, *options.duration / study.duration);
     study.solver.maximum_steps =
         static_cast<int>(std::min(kMostSteps, factor * study.solver.maximum_steps));
+    // A mechanism at rest takes steps of any length: none shall reach far beyond the time at which
+    // the run is looked at, since its end would be checked and reported there.
+    if (factor > 1.0 && !(study.solver.maximum_step > 0.0))
+      study.solver.maximum_step = study.duration;
+    if (factor > 1.0) study.balance_time = study.duration;
     study.duration = *options.duration;
   }
   // Commands make steps that the study did not count: one that ends at the command, and a short one

@@ -45,6 +45,7 @@ IdasEquations::IdasEquations(const CompiledSystem& system, IdasNewton* newton)
     : layout_(system.layout()),
       newton_(*newton),
       equations_(system),
+      turns_(system),
       kappa_(kStabilizations / system.study().duration),
       visited_(to_index(1 + 2 * size())) {
   state_.resize(layout_);
@@ -69,6 +70,11 @@ void IdasEquations::unpack(double t, In<double> y, In<double> y_dot, State<doubl
   state->z.tail(states) = part(y_dot, 2 * n, states);
 }
 
+void IdasEquations::load(double t, In<double> y, In<double> y_dot) {
+  unpack(t, y, y_dot, &state_);
+  count_turns(&state_);
+}
+
 // lambda' does not appear in F; zero makes the first predictor keep the multipliers.
 void IdasEquations::pack(const State<double>& state, Out<double> y, Out<double> y_dot) const {
   const int n = layout_.n, m = layout_.m, states = layout_.states;
@@ -84,7 +90,7 @@ void IdasEquations::pack(const State<double>& state, Out<double> y, Out<double> 
 
 int IdasEquations::residual(double t, In<double> y, In<double> y_dot, Out<double> F) {
   double g = 0.0;
-  unpack(t, y, y_dot, &state_);
+  load(t, y, y_dot);
   equations_.residual(state_, &G_, &g);
   equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   G_.segment(layout_.n, layout_.m) += 2.0 * kappa_ * Phi_rate_ + kappa_ * kappa_ * Phi_;
@@ -94,14 +100,14 @@ int IdasEquations::residual(double t, In<double> y, In<double> y_dot, Out<double
 }
 
 int IdasEquations::jacobian(double t, double c_j, In<double> y, In<double> y_dot) {
-  unpack(t, y, y_dot, &state_);
+  load(t, y, y_dot);
   equations_.linearize(state_, newton_.derivatives());
   newton_.set_rates(c_j, kappa_);
   return kDone;
 }
 
 int IdasEquations::integrand(double t, In<double> y, In<double> y_dot, Out<double> g) {
-  unpack(t, y, y_dot, &state_);
+  load(t, y, y_dot);
   equations_.residual(state_, &G_, &g[0]);
   equations_.constraint_errors(state_, &Phi_, &Phi_rate_);
   // W' of (17a). lambda^T Phi_q v - v^T G corrects for violated constraints, so that the work that
@@ -120,7 +126,7 @@ const Linearization<double>* IdasEquations::visit(double t, In<double> y, In<dou
   known[0] = t;
   std::copy(y.begin(), y.end(), known_y.begin());
   std::copy(y_dot.begin(), y_dot.end(), known_y_dot.begin());
-  unpack(t, y, y_dot, &state_);
+  load(t, y, y_dot);
   return &sensitivities_->linearize(state_, kappa_, &equations_);
 }
 

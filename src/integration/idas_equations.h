@@ -1,10 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "equations/equations.h"
+#include "equations/turn_follower.h"
 #include "integration/idas_newton.h"
 #include "integration/integrator.h"
 #include "integration/run_watch.h"
@@ -67,8 +69,13 @@ class IdasEquations {
   /// Discards stored derivatives, pivots and the last failure.
   void start();
 
-  /// Counts the whole turns of joints, beginning with the turns of `state`.
-  void count_turns_from(const State<double>& state) { state_.turns = state.turns; }
+  /// Counts the whole turns of joints from `state` on, TurnFollower; it has been tracked.
+  void count_turns_from(const State<double>& state) { counted_ = state; }
+  /// Sets the turn references of a state of the step that begins, or ends, at the state of
+  /// count_turns_from().
+  void count_turns(State<double>* state) {
+    if (counted_) turns_.follow(*counted_, &equations_, state);
+  }
   /// Conversion of (y, y'), size() entries each, to a state, and back.
   void unpack(double t, In<double> y, In<double> y_dot, State<double>* state) const;
   void pack(const State<double>& state, Out<double> y, Out<double> y_dot) const;
@@ -98,13 +105,17 @@ class IdasEquations {
   /// The same, and factors the matrix of Newton's method there. False if it is singular.
   bool visit_to_solve(double t, In<double> y, In<double> y_dot);
   void derivative(int k, In<double> y_rho, In<double> y_dot_rho);
+  /// Sets state_, its turn references included.
+  void load(double t, In<double> y, In<double> y_dot);
 
   const Layout& layout_;
   IdasNewton& newton_;
   Equations<double> equations_;
   IdasSensitivities* sensitivities_ = nullptr;
   const BodyMotion* motion_ = nullptr;
+  TurnFollower<double> turns_;
   State<double> state_, direction_;
+  std::optional<State<double>> counted_;
   VectorX<double> G_, dG_, Phi_, Phi_rate_;
   double kappa_;                 ///< rate of stabilization [1/s]
   std::vector<double> visited_;  ///< t, y, y' of the point whose derivatives are stored

@@ -262,6 +262,7 @@ void IdasIntegrator::take_over(double time) {
     require(IDAGetSensDky(ida_.get(), time, 1, y_dot_rho_->get()), "IDAGetSensDky");
     require(IDAGetQuadSens(ida_.get(), &reached, psi_rho_->get()), "IDAGetQuadSens");
   }
+  equations_.count_turns(&state_);
   equations().track_turns(&state_);
   equations_.count_turns_from(state_);
   equations().constraint_errors(state_, &drift_, &drift_rate_);
@@ -311,6 +312,7 @@ void IdasIntegrator::interpolate(double time, State<double>* state, double* psi)
   require(IDAGetDky(ida_.get(), time, 0, dense_.get()), "IDAGetDky");
   require(IDAGetDky(ida_.get(), time, 1, dense_dot_.get()), "IDAGetDky");
   equations_.unpack(time, span_of(dense_.get()), span_of(dense_dot_.get()), state);
+  equations_.count_turns(state);
   double at_end = this->psi();
   require(IDAGetQuadDky(ida_.get(), time, 0, psi_.get()), "IDAGetQuadDky");
   std::swap(*psi, at_end);

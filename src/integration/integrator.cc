@@ -47,7 +47,9 @@ Status assemble_start(const CompiledSystem& system, const std::vector<double>& p
                       Assembly* assembly, Equations<double>* equations, State<double>* initial) {
   equations->set_design(parameters);
   if (Status status = check_design(system, *equations); !status.ok()) return status;
-  return assembly->solve(parameters, equations, initial);
+  Status status = assembly->solve(parameters, equations, initial);
+  if (status.ok()) equations->track_turns(initial);
+  return status;
 }
 
 }  // namespace codesign

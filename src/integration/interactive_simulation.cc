@@ -108,7 +108,9 @@ Status InteractiveSimulation::apply(double time) {
 
 Status InteractiveSimulation::change(double time, const std::vector<double>& parameters) {
   const Status status = simulation_->go_on(time, parameters);
-  if (status.ok()) parameters_ = parameters;
+  if (!status.ok()) return status;
+  parameters_ = parameters;
+  was_commanded_ = true;
   return status;
 }
 

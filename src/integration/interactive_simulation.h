@@ -13,8 +13,8 @@ namespace codesign {
 
 /// A run whose inputs and parameters can change during the run, as on a robot: set_effort(),
 /// set_course(), then apply() at an instant. Without commands it takes the same steps as a
-/// Simulation; after the first command, steps end at the times given to advance(). It has a system
-/// of its own. Not thread-safe.
+/// Simulation; after the first command or change, steps end at the times given to advance(). It has
+/// a system of its own. Not thread-safe.
 class InteractiveSimulation {
  public:
   /// @throws InputError as CommandInputs and Simulation.

@@ -8,7 +8,6 @@
 
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
-#include "sparse/sparsity.h"
 
 namespace codesign {
 namespace {
@@ -29,6 +28,7 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
       at_(layout_),
       tableau_(&tableau),
       equations_(system),
+      turns_(system),
       stage_matrix_(system),
       projection_matrix_(system),
       product_(system),
@@ -135,6 +135,7 @@ bool RosenbrockStep<T>::solve_stage(std::size_t i) {
   T g(0.0);
   combine(at_, state_, In<double>(tableau_->a[i]).first(to_signed(i)), increments_, &stages_[i]);
   stages_[i].t = state_.t + tableau_->alpha[i] * h_;
+  turns_.follow(state_, &equations_, &stages_[i]);
   equations_.residual(stages_[i], &residual_, &g);
   stage_start(i);
   const ByVariable<Sparsity>& patterns = system_.patterns();
@@ -169,8 +170,7 @@ bool RosenbrockStep<T>::solve_rates(State<T>* at, T* g, StageFactor* factor) {
   factor->pattern = nullptr;
   constexpr int kMost = 30, kLeast = kIsReal ? 1 : 3;
   constexpr double kConverged = 1e-14;
-  // With redundant rows, rounding errors divided by the compliance remain in the reactions that are
-  // not unique.
+  // With redundant rows, rounding over the compliance remains in reactions that are not unique.
   const double rounding = system_.compliance() == 0.0 ? 1e-9 : 1e-7;
   double previous = std::numeric_limits<double>::infinity();
   bool refresh = true;
@@ -243,7 +243,7 @@ bool RosenbrockStep<T>::attempt_explicitly() {
     combine(state_.v, factors, increments_, at_.v(), stage.v);
     stage.z = stages_[i - 1].z;
     stage.t = state_.t + tableau_->alpha[i] * h_;
-    stage.turns = state_.turns;
+    turns_.follow(state_, &equations_, &stage);
     if (!solve_rates(&stage, &last_g_, &factors_[i])) return false;
     take_rates(i, last_g_);
   }
@@ -268,12 +268,11 @@ bool RosenbrockStep<T>::attempt(double h) {
   if (tableau_->is_explicit()) return attempt_explicitly();
   if (!has_derivatives_) linearize_end();
   if (!stage_matrix_.factor(derivatives_, hg, hg * hg, hg)) return false;
-  for (State<T>& stage : stages_) stage.turns = state_.turns;
-  end_.turns = state_.turns;
   for (std::size_t i = 0; i < count(); ++i)
     if (!solve_stage(i)) return false;
   combine(at_, state_, In<double>(tableau_->weights).first(tableau_->stages), increments_, &end_);
   end_.t = state_.t + h;
+  turns_.follow(state_, &equations_, &end_);
   return true;
 }
 
@@ -373,6 +372,7 @@ void RosenbrockStep<T>::interpolate(double theta, const State<T>& from, const St
     combine(from.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), increments_,
             at_.z(), state->z);
   state->t = from.t + theta * h_;
+  turns_.follow(from, &equations_, state);
 }
 
 template <class T>

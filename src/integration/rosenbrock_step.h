@@ -6,6 +6,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "equations/turn_follower.h"
 #include "integration/increment.h"
 #include "integration/stage_matrix.h"
 #include "integration/tableau.h"
@@ -159,7 +160,8 @@ class RosenbrockStep {
   const Layout& layout_;
   const IncrementLayout at_;
   const RosenbrockTableau* tableau_;
-  Equations<T> equations_;
+  mutable Equations<T> equations_;  ///< evaluations write to their memory
+  mutable TurnFollower<T> turns_;   ///< likewise
   StageMatrix<T> stage_matrix_, projection_matrix_;
   StageProduct product_;
   Linearization<T> derivatives_;

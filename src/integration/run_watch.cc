@@ -191,22 +191,43 @@ void RunWatch::note_reach(const VectorX<double>& change, const VectorX<double>& 
 }
 
 void RunWatch::start(const Equations<double>& equations, const State<double>& initial) {
-  start_q_ = initial.q;
-  reach_ = 0.0;
-  note_reach(initial.v, initial.v);
   motion_.set_design(equations);
-  const BodyEnergy energy = motion_.energy(initial.q, initial.v);
+  smallest_scale_ = smallest_scale(equations.constants(), initial);
+  worst_drift_time_ = closed_error_time_ = initial.t;
+  closed_error_ = scale_ = 0.0;
+  begin_balance(initial, motion_.energy(initial.q, initial.v));
+}
+
+void RunWatch::begin_balance(const State<double>& state, const BodyEnergy& energy) {
+  balance_begin_ = worst_error_time_ = state.t;
+  balanced_steps_ = unbalanced_steps_ = 0;
+  start_q_ = state.q;
+  reach_ = 0.0;
+  note_reach(state.v, state.v);
   start_potential_ = potential_ = energy.potential;
   start_energy_ = energy.total();
   work_ = turnover_ = worst_error_ = imbalance_ = 0.0;
-  worst_drift_time_ = worst_error_time_ = initial.t;
-  unbalanced_steps_ = 0;
-  scale_ = std::max(energy.kinetic, smallest_scale(equations.constants(), initial));
+  scale_ = std::max({scale_, energy.kinetic, smallest_scale_});
+}
+
+// A run of hours would add up errors that are small in each motion, and after each change those of
+// a motion that its tolerances hardly resolve. The scale stays the largest energy in the run.
+void RunWatch::close_balance(const State<double>& state, const BodyEnergy& energy) {
+  if (balance_error() > closed_error_) {
+    closed_error_ = balance_error();
+    closed_error_time_ = worst_error_time_;
+  }
+  begin_balance(state, energy);
 }
 
 void RunWatch::go_on(const Equations<double>& equations, const State<double>& state) {
   motion_.set_design(equations);
   const BodyEnergy energy = motion_.energy(state.q, state.v);
+  if (balanced_steps_ > kPatience) {
+    smallest_scale_ = smallest_scale(equations.constants(), state);
+    close_balance(state, energy);
+    return;
+  }
   start_energy_ = energy.total() - work_ - imbalance_;
   // The energy that the change of the design itself adds does not count as turnover.
   start_potential_ += energy.potential - potential_;
@@ -251,7 +272,7 @@ Status RunWatch::check(const State<double>& state, double drift, double work,
     moved_ = state.q - start_q_;
     note_reach(moved_, state.q);
   }
-  statistics->energy_error = scale_ > 0.0 ? reach_ * worst_error_ / scale_ : 0.0;
+  statistics->energy_error = std::max(closed_error_, balance_error());
   if (drift > drift_limit_.failure)
     return {StatusCode::kConstraintDrift, state.t,
             drift_sentence(drift, state.t) + ". " + advice(options_)};
@@ -260,6 +281,10 @@ Status RunWatch::check(const State<double>& state, double drift, double work,
       (unbalanced_steps_ > 0 && state.t >= system_.study().duration))
     return {StatusCode::kEnergyError, state.t,
             energy_sentence(reach_ * error / scale_, state.t) + ". " + advice(options_)};
+  ++balanced_steps_;
+  const double span = system_.study().balance_time;
+  if (span > 0.0 && state.t - balance_begin_ >= span && balanced_steps_ > kPatience)
+    close_balance(state, energy);
   return {};
 }
 
@@ -270,11 +295,11 @@ Warnings RunWatch::warnings(const Statistics& statistics) const {
         {"constraint_drift",
          drift_sentence(statistics.constraint_drift, worst_drift_time_) + ". " + advice(options_),
          {}});
+  const double time = balance_error() < closed_error_ ? closed_error_time_ : worst_error_time_;
   if (statistics.energy_error > energy_limit_.warning)
-    warnings.push_back(
-        {"energy_error",
-         energy_sentence(statistics.energy_error, worst_error_time_) + ". " + advice(options_),
-         {}});
+    warnings.push_back({"energy_error",
+                        energy_sentence(statistics.energy_error, time) + ". " + advice(options_),
+                        {}});
   return warnings;
 }
 

@@ -110,7 +110,8 @@ class RunWatch {
   /// @param equations must hold the design. @param initial its initial state.
   void start(const Equations<double>& equations, const State<double>& initial);
   /// Continues after an instant at which design or inputs jump; the energy that the jump adds or
-  /// removes does not count as an error.
+  /// removes does not count as an error. The balance of what came before is closed, unless it is so
+  /// short that it could not fail.
   void go_on(const Equations<double>& equations, const State<double>& state);
   const BodyMotion& motion() const { return motion_; }
 
@@ -132,17 +133,26 @@ class RunWatch {
  private:
   double smallest_scale(const Constants<double>& constants, const State<double>& initial) const;
   void note_reach(const VectorX<double>& change, const VectorX<double>& of);
+  /// Begins to balance the energy, at a state whose energy is given.
+  void begin_balance(const State<double>& state, const BodyEnergy& energy);
+  /// Keeps the error of the balance so far and begins another one.
+  void close_balance(const State<double>& state, const BodyEnergy& energy);
+  double balance_error() const { return scale_ > 0.0 ? reach_ * worst_error_ / scale_ : 0.0; }
 
   const CompiledSystem& system_;
   const SolverOptions& options_;
   const RunLimit drift_limit_, energy_limit_;
   BodyMotion motion_;
-  double start_potential_ = 0.0, start_energy_ = 0.0;  ///< [J]
-  double potential_ = 0.0;                             ///< at the last step [J]
+  double balance_begin_ = 0.0;                           ///< [s]
+  int balanced_steps_ = 0;                               ///< since then
+  double smallest_scale_ = 0.0;                          ///< [J]
+  double closed_error_ = 0.0, closed_error_time_ = 0.0;  ///< largest error of closed balances; [s]
+  double start_potential_ = 0.0, start_energy_ = 0.0;    ///< [J]
+  double potential_ = 0.0;                               ///< at the last step [J]
   double imbalance_ = 0.0;  ///< energy not explained by work, at the last step [J]
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]
-  VectorX<double> start_q_, moved_;  ///< q at the start, and what it has changed by
+  VectorX<double> start_q_, moved_;  ///< q where the balance begins, and what it has changed by
   double reach_ = 0.0;  ///< r of (17a), at most 1: how far the motion has come, relative to what
                         ///< its tolerances resolve
   int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error above RunLimit::failure

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "integration/turning_loops.h"
 #include "mechanism_codesign/simulation.h"
 #include "sensitivity/postures.h"
 
@@ -184,6 +185,22 @@ TEST(PostureSequence, JointsThatNoDriveHoldAreLetGo) {
     const double angle = k == 1 ? 0.4 : 2.4;
     EXPECT_NEAR(run.signals[k][2], -0.3 * 9.81 * std::sin(angle) / (0.1 + 0.09), 1e-10);
     EXPECT_GT(std::abs(run.signals[k][0] - held.signals[k][0]), 0.1);
+  }
+}
+
+TEST(PostureSequence, LoopsCountTheTurnsBetweenDistantPostures) {
+  const std::vector<double> angles{0.3, 5.0, 25.3, 25.0, -9.7};
+  for (const char* coordinates : {"joint", "absolute"}) {
+    const Problem problem = load_problem(
+        {"rotor.urdf", rotor_with_slides()}, {},
+        {"rotor.yaml", std::string("gravity: [0, 0, 0]\npositions: {crank: [0.3, 5.0, 25.3, 25.0, "
+                                   "-9.7]}\nparameters: {k: {}}\nsolver: {coordinates: ") +
+                           coordinates + "}\n"});
+    const Recorded run = record(problem, {"pin/position"});
+    ASSERT_TRUE(run.status.ok()) << run.status.cause;
+    ASSERT_EQ(run.signals.size(), angles.size());
+    for (std::size_t k = 0; k < angles.size(); ++k)
+      EXPECT_NEAR(run.signals[k][0], angles[k], 1e-12) << coordinates << ", posture " << k;
   }
 }
 

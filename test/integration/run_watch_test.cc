@@ -201,6 +201,29 @@ TEST_F(WatchedPendulum, EnergyFromNowhereAtTheEndFailsAtOnce) {
   EXPECT_EQ(watch_.check(state_, 0.0, 0.0, &statistics_).code, StatusCode::kEnergyError);
 }
 
+// 0.007 of the energy are lost before a change and as much behind it, together more than the limit.
+TEST_F(WatchedPendulum, ABalanceEndsAtAChangeOnceItCouldHaveFailed) {
+  const auto lose = [&](double part, int steps) {
+    state_.v *= std::sqrt(part);
+    for (int k = 0; k < steps; ++k) EXPECT_TRUE(watch_.check(state_, 0.0, 0.0, &statistics_).ok());
+  };
+  const double energy = watch_.motion().energy(state_.q, state_.v).kinetic;
+  lose(0.993, 30);
+  EXPECT_NEAR(statistics_.energy_error, 0.007, 1e-5);
+  watch_.go_on(integrator_.equations(), state_);
+  lose(0.993, 30);
+  EXPECT_NEAR(statistics_.energy_error, 0.007, 1e-5) << "of the larger one";
+  lose(0.993, 5);
+  EXPECT_GT(statistics_.energy_error, 0.012) << "within one balance errors add up";
+  watch_.go_on(integrator_.equations(), state_);
+  const double kept = statistics_.energy_error;
+  lose(1.0, 5);
+  EXPECT_EQ(statistics_.energy_error, kept);
+  watch_.go_on(integrator_.equations(), state_);  // too short to be closed
+  lose(1.0 - 0.02 * energy / watch_.motion().energy(state_.q, state_.v).kinetic, 1);
+  EXPECT_NEAR(statistics_.energy_error, 0.02, 1e-4);
+}
+
 // The mechanism rests; its computed motion is only rounding.
 TEST(RunWatch, WhatHangsAtRestIsNotMeasuredByItsRounding) {
   const auto system = compile(

@@ -56,6 +56,7 @@ DrivenMotion::DrivenMotion(const DrivenSystem& driven)
     : system_(*driven.system),
       drives_(static_cast<int>(driven.drives.size())),
       equations_(system_),
+      follower_(system_),
       matrix_(system_) {
   const Layout& layout = system_.layout();
   derivatives_.resize(system_.patterns());
@@ -199,6 +200,9 @@ Status DrivenMotion::move_to(In<double> given, int depth, State<double>* state) 
   Status status = linearize(trial);
   if (status.ok()) status = solve_positions(given, &trial);
   if (status.ok()) {
+    follower_.follow(*state, &equations_, &trial);
+    for (std::size_t k = 0; k < turn_slots_.size(); ++k)
+      trial.turns[to_index(turn_slots_[k])] = given[to_signed(k)];
     *state = trial;
     equations_.track_turns(state);
     return status;

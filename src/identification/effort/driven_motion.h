@@ -6,6 +6,7 @@
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
+#include "equations/turn_follower.h"
 #include "identification/effort/driven_system.h"
 #include "math/arrays.h"
 
@@ -82,6 +83,7 @@ class DrivenMotion {
   /// columns, so that an error of one of them alone is removed by one step.
   VectorX<double> uncertain_;
   Equations<double> equations_;
+  TurnFollower<double> follower_;
   Linearization<double> derivatives_;
   IterationMatrix matrix_;
   VectorX<double> step_, Phi_, Phi_rate_;
