@@ -81,6 +81,7 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
   if (result.finer.size() > 0)
     out << "largest change with a hundredth of the tolerances " << readable(result.largest_change)
         << '\n';
+  print_differences(result.independent, out);
 }
 
 Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result,

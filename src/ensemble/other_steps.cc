@@ -20,7 +20,7 @@ namespace {
 
 // Steps that the check may take over those of the study's runs: where the explicit pair needs more,
 // the motion is stiff.
-constexpr double kMostOfPair = 8.0, kMostOfImplicit = 50.0;
+constexpr double kMostOfPair = 8.0, kMostOfImplicit = 5.0;
 constexpr double kFewestOfPair = 4000.0, kFewestOfImplicit = 20000.0, kMostSteps = 1e8;
 // The share of the allowed difference at which the differences are good enough.
 constexpr double kGoodEnough = 0.1;

@@ -154,7 +154,8 @@ Json differences_json(const IndependentCheck& check) {
   Json object = {{"derivative", check.derivative},   {"error", check.error},
                  {"gradient", check.along},          {"allowed", check.allowed},
                  {"size", check.size},               {"disagrees", check.disagrees()},
-                 {"objective", check.objective},     {"evaluations", check.evaluations}};
+                 {"objective", check.objective},     {"evaluations", check.evaluations},
+                 {"cpu_seconds", check.statistics.cpu_seconds}};
   if (check.longest_step == 0.0) return object;
   object["method"] = check.method;
   object["relative_tolerance"] = check.relative_tolerance;

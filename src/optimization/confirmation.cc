@@ -16,7 +16,7 @@ namespace codesign {
 namespace {
 
 // As SearchTrials::scale().
-constexpr double kStartCounts = 1e-3;
+constexpr double kOfStart = 1e-3;
 
 bool has_claim(const Study& study, const Ensemble& ensemble, const OptimizationResult& result) {
   const bool has_ended =
@@ -41,7 +41,7 @@ ClaimedGradient claim_of(const OptimizerOptions& options, const Ensemble& ensemb
                static_cast<double>(ensemble.scenarios().size());
   const double start = std::isfinite(result.initial.slope) ? result.initial.slope : 0.0;
   claim.allowed_per_range = most_stationarity(options) *
-                            std::max(std::abs(best.objective), kStartCounts * start);
+                            std::max(std::abs(best.objective), kOfStart * start);
   return claim;
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
-constexpr int kMostSteps = 2000000;
+constexpr int kMostOfReference = 2000000;
 
 /// A step that a run took.
 struct TakenStep {
@@ -218,7 +218,7 @@ Status differentiate_steps(const CompiledSystem& system, const std::vector<doubl
 void check_by_differences(const CompiledSystem& system, const std::vector<double>& parameters,
                           const std::atomic<bool>* cancel, GradientCheck* check) {
   Study study =
-      with_steps(system.whole_study(), {RunSteps::Method::kRodas5P, false, kMostSteps});
+      with_steps(system.whole_study(), {RunSteps::Method::kRodas5P, false, kMostOfReference});
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
   Evaluator evaluator =

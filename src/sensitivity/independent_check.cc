@@ -19,7 +19,7 @@ constexpr double kLeastComponent = 0.03, kLeastOfRange = 0.01;
 // which bounds must leave room.
 constexpr double kFirstStep = 0x1p-7, kLeastRoom = 1.0 / 16.0;
 // allowed_difference().
-constexpr double kShare = 3e-3, kOfObjective = 1e-4, kOfRange = 1e-4;
+constexpr double kOfGradient = 1e-3, kOfObjective = 1e-4, kOfRange = 1e-4;
 
 double magnitude(const Parameter& parameter, double value) {
   const double range = extent(parameter, value);
@@ -53,7 +53,7 @@ CheckedLine checked_line(const MotionStudy& study, const Eigen::VectorXd& rho,
     // Not all of one size, so that a common factor does not cancel.
     const double part = 0.5 + static_cast<double>(bits()) / 4294967296.0;
     const bool is_negative =
-        gradient[k] != 0.0 ? gradient[k] < 0.0 : static_cast<bool>(bits() % 2 != 0);
+        count > 1 && (gradient[k] != 0.0 ? gradient[k] < 0.0 : static_cast<bool>(bits() % 2 != 0));
     parts[k] = (is_negative ? -part : part) / (floor > 0.0 ? std::max(slopes[k], floor) : 1.0);
   }
   parts /= count == 1 ? std::abs(parts[0]) * sizes[0] : parts.cwiseAbs().maxCoeff();
@@ -116,7 +116,7 @@ void LineDifferences::add(double h, double forward, double backward) {
 
 double allowed_difference(const IndependentCheck& check, const CheckedLine& line, double objective,
                           double curvature) {
-  return std::max({kShare * check.size, kOfObjective * std::abs(objective) * line.per_range,
+  return std::max({kOfGradient * check.size, kOfObjective * std::abs(objective) * line.per_range,
                    line.per_range > 0.0 ? kOfRange * curvature / line.per_range : 0.0});
 }
 

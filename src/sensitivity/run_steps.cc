@@ -12,12 +12,12 @@
 namespace codesign {
 namespace {
 
-constexpr double kFiner = 1e-2, kSecond = 10.0, kLeastTolerance = 1e-13;
+constexpr double kFinerShare = 1e-2, kSecondShare = 10.0, kLeastTolerance = 1e-13;
 // Steps of a duration at least, in both sets, which have no common instants.
-constexpr double kFewest = 200.0, kFewestOfSecond = 320.0;
+constexpr double kLeastSteps = 200.0, kLeastOfSecond = 320.0;
 // A pulse lasts less than this share of a study (find_excursions()), which the steps above do not
 // divide well; and the most instants by which all pulses are divided.
-constexpr double kPulse = 0.2;
+constexpr double kPulseShare = 0.2;
 constexpr double kMostInstants = 2000.0;
 
 /// Adds instants within the pulses.
@@ -26,7 +26,7 @@ void divide_pulses(double duration, double parts, std::vector<double>* breaks) {
   std::vector<std::size_t> pulses;
   for (std::size_t k = 1; k < breaks->size(); ++k)
     if (const double width = (*breaks)[k] - (*breaks)[k - 1];
-        width > 0.0 && width < kPulse * duration)
+        width > 0.0 && width < kPulseShare * duration)
       pulses.push_back(k);
   if (pulses.empty()) return;
   const int each =
@@ -70,8 +70,8 @@ Study with_steps(const Study& study, const RunSteps& steps) {
   solver.integrator = IntegratorKind::kRosenbrock;
   solver.method = kMethods[to_index(steps.method)];
   for (double* tolerance : {&solver.relative_tolerance, &solver.absolute_tolerance})
-    *tolerance = std::max(kFiner * *tolerance, kLeastTolerance) * (steps.is_second ? kSecond : 1.0);
-  const double parts = steps.is_second ? kFewestOfSecond : kFewest,
+    *tolerance = std::max(kFinerShare * *tolerance, kLeastTolerance) * (steps.is_second ? kSecondShare : 1.0);
+  const double parts = steps.is_second ? kLeastOfSecond : kLeastSteps,
                longest = study.duration / parts;
   solver.maximum_step =
       solver.maximum_step > 0.0 ? std::min(solver.maximum_step, longest) : longest;
