@@ -99,13 +99,13 @@ struct IndependentCheck {
   double allowed = 0.0;  ///< the difference that the study's own tolerances explain, and that moves
                          ///< no optimum
   double size = 0.0;     ///< max_k |d_k g_k|, or |derivative| if that is more
-  double objective = 0.0;            ///< at the design itself, with the other steps
-  std::string method;                ///< of the other steps, as in a study: "rodas5p"
-  double relative_tolerance = 0.0;   ///< theirs
-  double longest_step = 0.0;         ///< theirs [s]; 0: postures, which have no steps
-  int evaluations = 0;               ///< of the objective; at most twelve
-  Status status;                     ///< why nothing is known, if `direction` is empty
-  Statistics statistics;             ///< sums over the evaluations
+  double objective = 0.0;           ///< at the design itself, with the other steps
+  std::string method;               ///< of the other steps, as in a study: "rodas5p"
+  double relative_tolerance = 0.0;  ///< theirs
+  double longest_step = 0.0;        ///< theirs [s]; 0: postures, which have no steps
+  int evaluations = 0;              ///< of the objective; at most twelve
+  Status status;                    ///< why nothing is known, if `direction` is empty
+  Statistics statistics;            ///< sums over the evaluations
 
   bool is_known() const { return direction.size() > 0; }
   /// Whether the gradient is refuted: its difference is beyond `error` and `allowed`.

@@ -41,12 +41,12 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
 void print_differences(const IndependentCheck& check, std::ostream& out) {
   if (check.evaluations == 0) return;
   if (!check.is_known()) {
-    out << "differences of the objective through other steps: not known, "
-        << describe(check.status) << '\n';
+    out << "differences of the objective through other steps: not known, " << describe(check.status)
+        << '\n';
     return;
   }
-  out << "differences of the objective (" << describe_steps(check) << "): "
-      << readable(check.derivative) << " with an error of " << readable(check.error, 2)
+  out << "differences of the objective (" << describe_steps(check)
+      << "): " << readable(check.derivative) << " with an error of " << readable(check.error, 2)
       << "; by the gradient " << readable(check.along) << '\n';
 }
 

@@ -71,12 +71,11 @@ class OtherSteps {
 
   void use(RunSteps::Method method) {
     const bool is_pair = method == RunSteps::Method::kDopri5;
-    const double own =
-        static_cast<double>(claim_.statistics.steps) / std::max(1.0, claim_.runs);
+    const double own = static_cast<double>(claim_.statistics.steps) / std::max(1.0, claim_.runs);
     steps_.method = method;
-    steps_.most = static_cast<std::int32_t>(std::min(
-        kMostSteps, std::max(is_pair ? kFewestOfPair : kFewestOfImplicit,
-                             own * (is_pair ? kMostOfPair : kMostOfImplicit))));
+    steps_.most = static_cast<std::int32_t>(
+        std::min(kMostSteps, std::max(is_pair ? kFewestOfPair : kFewestOfImplicit,
+                                      own * (is_pair ? kMostOfPair : kMostOfImplicit))));
     const SolverOptions& solver = with_steps(study_, steps_).solver;
     check_.method = name_of(method);
     check_.relative_tolerance = solver.relative_tolerance;
@@ -92,7 +91,8 @@ class OtherSteps {
           values(line_.is_two_sided ? std::vector<double>{h, -h} : std::vector<double>{h}, false);
       if (check_.status.is_interrupted()) return;
       if (!check_.status.ok()) failure = std::exchange(check_.status, Status{});
-      if (std::isfinite(at.front()) && std::isfinite(at.back())) differences->add(h, at[0], at.back());
+      if (std::isfinite(at.front()) && std::isfinite(at.back()))
+        differences->add(h, at[0], at.back());
       h /= LineDifferences::kShrink;
       if (differences->levels() > 0) judge(*differences);
       if (differences->levels() > 1 && check_.error <= kGoodEnough * check_.allowed) break;
@@ -100,18 +100,18 @@ class OtherSteps {
     if (differences->levels() > 1) return;
     check_.status = failure;
     if (failure.ok())
-      check_.status = {StatusCode::kNonFinite, 0.0, "the objective beside the design is not finite"};
+      check_.status = {StatusCode::kNonFinite, 0.0,
+                       "the objective beside the design is not finite"};
   }
 
   void judge(const LineDifferences& differences) {
     check_.derivative = differences.value();
     check_.error = differences.error();
-    check_.size = std::max(
-        line_.direction.cwiseProduct(claim_.gradient).cwiseAbs().maxCoeff(),
-        std::abs(check_.derivative));
-    check_.allowed = std::max(
-        claim_.allowed_per_range * line_.per_range,
-        allowed_difference(check_, line_, claim_.objective, differences.curvature()));
+    check_.size = std::max(line_.direction.cwiseProduct(claim_.gradient).cwiseAbs().maxCoeff(),
+                           std::abs(check_.derivative));
+    check_.allowed =
+        std::max(claim_.allowed_per_range * line_.per_range,
+                 allowed_difference(check_, line_, claim_.objective, differences.curvature()));
   }
 
   void add_error_of_steps(const LineDifferences& differences) {
@@ -123,8 +123,7 @@ class OtherSteps {
     const double other = differences.quotient(h, at[1], at[0], at[1]);
     // The second set is no part of the differences: its failure leaves them with the error so far.
     check_.status = {};
-    if (std::isfinite(other))
-      check_.error += kOfSteps * std::abs(other - differences.quotient());
+    if (std::isfinite(other)) check_.error += kOfSteps * std::abs(other - differences.quotient());
   }
 
   /// The objective at rho + h d for each h; not a number where a scenario fails.
@@ -231,10 +230,11 @@ Warning disagreement(const Ensemble& ensemble, const IndependentCheck& check, do
   const std::string where = study.tuned.size() == 1
                                 ? "by \"" + tuned_names(study).front() + "\""
                                 : "along a direction in which every parameter has its part";
-  std::string text = "the gradient is wrong, or the objective has no derivative: differences of "
-                     "the objective through other steps (" +
-                     describe_steps(check) + ") are " + readable(check.derivative) + " " + where +
-                     ", with an error of " + readable(check.error, 2);
+  std::string text =
+      "the gradient is wrong, or the objective has no derivative: differences of "
+      "the objective through other steps (" +
+      describe_steps(check) + ") are " + readable(check.derivative) + " " + where +
+      ", with an error of " + readable(check.error, 2);
   if (!(std::abs(check.objective - objective) <= kSameObjective * std::abs(objective)))
     text += "; the objective itself is " + readable(check.objective) + " there and " +
             readable(objective) + " with the study's steps";

@@ -151,10 +151,14 @@ Json parameter_table(const Problem& problem, const OptimizationResult& result) {
 
 Json differences_json(const IndependentCheck& check) {
   if (!check.is_known()) return {{"unknown", describe(check.status)}};
-  Json object = {{"derivative", check.derivative},   {"error", check.error},
-                 {"gradient", check.along},          {"allowed", check.allowed},
-                 {"size", check.size},               {"disagrees", check.disagrees()},
-                 {"objective", check.objective},     {"evaluations", check.evaluations},
+  Json object = {{"derivative", check.derivative},
+                 {"error", check.error},
+                 {"gradient", check.along},
+                 {"allowed", check.allowed},
+                 {"size", check.size},
+                 {"disagrees", check.disagrees()},
+                 {"objective", check.objective},
+                 {"evaluations", check.evaluations},
                  {"cpu_seconds", check.statistics.cpu_seconds}};
   if (check.longest_step == 0.0) return object;
   object["method"] = check.method;
@@ -166,7 +170,7 @@ Json differences_json(const IndependentCheck& check) {
 namespace {
 
 Json exact_check_json(const Problem& problem, const OptimizationResult& result,
-                         const std::atomic<bool>* cancel) {
+                      const std::atomic<bool>* cancel) {
   if (!is_evaluated(problem, result) || result.status.is_interrupted())
     return skipped("the search was interrupted");
   if (const double seconds = expected_seconds(problem, result);

@@ -19,8 +19,8 @@ namespace {
 constexpr double kOfStart = 1e-3;
 
 bool has_claim(const Study& study, const Ensemble& ensemble, const OptimizationResult& result) {
-  const bool has_ended =
-      result.status.ok() && (is_success(result.termination) || result.termination == "stopped_early");
+  const bool has_ended = result.status.ok() &&
+                         (is_success(result.termination) || result.termination == "stopped_early");
   return has_ended && study.postures == 0 &&
          result.best.gradient.size() == to_signed(study.tuned.size()) &&
          result.best.values.size() == to_signed(ensemble.scenarios().size());
@@ -40,8 +40,8 @@ ClaimedGradient claim_of(const OptimizerOptions& options, const Ensemble& ensemb
   claim.runs = static_cast<double>(result.cost.evaluations) *
                static_cast<double>(ensemble.scenarios().size());
   const double start = std::isfinite(result.initial.slope) ? result.initial.slope : 0.0;
-  claim.allowed_per_range = most_stationarity(options) *
-                            std::max(std::abs(best.objective), kOfStart * start);
+  claim.allowed_per_range =
+      most_stationarity(options) * std::max(std::abs(best.objective), kOfStart * start);
   return claim;
 }
 

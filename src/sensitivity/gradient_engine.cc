@@ -113,13 +113,12 @@ class Evaluator::Implementation {
     }
     for (Eigen::Index k = 0; k < evaluation->gradient.size(); ++k)
       if (!is_possible(evaluation->gradient[k], k, *evaluation)) {
-        evaluation->status = {
-            StatusCode::kNonFiniteGradient, time,
-            "the gradient by \"" + tuned_name(*system_, k) + "\" is " +
-                (std::isfinite(evaluation->gradient[k])
-                     ? readable(evaluation->gradient[k], 2) +
-                           ", beyond any size that the objective explains"
-                     : "not finite, though the objective is")};
+        evaluation->status = {StatusCode::kNonFiniteGradient, time,
+                              "the gradient by \"" + tuned_name(*system_, k) + "\" is " +
+                                  (std::isfinite(evaluation->gradient[k])
+                                       ? readable(evaluation->gradient[k], 2) +
+                                             ", beyond any size that the objective explains"
+                                       : "not finite, though the objective is")};
         return;
       }
     if (!evaluation->jacobian_root.allFinite())

@@ -23,9 +23,9 @@ constexpr double kOfGradient = 1e-3, kOfObjective = 1e-4, kOfRange = 1e-4;
 
 double magnitude(const Parameter& parameter, double value) {
   const double range = extent(parameter, value);
-  double size =
-      has_range(parameter) ? std::min(range, std::max(std::abs(value), kLeastOfRange * range))
-                           : range;
+  double size = has_range(parameter)
+                    ? std::min(range, std::max(std::abs(value), kLeastOfRange * range))
+                    : range;
   if (!(size > 0.0)) size = 1.0;
   return size;
 }
@@ -92,8 +92,8 @@ void LineDifferences::add(double h, double forward, double backward) {
   }
   const double shrink = steps_[i - 1] / h, by_order = is_two_sided_ ? shrink * shrink : shrink;
   const double last = table_[i][0], before = table_[i - 1][0];
-  curvature_ = std::abs(is_two_sided_ ? 2.0 * kinks_[i] / h
-                                      : 2.0 * (before - last) / (steps_[i - 1] - h));
+  curvature_ =
+      std::abs(is_two_sided_ ? 2.0 * kinks_[i] / h : 2.0 * (before - last) / (steps_[i - 1] - h));
   // Of a smooth function the slopes of both sides meet.
   const double kink = std::abs((shrink * kinks_[i] - kinks_[i - 1]) / (shrink - 1.0));
   double factor = by_order, error = std::numeric_limits<double>::infinity(), value = 0.0;

@@ -70,7 +70,8 @@ Study with_steps(const Study& study, const RunSteps& steps) {
   solver.integrator = IntegratorKind::kRosenbrock;
   solver.method = kMethods[to_index(steps.method)];
   for (double* tolerance : {&solver.relative_tolerance, &solver.absolute_tolerance})
-    *tolerance = std::max(kFinerShare * *tolerance, kLeastTolerance) * (steps.is_second ? kSecondShare : 1.0);
+    *tolerance = std::max(kFinerShare * *tolerance, kLeastTolerance) *
+                 (steps.is_second ? kSecondShare : 1.0);
   const double parts = steps.is_second ? kLeastOfSecond : kLeastSteps,
                longest = study.duration / parts;
   solver.maximum_step =

@@ -23,8 +23,8 @@ inline Problem slide(const std::string& study, const std::string& velocity = "0"
     <limit lower="-1000" upper="1000" effort="100" velocity="1000"/>
     <codesign:torsion_spring stiffness="0" codesign:stiffness="${k}" damping="0" codesign:damping="${c}"/></joint>
 </robot>)"};
-  return load_problem(
-      urdf, {}, {"slide.yaml", study + "initial_state: {x: {velocity: " + velocity + "}}\n"});
+  return load_problem(urdf, {},
+                      {"slide.yaml", study + "initial_state: {x: {velocity: " + velocity + "}}\n"});
 }
 
 /// Pushed by +1 N until ts, then by -1 N: x(2) = 4 ts - ts^2 - 2, and psi = (x(2) - 2)^2 has the

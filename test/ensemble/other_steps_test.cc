@@ -88,11 +88,11 @@ TEST(OtherSteps, RefuteGradientsThatDoNotSeeWhatTheirStepsPassOver) {
 // A pulse of 0.03 s by the angle: steps of a tenth of a second pass it over, and the objective is
 // another one, too.
 TEST(OtherSteps, ResolvePulsesByPosition) {
-  const Problem problem =
-      slide("duration: 1.2\nloads: [{joint: x, effort: \"${-100*exp(-5000*(x/position - 4)^2)}\"}]\n"
-            "parameters: {m: {}}\nobjective: {terminal: [{signal: x/velocity}]}\n"
-            "solver: {maximum_step: 0.3, initial_step: 0.3}\n",
-            "10");
+  const Problem problem = slide(
+      "duration: 1.2\nloads: [{joint: x, effort: \"${-100*exp(-5000*(x/position - 4)^2)}\"}]\n"
+      "parameters: {m: {}}\nobjective: {terminal: [{signal: x/velocity}]}\n"
+      "solver: {maximum_step: 0.3, initial_step: 0.3}\n",
+      "10");
   // m v^2 / 2 falls by the integral of the force over the way, 100 sqrt(pi / 5000).
   const double work = 100.0 * std::sqrt(std::acos(-1.0) / 5000.0), right = 2.0 * work;
   const IndependentCheck check = check_of(problem, 0.0);
@@ -184,6 +184,26 @@ TEST(OtherSteps, WarnWithBothNumbers) {
   EXPECT_EQ(check.evaluation.warnings[0].code, "gradient_disagrees");
   EXPECT_NE(check.evaluation.warnings[0].message.find("-6.91"), std::string::npos)
       << check.evaluation.warnings[0].message;
+}
+
+// A time in a band has no complex step; the differences through other steps have their error.
+TEST(OtherSteps, TellTheirErrorAlsoWithTimesInBands) {
+  const Problem problem = slide(
+      "duration: 4.0\nparameters: {m: {}}\nloads: [{joint: x, effort: \"${-x/position}\"}]\n"
+      "objective: {dwell: [{signal: x/position, band: [0.5, 2]}]}\n",
+      "1");
+  const Ensemble ensemble(problem);
+  GradientCheck check = check_along(ensemble, problem.start(), CheckMethod::kComplexStep);
+  ASSERT_TRUE(check.status.ok()) << check.status.cause;
+  check_other_steps(ensemble, problem.start(), nullptr, &check);
+  // x = sqrt(m) sin(t / sqrt(m)) is above 1/2 for sqrt(m) (pi - 2 asin(1 / (2 sqrt(m)))).
+  const double half = 0.5 / std::sqrt(0.75),
+               right = 0.5 * (std::acos(-1.0) - 2.0 * std::asin(0.5)) + half;
+  ASSERT_TRUE(check.independent.is_known()) << check.independent.status.cause;
+  EXPECT_NEAR(check.independent.derivative, right, 1e-5);
+  EXPECT_GT(check.independent.error, 0.0);
+  EXPECT_LT(check.independent.error, 1e-3 * right);
+  EXPECT_FALSE(check.independent.disagrees());
 }
 
 TEST(OtherSteps, CountTheWorstForScenariosThatFailed) {

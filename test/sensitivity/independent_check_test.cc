@@ -65,8 +65,7 @@ TEST(CheckedLine, AddsTermsOfOneSign) {
 TEST(CheckedLine, LeavesNoBounds) {
   const MotionStudy study = study_of({between(1.0, 1.0, 2.0), between(0.0, 5.0, 5.0)});
   for (const double sign : {-1.0, 1.0}) {
-    const CheckedLine line =
-        checked_line(study, starts(study), Eigen::Vector2d(sign, 2.0 * sign));
+    const CheckedLine line = checked_line(study, starts(study), Eigen::Vector2d(sign, 2.0 * sign));
     EXPECT_FALSE(line.is_two_sided);
     EXPECT_GT(line.first_step, 0.0);
     const Eigen::VectorXd end = starts(study) + line.first_step * line.direction;
@@ -88,8 +87,7 @@ TEST(LineDifferences, AreRightWithinTheirError) {
 }
 
 TEST(LineDifferences, CountAKinkAsAnError) {
-  const LineDifferences differences =
-      of([](double x) { return x > 0.0 ? 3.0 * x : x; }, 0.01, 3);
+  const LineDifferences differences = of([](double x) { return x > 0.0 ? 3.0 * x : x; }, 0.01, 3);
   EXPECT_NEAR(differences.value(), 2.0, 1e-12);
   EXPECT_NEAR(differences.error(), 1.0, 1e-9) << "the slopes are 1 and 3";
 }

@@ -19,14 +19,14 @@ std::shared_ptr<const CompiledSystem> make(const std::string& solver,
   const RobotDescription robot = read_urdf({"test.urdf", pendulum()});
   const std::string study = "duration: 2.0\nloads: [{joint: hinge, effort: \"" + load +
                             "\"}]\nobjective: {terminal: [{signal: hinge/position}]}\n"
-                            "solver: {" + solver + "}\n";
+                            "solver: {" +
+                            solver + "}\n";
   return make_system(robot, read_study({"test.yaml", study}, robot));
 }
 
 TEST(RunSteps, AreShorterAndFinerInBothSets) {
   const auto system = make("relative_tolerance: 1.0e-5, absolute_tolerance: 1.0e-12");
-  const SolverOptions first =
-                          with_steps(*system, {Method::kRodas5P, false, 5000})->study().solver,
+  const SolverOptions first = with_steps(*system, {Method::kRodas5P, false, 5000})->study().solver,
                       second = with_steps(*system, {Method::kDopri5, true, 700})->study().solver;
   EXPECT_EQ(first.method, RosenbrockMethod::kRodas5P);
   EXPECT_EQ(second.method, RosenbrockMethod::kDopri5);
@@ -38,7 +38,8 @@ TEST(RunSteps, AreShorterAndFinerInBothSets) {
   EXPECT_EQ(first.maximum_steps, 5000);
   EXPECT_EQ(second.maximum_steps, 700);
   EXPECT_EQ(with_steps(*make("maximum_step: 1.0e-3"), {Method::kRodas5P, false, 9})
-                ->study().solver.maximum_step,
+                ->study()
+                .solver.maximum_step,
             1e-3);
 }
 
@@ -58,12 +59,11 @@ TEST(RunSteps, AreOfTheOtherClassOfMethod) {
 TEST(RunSteps, DivideAPulseAsTheyDivideTheStudy) {
   const auto system = make("method: auto", "${100*exp(-((t - 1)/0.002)^2)}");
   const std::vector<double>&own = system->study().excursions,
-             divided = with_steps(*system, {Method::kRodas5P, false, 9})->study().excursions;
+        divided = with_steps(*system, {Method::kRodas5P, false, 9})->study().excursions;
   ASSERT_GE(own.size(), 2u) << "the pulse has break times";
   const double begin = own.front(), end = own.back();
-  const auto within = std::count_if(divided.begin(), divided.end(), [&](double time) {
-    return time >= begin && time <= end;
-  });
+  const auto within = std::count_if(divided.begin(), divided.end(),
+                                    [&](double time) { return time >= begin && time <= end; });
   EXPECT_GE(within, 200);
   EXPECT_TRUE(std::is_sorted(divided.begin(), divided.end()));
 }
