@@ -267,10 +267,10 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
 
 std::string stop_sentence(const OptimizationResult& result) {
   if (!std::isfinite(result.optimality.stationarity)) return "";
-  const std::string stationary = "stationary to " + readable(result.optimality.stationarity, 2);
-  if (is_success(result.termination)) return stationary + describe_confirmation(result);
+  const std::string to = readable(result.optimality.stationarity, 2);
+  if (is_success(result.termination)) return "stationary to " + to + describe_confirmation(result);
   if (result.optimality.independent.disagrees())
-    return "stopped early: " + stationary +
+    return "stopped early: stationary to " + to +
            " by the gradient, which differences of the objective refute";
   // A start at which nothing has an effect on the objective has no slope.
   const std::string slope = result.initial.slope > 0.0
@@ -278,7 +278,7 @@ std::string stop_sentence(const OptimizationResult& result) {
                                       readable(result.best.slope / result.initial.slope, 2) +
                                       " of the start's, "
                                 : "";
-  return "stopped early: " + slope + stationary + " only";
+  return "stopped early: " + slope + "stationary to " + to + " only";
 }
 
 Warnings search_warnings(const Study& study, const OptimizerOptions& options,

@@ -11,15 +11,15 @@
 namespace codesign {
 namespace {
 
-MotionStudy study_of(const std::vector<Parameter>& parameters) {
+MotionStudy study_of(const std::vector<codesign::Parameter>& parameters) {
   MotionStudy study;
   study.parameters = parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) study.tuned.push_back(static_cast<int>(k));
   return study;
 }
 
-Parameter between(double lower, double value, double upper) {
-  Parameter parameter;
+codesign::Parameter between(double lower, double value, double upper) {
+  codesign::Parameter parameter;
   parameter.value = value;
   parameter.lower = lower;
   parameter.upper = upper;
