@@ -91,7 +91,7 @@ TEST(GradientCommand, VerifyAloneComparesAlongADirectionAndSaysSo) {
               1e-3);
   EXPECT_LT(verification["largest_relative_difference"].get<double>(), 1e-8);
   const std::string out = run_words({"gradient", kModel, short_study(folder), "--verify"}).out;
-  EXPECT_NE(out.find("differences of the objective (rod"), std::string::npos) << out;
+  EXPECT_NE(out.find("differences of the objective ("), std::string::npos) << out;
   EXPECT_NE(out.find("with an error of"), std::string::npos);
   EXPECT_NE(out.find("along a direction"), std::string::npos);
   // Steps that obey solver.sensitivity_tolerance need no others.
