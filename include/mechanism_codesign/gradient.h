@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <atomic>
+#include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "mechanism_codesign/problem.h"
@@ -86,6 +88,30 @@ enum class CheckMethod {
              ///< the steps
 };
 
+/// What differences of the objective alone say of a gradient: along one direction d, from runs that
+/// take other steps than the runs of the study, with another method, a hundredth of the tolerances
+/// and a largest step; doc/theory.md (22c).
+struct IndependentCheck {
+  Eigen::VectorXd direction;  ///< d, in the units of the tuned parameters; empty: not computed
+  double along = 0.0;         ///< d^T g of the gradient g under check
+  double derivative = 0.0;    ///< of the objective along d, by differences
+  double error = 0.0;         ///< estimate of the absolute error of `derivative`
+  double allowed = 0.0;  ///< the difference that the study's own tolerances explain, and that moves
+                         ///< no optimum
+  double size = 0.0;     ///< max_k |d_k g_k|, or |derivative| if that is more
+  double objective = 0.0;           ///< at the design itself, with the other steps
+  std::string method;               ///< of the other steps, as in a study: "rodas5p"
+  double relative_tolerance = 0.0;  ///< theirs
+  double longest_step = 0.0;        ///< theirs [s]; 0: postures, which have no steps
+  int evaluations = 0;              ///< of the objective; at most twelve
+  Status status;                    ///< why nothing is known, if `direction` is empty
+  Statistics statistics;            ///< sums over the evaluations
+
+  bool is_known() const { return direction.size() > 0; }
+  /// Whether the gradient is refuted: its difference is beyond `error` and `allowed`.
+  bool disagrees() const { return is_known() && std::abs(along - derivative) > error + allowed; }
+};
+
 /// A gradient and an independently computed reference.
 struct GradientCheck {
   Status status;
@@ -107,6 +133,7 @@ struct GradientCheck {
   /// As largest_relative_difference, of the gradient from `finer`: what the length of the steps
   /// costs. A complex step through the same steps does not see it.
   double largest_change = 0;
+  IndependentCheck independent;  ///< by check_other_steps()
 };
 
 /// Computes the gradient at `rho` and a reference for it. With `idas` the method is always

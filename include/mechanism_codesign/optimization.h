@@ -128,6 +128,10 @@ struct OptimalityResult {
                                     ///< theory (24i)
   std::vector<bool> influences;  ///< per tuned parameter: whether the objective or a watched signal
                                  ///< depended on it at any trial point
+  /// Whether differences of the objective through other steps confirm the gradient at the best
+  /// point; not computed for postures, and where the search was interrupted or ended outside its
+  /// constraints.
+  IndependentCheck independent;
 };
 
 /// The constraints at the best point.
@@ -170,7 +174,8 @@ struct OptimizationResult {
   std::string termination;  ///< why the search ended, in snake case: "objective_tolerance_reached",
                             ///< "max_evaluations_reached", "cancelled",
                             ///< ...; "stopped_early" if its algorithms ended at a point that is not
-                            ///< stationary
+                            ///< stationary, or where differences of the objective refute the
+                            ///< gradient
   std::string algorithm;    ///< that searched; of `auto` all that went on with the search, in their
                             ///< order, with commas
   DesignPoint initial;

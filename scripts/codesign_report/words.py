@@ -33,6 +33,8 @@ def stationarity(result):
     value, slope, start = (result.get(key) for key in ("stationarity", "slope", "initial_slope"))
     if value is None:
         return ""
+    if (result.get("differences") or {}).get("disagrees"):
+        return f"Stopped early: stationary to {value:.2g} by the gradient, which differences of the objective refute."
     if result.get("termination") in SUCCESSES:
         return f"Stationary to {value:.2g}."
     share = f"the slope is {slope / start:.2g} of the start's, " if slope is not None and start else ""

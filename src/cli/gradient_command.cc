@@ -3,7 +3,9 @@
 #include "cli/inputs.h"
 #include "cli/report.h"
 #include "ensemble/ensemble.h"
+#include "ensemble/other_steps.h"
 #include "jobs/json.h"
+#include "jobs/json_records.h"
 #include "math/arrays.h"
 #include "text/number_text.h"
 #include "text/table.h"
@@ -26,12 +28,26 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
         (check.status.ok() && check.directions.size() > 0 && disagrees(check)))
       check = check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
     check_steps(ensemble, problem.start(), &console.cancel, &check);
+    check_other_steps(ensemble, problem.start(), &console.cancel, &check);
     return check;
   }
   GradientCheck result;
   result.evaluation = ensemble.evaluate(problem.start(), true, &console.cancel).total;
   result.status = result.evaluation.status;
   return result;
+}
+
+/// What differences through other steps say, with their own error.
+void print_differences(const IndependentCheck& check, std::ostream& out) {
+  if (check.evaluations == 0) return;
+  if (!check.is_known()) {
+    out << "differences of the objective through other steps: not known, " << describe(check.status)
+        << '\n';
+    return;
+  }
+  out << "differences of the objective (" << describe_steps(check)
+      << "): " << readable(check.derivative) << " with an error of " << readable(check.error, 2)
+      << "; by the gradient " << readable(check.along) << '\n';
 }
 
 void print_table(const Problem& problem, const GradientCheck& result, std::ostream& out) {
@@ -41,7 +57,9 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
              verified = !along && result.reference.size() == rho.size();
   Table table;
   std::vector<std::string> header = {"parameter", "value", "gradient"};
+  const bool has_error = verified && result.method == CheckMethod::kRidders;
   if (verified) header.insert(header.end(), {name_of(result.method), "difference"});
+  if (has_error) header.push_back("error");
   table.add(std::move(header));
   for (Eigen::Index k = 0; k < rho.size(); ++k) {
     const double gradient = result.evaluation.gradient[k];
@@ -49,6 +67,7 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
     if (verified)
       row.insert(row.end(),
                  {readable(result.reference[k]), readable(gradient - result.reference[k])});
+    if (has_error) row.push_back(readable(result.reference_error[k], 2));
     table.add(std::move(row));
   }
   out << "objective " << readable(result.evaluation.objective) << '\n';
@@ -62,6 +81,7 @@ void print_table(const Problem& problem, const GradientCheck& result, std::ostre
   if (result.finer.size() > 0)
     out << "largest change with a hundredth of the tolerances " << readable(result.largest_change)
         << '\n';
+  print_differences(result.independent, out);
 }
 
 Json result_json(const Arguments& arguments, const Problem& problem, const GradientCheck& result,
@@ -85,6 +105,8 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
   }
   verification["largest_relative_difference"] = result.largest_relative_difference;
   if (result.finer.size() > 0) verification["largest_change"] = result.largest_change;
+  if (result.independent.evaluations > 0)
+    verification["differences"] = differences_json(result.independent);
   return object;
 }
 

@@ -250,7 +250,7 @@ void Dispatcher::send_next(int rank, Outgoing* outgoing) {
   const std::uint64_t number = next_number_++;
   const EvaluationTask& task = batch->tasks[index];
   outgoing->emplace_back(rank, write_task(number, batch->problem, batch->systems[index],
-                                          task.derivatives, task.parameters));
+                                          task.derivatives, task.parameters, task.steps));
   state.sent.push_back({number, batch, index});
   sort_in(rank);
 }

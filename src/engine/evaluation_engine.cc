@@ -62,7 +62,7 @@ std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<Evaluation
   const bool looks_up = records_.memory && !is_set(cancel);
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     if (std::optional<Evaluation> known =
-            looks_up ? records_.memory->find(tasks[k]) : std::nullopt) {
+            looks_up && !tasks[k].stepped ? records_.memory->find(tasks[k]) : std::nullopt) {
       results[k] = std::move(*known);
       if (records_.counted) records_.counted(false);
       continue;
@@ -79,7 +79,7 @@ std::vector<Evaluation> RememberingEngine::evaluate(const std::vector<Evaluation
 }
 
 void RememberingEngine::note(const EvaluationTask& task, const Evaluation& evaluation) const {
-  if (evaluation.status.is_interrupted()) return;
+  if (evaluation.status.is_interrupted() || task.stepped) return;
   if (records_.memory) records_.memory->keep(task, evaluation);
   if (records_.counted) records_.counted(true);
 }

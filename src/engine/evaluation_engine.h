@@ -10,6 +10,7 @@
 
 #include "description/ensemble.h"
 #include "mechanism_codesign/gradient.h"
+#include "sensitivity/run_steps.h"
 
 namespace codesign {
 
@@ -24,6 +25,9 @@ struct EvaluationTask {
   /// the thread that computed the result or, if another process computed it, in the thread that
   /// called evaluate(). Must not throw.
   std::function<void(const Evaluation&)> finished = nullptr;
+  /// The run takes these steps in place of the study's; `stepped` is then `system` with them.
+  RunSteps steps{};
+  std::shared_ptr<const CompiledSystem> stepped = nullptr;
 };
 
 /// Runs evaluations on one or several workers. Each result depends only on its task, so that any
@@ -60,7 +64,7 @@ std::unique_ptr<EvaluationEngine> make_engine(const EngineOptions& options,
                                               std::int64_t most_useful);
 
 /// Keeps the results of finished tasks, so that they are not computed again; an earlier process may
-/// have computed them. Thread-safe.
+/// have computed them. It is not asked for runs with other steps than the study's. Thread-safe.
 class EvaluationMemory {
  public:
   virtual ~EvaluationMemory() = default;

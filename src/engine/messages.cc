@@ -139,12 +139,16 @@ PortableProblem read_problem(ByteReader* reader) {
 }
 
 std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system,
-                       Derivatives derivatives, const std::vector<double>& parameters) {
+                       Derivatives derivatives, const std::vector<double>& parameters,
+                       const RunSteps& steps) {
   ByteWriter writer = begin(MessageKind::kTask, number);
   writer.add(problem);
   writer.add(system);
   writer.add(derivatives);
   writer.add_numbers(parameters);
+  writer.add(steps.method);
+  writer.add(steps.is_second);
+  writer.add(steps.most);
   return writer.take();
 }
 
@@ -155,6 +159,9 @@ TaskMessage read_task(std::uint64_t number, ByteReader* reader) {
   task.system = reader->get<std::uint32_t>();
   task.derivatives = reader->get<Derivatives>();
   task.parameters = reader->get_numbers<std::vector<double>>();
+  task.steps.method = reader->get<RunSteps::Method>();
+  task.steps.is_second = reader->get<bool>();
+  task.steps.most = reader->get<std::int32_t>();
   return task;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/bytes.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
+#include "sensitivity/run_steps.h"
 
 namespace codesign {
 
@@ -17,7 +18,7 @@ namespace codesign {
 // fields listed there; numbers keep their bits.
 
 /// Version of the layout of all messages except kHello; a change of any layout needs a new number.
-constexpr std::uint32_t kMessageFormat = 2;
+constexpr std::uint32_t kMessageFormat = 3;
 
 enum class MessageKind : std::uint8_t {
   // To rank 0.
@@ -51,6 +52,7 @@ struct TaskMessage {
   std::uint32_t problem = 0, system = 0;  ///< the system's place in distinct_systems()
   Derivatives derivatives = Derivatives::kNone;
   std::vector<double> parameters;
+  RunSteps steps{};
 };
 
 /// A message that consists of a kind and a number.
@@ -58,7 +60,8 @@ std::string write_numbered(MessageKind kind, std::uint64_t number = 0);
 std::string write_hello(const Hello& hello);
 std::string write_problem(std::uint32_t number, const PortableProblem& problem);
 std::string write_task(std::uint64_t number, std::uint32_t problem, std::uint32_t system,
-                       Derivatives derivatives, const std::vector<double>& parameters);
+                       Derivatives derivatives, const std::vector<double>& parameters,
+                       const RunSteps& steps = {});
 std::string write_result(std::uint64_t number, const Evaluation& evaluation);
 /// An exception: an InputError is read back as an InputError, any other exception as a
 /// std::runtime_error with the same sentence.

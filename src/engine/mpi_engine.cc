@@ -65,7 +65,8 @@ void MpiEngine::compute() {
     std::exception_ptr error;
     try {
       const EvaluationTask& task = batch->tasks[index];
-      evaluation = worker.compute(task.system, task.parameters, task.derivatives, batch->cancel);
+      evaluation = worker.compute(task.stepped ? task.stepped : task.system, task.parameters,
+                                  task.derivatives, batch->cancel);
     } catch (...) {
       error = std::current_exception();
     }
@@ -213,8 +214,12 @@ std::string RankWorker::do_item(const Item& item) {
 Evaluation RankWorker::evaluate(const TaskMessage& task) {
   Known& known = problems_.at(task.problem);
   if (known.error) std::rethrow_exception(known.error);
-  return known.worker.compute(known.systems.at(task.system), task.parameters, task.derivatives,
-                              &cancel_);
+  const auto& own = known.systems.at(task.system);
+  if (task.steps.method == RunSteps::Method::kOwn)
+    return known.worker.compute(own, task.parameters, task.derivatives, &cancel_);
+  std::shared_ptr<const CompiledSystem>& stepped = known.stepped[{task.system, task.steps}];
+  if (!stepped) stepped = with_steps(*own, task.steps);
+  return known.worker.compute(stepped, task.parameters, task.derivatives, &cancel_);
 }
 
 }  // namespace codesign

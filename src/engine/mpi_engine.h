@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/dispatcher.h"
@@ -62,6 +63,7 @@ class RankWorker {
   /// A received problem, compiled.
   struct Known {
     std::vector<std::shared_ptr<const CompiledSystem>> systems;
+    std::map<std::pair<std::uint32_t, RunSteps>, std::shared_ptr<const CompiledSystem>> stepped;
     EvaluationWorker worker;
     std::exception_ptr error;  ///< why the problem could not be compiled
   };

@@ -24,7 +24,8 @@ class EvaluationWorker {
   Evaluation evaluate(const EvaluationTask& task, const std::atomic<bool>* cancel) {
     // After a cancel, tasks that still wait are not begun.
     if (is_set(cancel)) return cancelled();
-    Evaluation result = compute(task.system, task.parameters, task.derivatives, cancel);
+    Evaluation result = compute(task.stepped ? task.stepped : task.system, task.parameters,
+                                task.derivatives, cancel);
     if (task.finished) task.finished(result);
     return result;
   }

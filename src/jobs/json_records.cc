@@ -149,8 +149,28 @@ Json parameter_table(const Problem& problem, const OptimizationResult& result) {
   return table;
 }
 
-Json gradient_check_json(const Problem& problem, const OptimizationResult& result,
-                         const std::atomic<bool>* cancel) {
+Json differences_json(const IndependentCheck& check) {
+  if (!check.is_known()) return {{"unknown", describe(check.status)}};
+  Json object = {{"derivative", check.derivative},
+                 {"error", check.error},
+                 {"gradient", check.along},
+                 {"allowed", check.allowed},
+                 {"size", check.size},
+                 {"disagrees", check.disagrees()},
+                 {"objective", check.objective},
+                 {"evaluations", check.evaluations},
+                 {"cpu_seconds", check.statistics.cpu_seconds}};
+  if (check.longest_step == 0.0) return object;
+  object["method"] = check.method;
+  object["relative_tolerance"] = check.relative_tolerance;
+  object["maximum_step"] = check.longest_step;
+  return object;
+}
+
+namespace {
+
+Json exact_check_json(const Problem& problem, const OptimizationResult& result,
+                      const std::atomic<bool>* cancel) {
   if (!is_evaluated(problem, result) || result.status.is_interrupted())
     return skipped("the search was interrupted");
   if (const double seconds = expected_seconds(problem, result);
@@ -175,6 +195,16 @@ Json gradient_check_json(const Problem& problem, const OptimizationResult& resul
     object["directions"] = check.directions.cols();
   else
     object["reference"] = by_name(names, check.reference);
+  return object;
+}
+
+}  // namespace
+
+Json gradient_check_json(const Problem& problem, const OptimizationResult& result,
+                         const std::atomic<bool>* cancel) {
+  Json object = exact_check_json(problem, result, cancel);
+  const IndependentCheck& independent = result.optimality.independent;
+  if (independent.evaluations > 0) object["differences"] = differences_json(independent);
   return object;
 }
 

@@ -41,9 +41,14 @@ void add_counts(const Problem& problem, const std::vector<double>& parameters, J
 /// it, else empty.
 Json parameter_table(const Problem& problem, const OptimizationResult& result);
 
+/// What differences of the objective through other steps say of a gradient, or why that is not
+/// known.
+Json differences_json(const IndependentCheck& check);
+
 /// The gradient at the best point beside a reference by complex step (with `idas` by Ridders'
 /// differences): `method`, `gradient`, `reference`, `largest_relative_difference`. If the check
-/// would probably take more than a few seconds, or if it fails, `skipped` has the reason.
+/// would probably take more than a few seconds, or if it fails, `skipped` has the reason. Beside
+/// it `differences`, by which the search was confirmed at its end.
 Json gradient_check_json(const Problem& problem, const OptimizationResult& result,
                          const std::atomic<bool>* cancel);
 

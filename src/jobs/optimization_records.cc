@@ -102,6 +102,8 @@ void add_optimality(const std::vector<std::string>& names, const OptimizationRes
   for (Eigen::Index d = 0; d < result.optimality.flat_directions.cols(); ++d)
     directions.push_back(by_name(names, result.optimality.flat_directions.col(d)));
   (*object)["flat_directions"] = std::move(directions);
+  if (result.optimality.independent.evaluations > 0)
+    (*object)["differences"] = differences_json(result.optimality.independent);
 }
 
 }  // namespace

@@ -58,8 +58,9 @@ Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& 
 struct RiddersDerivative {
   double value = 0.0;
   double error =
-      std::numeric_limits<double>::infinity();  ///< the change by the last extrapolation; infinite
-                                                ///< if f was never finite
+      std::numeric_limits<double>::infinity();  ///< the change by the last extrapolation, or the
+                                                ///< difference of the last quotient if these do
+                                                ///< not approach it; infinite if f was never finite
 };
 
 /// Derivative of f at x by central differences extrapolated to step zero (Ridders, doc/theory.md
@@ -82,6 +83,11 @@ RiddersDerivative ridders_derivative(const Function& f, double x, double step) {
       if (error <= best.error) best = {table[j][i], error};
     }
   }
+  // Of a smooth f, the plain quotients approach the derivative; beside a singular point two
+  // extrapolations may agree by accident.
+  const double last = std::abs(table[0][kLevels - 1] - best.value),
+               before = std::abs(table[0][kLevels - 2] - best.value);
+  if (!(last <= 0.5 * before)) best.error = std::max(best.error, last);
   return best;
 }
 

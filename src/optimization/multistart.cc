@@ -10,6 +10,7 @@
 #include "engine/thread_engine.h"
 #include "ensemble/parameter_rows.h"
 #include "math/arrays.h"
+#include "optimization/confirmation.h"
 #include "optimization/lagrangian.h"
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
@@ -171,6 +172,7 @@ class Multistart {
     best.multistart.starts = std::move(starts);
     best.multistart.optima = std::move(optima);
     add_sums(*found, &best);
+    confirm_stop(study_, options_, ensemble_, cancel_, &best);
     take_study_start(&best);
     describe_scenarios(problem_, ensemble_, cancel_, &meter_, &best);
     return best;

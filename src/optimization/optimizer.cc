@@ -4,6 +4,7 @@
 #include "engine/dispatcher.h"
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/confirmation.h"
 #include "optimization/local_search.h"
 #include "optimization/multistart.h"
 #include "optimization/search_hooks.h"
@@ -19,7 +20,10 @@ OptimizationResult optimize(const std::shared_ptr<const CompiledSystem>& system,
   const Study& study = system->whole_study();
   require_tuned(study);
   const Ensemble ensemble(system);
-  return search_locally(study, options, start_of(study), ensemble, observer, cancel);
+  OptimizationResult result =
+      search_locally(study, options, start_of(study), ensemble, observer, cancel);
+  confirm_stop(study, options, ensemble, cancel, &result);
+  return result;
 }
 
 OptimizationResult optimize(const Problem& problem, const TrialObserver& observer,
@@ -43,6 +47,7 @@ OptimizationResult search_once(const Problem& problem, const OptimizerOptions& o
   const TrialObserver observer = counted_trials(hooks, meter);
   OptimizationResult result =
       search_locally(study_of(problem), options, problem.start(), ensemble, observer, cancel);
+  confirm_stop(study_of(problem), options, ensemble, cancel, &result);
   describe_scenarios(problem, ensemble, cancel, meter, &result);
   return result;
 }

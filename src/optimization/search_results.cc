@@ -9,6 +9,7 @@
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "optimization/algorithm.h"
+#include "optimization/confirmation.h"
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
 #include "optimization/search_trials.h"
@@ -266,16 +267,18 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
 
 std::string stop_sentence(const OptimizationResult& result) {
   if (!std::isfinite(result.optimality.stationarity)) return "";
-  if (is_success(result.termination))
-    return "stationary to " + readable(result.optimality.stationarity, 2);
+  const std::string to = readable(result.optimality.stationarity, 2);
+  if (is_success(result.termination)) return "stationary to " + to + describe_confirmation(result);
+  if (result.optimality.independent.disagrees())
+    return "stopped early: stationary to " + to +
+           " by the gradient, which differences of the objective refute";
   // A start at which nothing has an effect on the objective has no slope.
   const std::string slope = result.initial.slope > 0.0
                                 ? "the slope is " +
                                       readable(result.best.slope / result.initial.slope, 2) +
                                       " of the start's, "
                                 : "";
-  return "stopped early: " + slope + "stationary to " +
-         readable(result.optimality.stationarity, 2) + " only";
+  return "stopped early: " + slope + "stationary to " + to + " only";
 }
 
 Warnings search_warnings(const Study& study, const OptimizerOptions& options,

@@ -171,8 +171,8 @@ double SearchTrials::scale() {
 }
 
 // Near an optimum the objective falls with the square of the slope.
-double SearchTrials::most_slope() const {
-  return std::min(kMostSlope, std::sqrt(options_.relative_tolerance));
+double most_stationarity(const OptimizerOptions& options) {
+  return std::min(kMostSlope, std::sqrt(options.relative_tolerance));
 }
 
 /// Describes the best point as an optimum, or takes the word of success from a search that ended

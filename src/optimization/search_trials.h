@@ -18,6 +18,10 @@ namespace codesign {
 /// millionth.
 constexpr double kLeastMultiplier = 1e-4;
 
+/// The stationarity() at which a search may end: the root of the relative tolerance of the
+/// objective, and at most 0.001.
+double most_stationarity(const OptimizerOptions& options);
+
 /// The status of a search that ended because one of its evaluations was interrupted.
 inline Status with_best_kept(const Status& interruption) {
   return {interruption.code, 0.0, interruption.cause + "; the best point so far is kept"};
@@ -52,9 +56,8 @@ class SearchTrials {
   /// over the scale of (24j).
   double slope_left();
   double stationarity();
-  /// Whether the search may end here: stationarity() is at most the root of the relative tolerance
-  /// of the objective, and at most 0.001.
-  bool is_stationary() { return stationarity() <= most_slope(); }
+  /// Whether the search may end here.
+  bool is_stationary() { return stationarity() <= most_stationarity(options_); }
   /// Evaluates the objective beside a stationary best point, where its slope tells nothing: to both
   /// sides along the directions in which the residuals do not change to first order, and of
   /// parameters without influence; doc/theory.md (24i). The directions that are flat are kept for
@@ -82,7 +85,6 @@ class SearchTrials {
   double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const;
   void judge_end(const std::string& failure);
   void take_best(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
-  double most_slope() const;
   double scale();
   const Optimality& best_optimality();
   Optimality optimality_at(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);

@@ -16,6 +16,7 @@
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
 #include "sensitivity/rosenbrock_gradient.h"
+#include "sensitivity/run_steps.h"
 #include "sensitivity/signal_watch.h"
 #include "text/cancel.h"
 
@@ -24,6 +25,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
+constexpr int kMostOfReference = 2000000;
 
 /// A step that a run took.
 struct TakenStep {
@@ -237,15 +239,13 @@ Status differentiate_steps(const CompiledSystem& system, const std::vector<doubl
 }
 
 /// Reference by Ridders' extrapolated differences [9]. The error of the objective must be far below
-/// the differences, so tolerances are tightened.
+/// the differences, so tolerances are tightened, and no pulse may be passed over.
 void check_by_differences(const CompiledSystem& system, const std::vector<double>& parameters,
                           const std::atomic<bool>* cancel, GradientCheck* check) {
-  Study study = system.whole_study();
+  Study study =
+      with_steps(system.whole_study(), {RunSteps::Method::kRodas5P, false, kMostOfReference});
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
-  study.solver.integrator = IntegratorKind::kRosenbrock;
-  study.solver.method = RosenbrockMethod::kRodas5P;
-  study.solver.maximum_steps = std::max(study.solver.maximum_steps, 2000000);
   Evaluator evaluator =
       evaluator_of(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
   const Eigen::MatrixXd directions = directions_of(system, check->directions);

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/gradient_engine.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/control_clock.h"
@@ -17,6 +18,7 @@
 #include "sensitivity/rosenbrock_gradient.h"
 #include "sensitivity/signal_watch.h"
 #include "text/cancel.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -109,15 +111,29 @@ class Evaluator::Implementation {
       return;
     }
     for (Eigen::Index k = 0; k < evaluation->gradient.size(); ++k)
-      if (!std::isfinite(evaluation->gradient[k])) {
+      if (!is_possible(evaluation->gradient[k], k, *evaluation)) {
         evaluation->status = {StatusCode::kNonFiniteGradient, time,
-                              "the gradient by \"" + tuned_name(*system_, k) +
-                                  "\" is not finite, though the objective is"};
+                              "the gradient by \"" + tuned_name(*system_, k) + "\" is " +
+                                  (std::isfinite(evaluation->gradient[k])
+                                       ? readable(evaluation->gradient[k], 2) +
+                                             ", beyond any size that the objective explains"
+                                       : "not finite, though the objective is")};
         return;
       }
     if (!evaluation->jacobian_root.allFinite())
       evaluation->status = {StatusCode::kNonFiniteGradient, time,
                             "the Jacobian of the residuals is not finite, though the objective is"};
+  }
+
+  /// Whether a derivative can be one: sensitivities that grow without bound end beyond all of them
+  /// before they overflow.
+  bool is_possible(double derivative, Eigen::Index k, const Evaluation& evaluation) const {
+    constexpr double kLargest = 1e100;
+    const MotionStudy& study = system_->study();
+    const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
+    const double change = std::abs(derivative) * extent(parameter, parameter.value);
+    return std::isfinite(derivative) &&
+           !(change > kLargest * std::max(1.0, std::abs(evaluation.objective)));
   }
 
   Status run(GradientEngine* engine, const std::vector<double>& parameters, Derivatives derivatives,

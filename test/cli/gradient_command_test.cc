@@ -84,8 +84,15 @@ TEST(GradientCommand, VerifyAloneComparesAlongADirectionAndSaysSo) {
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const Json verification = json_of(outcome)["verification"];
   EXPECT_EQ(verification["directions"], 1);
+  const Json& differences = verification["differences"];
+  EXPECT_FALSE(differences["disagrees"].get<bool>());
+  EXPECT_LE(differences["evaluations"].get<int>(), 12);
+  EXPECT_NEAR(differences["derivative"].get<double>() / differences["gradient"].get<double>(), 1.0,
+              1e-3);
   EXPECT_LT(verification["largest_relative_difference"].get<double>(), 1e-8);
   const std::string out = run_words({"gradient", kModel, short_study(folder), "--verify"}).out;
+  EXPECT_NE(out.find("differences of the objective ("), std::string::npos) << out;
+  EXPECT_NE(out.find("with an error of"), std::string::npos);
   EXPECT_NE(out.find("along a direction"), std::string::npos);
   // Steps that obey solver.sensitivity_tolerance need no others.
   EXPECT_EQ(verification.contains("largest_change"),

@@ -63,6 +63,18 @@ TEST(Messages, ATaskKeepsItsBits) {
   EXPECT_EQ(task.derivatives, Derivatives::kGaussNewton);
   EXPECT_EQ(task.parameters, (std::vector<double>{0.1, -0.0, kInfinity}));
   EXPECT_EQ(write_task(7, 3, 2, Derivatives::kGaussNewton, task.parameters), message);
+  EXPECT_EQ(task.steps.method, RunSteps::Method::kOwn);
+}
+
+TEST(Messages, ATaskKeepsItsSteps) {
+  const std::string message =
+      write_task(7, 3, 2, Derivatives::kNone, {0.1}, {RunSteps::Method::kDopri5, true, 4000});
+  ByteReader reader = body_of(message, MessageKind::kTask, 7);
+  const TaskMessage task = read_task(7, &reader);
+  EXPECT_TRUE(reader.at_end());
+  EXPECT_EQ(task.steps.method, RunSteps::Method::kDopri5);
+  EXPECT_TRUE(task.steps.is_second);
+  EXPECT_EQ(task.steps.most, 4000);
 }
 
 TEST(Messages, AProblemArrivesWhole) {

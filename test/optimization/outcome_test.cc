@@ -244,6 +244,18 @@ TEST(Outcome, ABasisUsesItsCoefficientsWithoutNamingThem) {
   EXPECT_FALSE(has_warning(problem.warnings(), "unused_parameter"));
 }
 
+// Sensitivities that grow at each step end beyond any size before they overflow.
+TEST(Outcome, AGradientBeyondAnySizeIsAFailure) {
+  const auto evaluate = [](const std::string& factor) {
+    const Problem problem = problem_of("", "${1 + " + factor + "*(length - 1)}");
+    return Evaluator(problem).evaluate(problem.start(), true);
+  };
+  EXPECT_TRUE(evaluate("1e90").status.ok());
+  const Evaluation absurd = evaluate("1e120");
+  EXPECT_EQ(absurd.status.code, StatusCode::kNonFiniteGradient);
+  EXPECT_NE(absurd.status.cause.find("beyond any size"), std::string::npos) << absurd.status.cause;
+}
+
 TEST(Outcome, WarnsOfASearchThatRanOutOfEvaluations) {
   const OptimizationResult result = search(problem_of("optimizer: {max_evaluations: 1}\n"));
   EXPECT_TRUE(result.status.ok());

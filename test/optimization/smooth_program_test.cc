@@ -9,7 +9,7 @@
 namespace codesign {
 namespace {
 
-const std::string kTwoRuns = "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}}\n";
+const std::string kRunsOfBlock = "runs: {near: {}, far: {controllers: {hold: {setpoint: 0.7}}}}\n";
 const std::string kPath =
     "path: [{signal: slide/velocity, between: [-1.5, 1.5]}, {signal: hold/output, at_most: "
     "\"${Kp}\"}]\n";
@@ -46,7 +46,7 @@ void expect_derivatives(const Ensemble& ensemble, SmoothProgram* program,
 }
 
 TEST(SmoothProgram, DerivativesOfObjectiveAndRowsAreRight) {
-  const Problem problem = block(kTwoRuns + kPath +
+  const Problem problem = block(kRunsOfBlock + kPath +
                                 "robust: {measure: worst}\nsolver: {relative_tolerance: 1.0e-10, "
                                 "absolute_tolerance: 1.0e-11}\n");
   const Ensemble ensemble(problem);
@@ -62,8 +62,8 @@ TEST(SmoothProgram, DerivativesOfObjectiveAndRowsAreRight) {
 }
 
 TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
-  const OptimizationResult free = tune_with(kTwoRuns),
-                           bounded = tune_with(kTwoRuns +
+  const OptimizationResult free = tune_with(kRunsOfBlock),
+                           bounded = tune_with(kRunsOfBlock +
                                                "path: [{signal: hold/output, between: [-6, 6]}]\n");
   ASSERT_TRUE(free.status.ok()) << free.status.cause;
   ASSERT_TRUE(bounded.status.ok()) << bounded.status.cause;
@@ -83,7 +83,7 @@ TEST(SmoothProgram, BoundsAreKeptInEveryRun) {
 TEST(SmoothProgram, TellsInWhichRunASignalWasExtreme) {
   // The set-point of the second run is farther away, so the controller pushes harder there.
   const OptimizationResult result =
-      tune_with(kTwoRuns + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
+      tune_with(kRunsOfBlock + "path: [{signal: hold/output, between: [\"${-Kp}\", 600]}]\n");
   ASSERT_EQ(result.constraints.watched.size(), 1U);
   EXPECT_EQ(result.constraints.watched[0].largest_scenario, 1);
   EXPECT_DOUBLE_EQ(result.constraints.watched[0].lower, -result.best.rho[0]);
@@ -117,7 +117,7 @@ TEST(SmoothProgram, DependentConstraintsAreNoSuccess) {
 TEST(SmoothProgram, APeakInConstraintsIsABoundOnBothSides) {
   const std::string path = "path: [{signal: hold/output, reference: 1.0, between: [-6, 6]}]\n";
   const std::string peak = "constraints: [{peak: hold/output, reference: 1.0, at_most: 6}]\n";
-  const OptimizationResult a = tune_with(kTwoRuns + path), b = tune_with(kTwoRuns + peak);
+  const OptimizationResult a = tune_with(kRunsOfBlock + path), b = tune_with(kRunsOfBlock + peak);
   ASSERT_TRUE(a.status.ok() && b.status.ok()) << a.status.cause << b.status.cause;
   EXPECT_EQ(a.best.objective, b.best.objective) << "bit for bit";
   EXPECT_EQ(a.best.rho, b.best.rho);

@@ -3,6 +3,7 @@
 
 #include "description/study.h"
 #include "ensemble/ensemble.h"
+#include "ensemble/other_steps.h"
 #include "ensemble/parameter_rows.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/gradient.h"
@@ -48,6 +49,7 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   } else {
     check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
     check_steps(ensemble, rho, &cancel, &check);
+    check_other_steps(ensemble, rho, &cancel, &check);
     // A check computes many runs, so that one more run per scenario for the signals is cheap.
     if (check.status.ok() && !study_of(problem).watched.empty())
       extremes = ensemble.evaluate(rho, false, &cancel).extremes;
@@ -61,6 +63,10 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   reply->reference = to_array(check.reference);
   reply->reference_error = to_array(check.reference_error);
   reply->largest_relative_difference = check.largest_relative_difference;
+  reply->along = check.independent.along;
+  reply->derivative = check.independent.derivative;
+  reply->derivative_error = check.independent.error;
+  if (check.independent.is_known()) reply->derivative_steps = describe_steps(check.independent);
   reply->steps = static_cast<std::uint64_t>(check.evaluation.statistics.steps);
   reply->rejected_steps = static_cast<std::uint64_t>(check.evaluation.statistics.rejected_steps);
   reply->cpu_seconds = check.evaluation.statistics.cpu_seconds;
