@@ -108,16 +108,10 @@ void LineDifferences::add(double h, double forward, double backward) {
   }
   // A level whose error is larger is rounding, unless it refutes those before: two of them may
   // agree by accident, as beside a singular design.
-  if (error < error_ || std::abs(value - value_) > error + error_) {
-    value_ = value;
-    error_ = error;
-    used_ = i;
-    return;
-  }
-  // Quotients of a smooth function approach each other, and those of rounding go to and fro.
-  const double change = last - before, change_before = i > 1 ? before - table_[i - 2][0] : 0.0;
-  if (change * change_before > 0.0 && std::abs(change) >= std::abs(change_before))
-    error_ = std::max(error_, std::abs(value - value_));
+  if (!(error < error_) && !(std::abs(value - value_) > error + error_)) return;
+  value_ = value;
+  error_ = error;
+  used_ = i;
 }
 
 double allowed_difference(const IndependentCheck& check, const CheckedLine& line, double objective,
