@@ -246,6 +246,9 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
       with_steps(system.whole_study(), {RunSteps::Method::kRodas5P, false, kMostOfReference});
   study.solver.relative_tolerance = std::min(study.solver.relative_tolerance, 1e-10);
   study.solver.absolute_tolerance = std::min(study.solver.absolute_tolerance, 1e-11);
+  // Of postures, too, whose equations are then those of the implicit methods.
+  study.solver.integrator = IntegratorKind::kRosenbrock;
+  study.solver.method = RosenbrockMethod::kRodas5P;
   Evaluator evaluator =
       evaluator_of(std::make_shared<const CompiledSystem>(system.robot(), study, system.sharing()));
   const Eigen::MatrixXd directions = directions_of(system, check->directions);
