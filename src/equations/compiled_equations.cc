@@ -103,22 +103,6 @@ void CompiledEquations<T>::release() {
 }
 
 template <class T>
-const std::vector<bool>& CompiledEquations<T>::mode_of(const State<T>& state) {
-  const bool held = std::exchange(held_, false);
-  T g(0.0);
-  residual(state, &residual_, &g);
-  held_ = held;
-  return variants_[current_].code().mode();
-}
-
-template <class T>
-void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differences,
-                                    VectorX<T>* right) {
-  for (VectorX<T>* results : {differences, right}) results->resize(to_signed(mode_.size()));
-  run(EquationFunction::kSwitches, state, {*differences, *right, {}, {}});
-}
-
-template <class T>
 void CompiledEquations<T>::expressions(const State<T>& state, VectorX<T>* values) {
   if constexpr (std::is_same_v<T, double>) {
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
@@ -393,20 +377,6 @@ const MassFactor* CompiledEquations<T>::mass_factor() {
   if (at.variants_.empty()) at.adopt();
   const EquationCode& code = at.variants_[at.current_].code();
   return code.has_accelerations() ? &code.mass_factor() : nullptr;
-}
-
-template <class T>
-void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi,
-                                             VectorX<T>* Phi_rate) {
-  Phi->resize(system_.layout().m);
-  Phi_rate->resize(system_.layout().m);
-  run(EquationFunction::kConstraintErrors, state.t, state.turns, {state.q, state.v, {}, {}},
-      {*Phi, *Phi_rate, {}, {}});
-}
-
-template <class T>
-void CompiledEquations<T>::energies(const State<T>& state, VectorX<T>* sums, VectorX<T>* bodies) {
-  run(EquationFunction::kEnergies, state, {*sums, *bodies, {}, {}});
 }
 
 template class CompiledEquations<double>;

@@ -1,7 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// What CompiledEquations evaluates beside the motion: signals, residuals of the objective, starts
-// and controllers.
+// What CompiledEquations evaluates beside the motion: signals, residuals of the objective, starts,
+// controllers, modes, errors of constraints and energies.
 #include <complex>
+#include <utility>
 
 #include "codegen/number_types.h"
 #include "equations/code_inputs.h"
@@ -9,6 +10,36 @@
 #include "math/arrays.h"
 
 namespace codesign {
+
+template <class T>
+const std::vector<bool>& CompiledEquations<T>::mode_of(const State<T>& state) {
+  const bool held = std::exchange(held_, false);
+  T g(0.0);
+  residual(state, &residual_, &g);
+  held_ = held;
+  return variants_[current_].code().mode();
+}
+
+template <class T>
+void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differences,
+                                    VectorX<T>* right) {
+  for (VectorX<T>* results : {differences, right}) results->resize(to_signed(mode_.size()));
+  run(EquationFunction::kSwitches, state, {*differences, *right, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi,
+                                             VectorX<T>* Phi_rate) {
+  Phi->resize(system_.layout().m);
+  Phi_rate->resize(system_.layout().m);
+  run(EquationFunction::kConstraintErrors, state.t, state.turns, {state.q, state.v, {}, {}},
+      {*Phi, *Phi_rate, {}, {}});
+}
+
+template <class T>
+void CompiledEquations<T>::energies(const State<T>& state, VectorX<T>* sums, VectorX<T>* bodies) {
+  run(EquationFunction::kEnergies, state, {*sums, *bodies, {}, {}});
+}
 
 template <class T>
 T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state) {
@@ -87,6 +118,11 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
 }
 
 #define CODESIGN_INSTANTIATE(T)                                                                   \
+  template const std::vector<bool>& CompiledEquations<T>::mode_of(const State<T>&);               \
+  template void CompiledEquations<T>::switches(const State<T>&, VectorX<T>*, VectorX<T>*);        \
+  template void CompiledEquations<T>::constraint_errors(const State<T>&, VectorX<T>*,             \
+                                                        VectorX<T>*);                             \
+  template void CompiledEquations<T>::energies(const State<T>&, VectorX<T>*, VectorX<T>*);        \
   template T CompiledEquations<T>::signal(EquationFunction, const State<T>&);                     \
   template T CompiledEquations<T>::signal(EquationFunction, const State<T>&, SparseGradient<T>*); \
   template void CompiledEquations<T>::residuals(EquationFunction, const State<T>&, std::size_t,   \

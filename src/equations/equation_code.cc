@@ -41,12 +41,6 @@ std::size_t count_functions(const System& system, EquationPart part) {
                                       ControllerFunction::kError));
 }
 
-/// Whether a node is an entry of kNumbers: it depends on design, time or a turn reference, not on
-/// the state.
-bool is_number(const Recording::Node& node) {
-  return !node.varies || (node.operation == Operation::kLeaf && node.a >= Recording::kSupplied);
-}
-
 /// Whether the derivative of a node is an input of the tangent code. Entries of the state and
 /// functions of time are, and so are nodes that depend on the design alone: their derivatives are
 /// computed with the design. Turn references and literals have no derivative.
@@ -56,14 +50,6 @@ bool is_tangent_leaf(const Recording::Node& node) {
 }
 
 }  // namespace
-
-std::vector<Recording::Guard> checked(std::vector<Recording::Guard> guards, bool held) {
-  if (held)
-    guards.erase(std::remove_if(guards.begin(), guards.end(),
-                                [](const Recording::Guard& guard) { return guard.is_switch; }),
-                 guards.end());
-  return guards;
-}
 
 EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
                            std::vector<bool> outcomes, std::vector<bool> mode,
@@ -293,34 +279,6 @@ const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
   return derivatives_;
 }
 
-void NumberedRecording::number_nodes() {
-  functions.resize(recording.timed_sources().size());
-  for (auto& orders : functions) orders.fill(-1);
-  homes.resize(to_index(recording.size()));
-  std::vector<bool> used(homes.size());
-  for (int n = 0; n < recording.size(); ++n) {
-    const Recording::Node& node = recording.node(n);
-    if (node.operation == Operation::kLeaf) continue;
-    for (int operand : {node.a, node.b})
-      if (operand >= 0) used[to_index(operand)] = true;
-  }
-  for (int n = 0; n < recording.size(); ++n) {
-    const Recording::Node& node = recording.node(n);
-    if (!is_number(node)) {
-      if (node.operation == Operation::kLeaf) homes[to_index(n)] = {node.a, node.b};
-      continue;
-    }
-    const auto entry = static_cast<int>(numbers.size());
-    homes[to_index(n)] = {Arrays::kNumbers, entry};
-    numbers.push_back(n);
-    if (node.operation != Operation::kLeaf) continue;
-    if (node.a == Recording::kTimed)
-      functions[to_index(node.b / Recording::kFunctionOrders)]
-               [to_index(node.b % Recording::kFunctionOrders)] = entry;
-    if (node.a == kTurns && used[to_index(n)]) turns.push_back({node.b, entry});
-  }
-}
-
 EquationCode::~EquationCode() = default;
 
 const TransposedCode& EquationCode::transposed() const {
@@ -328,18 +286,6 @@ const TransposedCode& EquationCode::transposed() const {
     transposed_ = std::make_unique<TransposedCode>(system_, values_.recording, functions_, long_);
   });
   return *transposed_;
-}
-
-std::unique_ptr<CompiledFunction> compile_values(const Recording& recording, const ValueTask& task,
-                                                 const ValueProgram& program, bool interpreted) {
-  auto compiled = std::make_unique<CompiledFunction>();
-  compiled->slots = to_index(program.slots);
-  if (!interpreted) compiled->values = ValueCode::compile(recording, task, program, Arrays::kSlots);
-  if (compiled->values) return compiled;
-  auto interpreter = std::make_unique<Interpreter>(recording, task, program, Arrays::kSlots);
-  compiled->interpreter = interpreter.get();
-  compiled->values = std::move(interpreter);
-  return compiled;
 }
 
 const CompiledFunction& EquationCode::function(EquationFunction function,

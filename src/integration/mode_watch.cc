@@ -161,6 +161,7 @@ bool ModeWatch::repeat(int guard, double h, RosenbrockStep<double>* step) {
 bool ModeWatch::cut(RosenbrockStep<double>* step) {
   guard_ = -1;
   if (!is_active()) return true;
+  is_due_ = false;
   step_size_ = step->step_size();
   const Crossing crossing = first_crossing(step);
   if (crossing.guard < 0) return true;

@@ -189,6 +189,13 @@ bool RosenbrockIntegrator::is_stable(double h) {
   return false;
 }
 
+// Infinite where a step that was cut at a guard cannot be computed.
+double RosenbrockIntegrator::further_error(const BeforeAccept& before_accept) {
+  if (!mode_watch_.cut(&step_)) return std::numeric_limits<double>::infinity();
+  const double error = expression_watch_.error(options_, &step_, &assembly_);
+  return error <= 1.0 && before_accept ? std::max(error, before_accept(&step_)) : error;
+}
+
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
   if (Status status = jump(); !status.ok()) return status;
   choose_method();
@@ -232,14 +239,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
     error = std::max(error, psi_error(step_, options_));
     if (error <= 1.0 && !is_stable(h)) continue;
-    if (error <= 1.0 && !mode_watch_.cut(&step_)) {
-      ++statistics_.rejected_steps;
-      proposal_ = controller_.back_off(h);
-      continue;
-    }
-    if (error <= 1.0)
-      error = std::max(error, expression_watch_.error(options_, &step_, &assembly_));
-    if (error <= 1.0 && before_accept) error = std::max(error, before_accept(&step_));
+    if (error <= 1.0) error = std::max(error, further_error(before_accept));
     if (!controller_.accept(h, error, &proposal_)) {
       ++statistics_.rejected_steps;
       continue;

@@ -71,6 +71,9 @@ class RosenbrockIntegrator final : public Integrator {
   Status change_mode(ModeChange* change);
   /// The events of sampled controllers.
   Status sample();
+  /// Of an attempt that passes the error test of the motion: cuts it where the mode changes, and
+  /// returns the scaled error of what else takes part.
+  double further_error(const BeforeAccept& before_accept);
   double first_step() const;
   /// Takes another method for the next step if the last one suggests that.
   void choose_method();

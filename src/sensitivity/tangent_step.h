@@ -8,8 +8,6 @@
 #include "assembly/loop_jacobian.h"
 #include "equations/equations.h"
 #include "integration/increment.h"
-#include "integration/mode_watch.h"
-#include "integration/rosenbrock_integrator.h"
 #include "integration/rosenbrock_step.h"
 #include "math/arrays.h"
 #include "sensitivity/lane_directions.h"
@@ -18,6 +16,8 @@
 namespace codesign {
 
 class Assembly;
+class RosenbrockIntegrator;
+struct ModeChange;
 
 /// Directional derivatives of the equations along (y', e_k) for N parameters at once, (18), by the
 /// recorded equations. A prime denotes a directional derivative; only derivatives are returned, not
