@@ -12,8 +12,8 @@ enum class ObjectivePart { kIntegral, kTerminal };
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,  ///< kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates,
-            ///< kAccelerations and kLinearization
+  kMotion,      ///< kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates,
+                ///< kAccelerations and kLinearization
   kSignals,     ///< kTerminal, the residuals of the objective and the watched signals
   kStart,       ///< kPlacement, kTurns and the controllers' functions
   kLinearized,  ///< kLinearization, where kRates are recorded without it,

@@ -19,7 +19,8 @@ std::string study(const std::string& load, const std::string& more = "") {
 
 std::string slide() { return robot(mass("piston", 2.0) + lift("slide", "piston", 0.0)); }
 
-const char* const kTightTolerances = "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-12}\n";
+const char* const kTightTolerances =
+    "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-12}\n";
 
 // 6 N on 2 kg from an instant on: the speed is exact, since no step crosses it.
 TEST(ModeWatch, AStepOfTimeIsMetToRounding) {
