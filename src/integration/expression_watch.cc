@@ -27,7 +27,8 @@ Eigen::VectorXd quadrature(const std::vector<double>& nodes) {
 
 void ExpressionWatch::start(const State<double>& initial, Equations<double>* equations) {
   equations->compiled().expressions(initial, &values_);
-  count_ = values_.size();
+  // Expressions that are constant in this mode may vary in another one.
+  is_active_ = values_.size() > 1 || system_.has_switches();
 }
 
 void ExpressionWatch::use(const RosenbrockTableau& tableau) {
@@ -40,16 +41,35 @@ void ExpressionWatch::use(const RosenbrockTableau& tableau) {
   weights_ = quadrature(nodes_);
 }
 
-void ExpressionWatch::evaluate(RosenbrockStep<double>* step) {
+bool ExpressionWatch::evaluate(RosenbrockStep<double>* step) {
   const auto at = [&](double theta) {
     step->interpolate_attempt(theta, &point_);
     step->equations().compiled().expressions(point_, &values_);
-    return values_.head(count_);
+    return values_.size() == count_;
   };
-  samples_.resize(count_, kIntervals + 1);
-  for (int k = 0; k <= kIntervals; ++k) samples_.col(k) = at(static_cast<double>(k) / kIntervals);
+  at(0.0);
+  count_ = values_.size();
+  if (count_ <= 1) return false;
+  const double share = step->step_size() / system_.study().duration;
+  intervals_ = 2 * std::clamp(static_cast<int>(0.5 * kPerStudy * share) + 1, kLeast / 2, kPerStudy);
+  if (samples_.rows() != count_ || samples_.cols() <= intervals_)
+    samples_.resize(count_, std::max<Eigen::Index>(samples_.cols(), intervals_ + 1));
   at_nodes_.resize(count_, to_signed(nodes_.size()));
-  for (std::size_t k = 0; k < nodes_.size(); ++k) at_nodes_.col(to_signed(k)) = at(nodes_[k]);
+  for (int k = 0; k <= intervals_; ++k) {
+    if (!at(static_cast<double>(k) / intervals_)) return false;
+    samples_.col(k) = values_;
+  }
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    if (!at(nodes_[k])) return false;
+    at_nodes_.col(to_signed(k)) = values_;
+  }
+  return true;
+}
+
+double ExpressionWatch::simpson(Eigen::Index expression) const {
+  double sum = samples_(expression, 0) + samples_(expression, intervals_);
+  for (int k = 1; k < intervals_; ++k) sum += (k % 2 == 1 ? 4.0 : 2.0) * samples_(expression, k);
+  return sum / (3.0 * intervals_);
 }
 
 // How much a unit of the expression changes the rates follows from the point at which it is
@@ -60,8 +80,8 @@ double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
                                        Assembly* assembly) {
   int farthest = 0;
   double deviation = 0.0;
-  for (int k = 1; k < kIntervals; ++k) {
-    const double place = static_cast<double>(k) / kIntervals;
+  for (int k = 1; k < intervals_; ++k) {
+    const double place = static_cast<double>(k) / intervals_;
     const auto next = std::upper_bound(nodes_.begin(), nodes_.end() - 1, place);
     const auto right = next - nodes_.begin();
     const double a = nodes_[to_index(right - 1)], b = nodes_[to_index(right)],
@@ -72,7 +92,7 @@ double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
     if (here > deviation) farthest = k, deviation = here;
   }
   if (!(deviation > 0.0)) return 0.0;
-  step->interpolate_attempt(static_cast<double>(farthest) / kIntervals, &point_);
+  step->interpolate_attempt(static_cast<double>(farthest) / intervals_, &point_);
   solved_ = point_;
   if (!assembly->solve_rates(&step->equations(), &solved_).ok()) return 0.0;
   const Layout& layout = system_.layout();
@@ -95,17 +115,15 @@ double ExpressionWatch::error(const SolverOptions& options, RosenbrockStep<doubl
                               Assembly* assembly) {
   // Differences that the error of the step itself can have are not what was passed over.
   constexpr double kOwnError = 10.0, kRounding = 1e-12;
-  if (count_ <= 1) return 0.0;
+  if (!is_active_) return 0.0;
   use(step->tableau());
-  evaluate(step);
+  if (!evaluate(step)) return 0.0;
   const double h = step->step_size();
   double largest = 0.0;
   for (Eigen::Index e = 0; e < count_; ++e) {
-    double simpson = samples_(e, 0) + samples_(e, kIntervals);
-    for (int k = 1; k < kIntervals; ++k) simpson += (k % 2 == 1 ? 4.0 : 2.0) * samples_(e, k);
-    simpson /= 3.0 * kIntervals;
-    const double missed = h * std::abs(simpson - at_nodes_.row(e).dot(weights_));
-    if (!std::isfinite(missed) || missed <= kRounding * h * samples_.row(e).cwiseAbs().maxCoeff())
+    const double missed = h * std::abs(simpson(e) - at_nodes_.row(e).dot(weights_));
+    if (!std::isfinite(missed) ||
+        missed <= kRounding * h * samples_.row(e).head(intervals_ + 1).cwiseAbs().maxCoeff())
       continue;
     const bool is_integrand = e + 1 == count_;
     largest = std::max(largest, is_integrand

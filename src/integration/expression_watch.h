@@ -13,10 +13,11 @@ namespace codesign {
 /// between the points at which the step has evaluated it, such as a pulse by the angle of a crank;
 /// doc/theory.md (17e).
 ///
-/// Each expression e is evaluated along the dense output. Its integral over the step by Simpson's
-/// rule on kIntervals intervals is compared with that of the polynomial through its values at the
-/// stages' instants, of which the step can know. The difference is an impulse that the step has
-/// missed; its effect on the rates is judged by the error test.
+/// Each expression e is evaluated along the dense output, at kPerStudy instants per duration of the
+/// study and at least kLeast per step. Its integral over the step by Simpson's rule is compared
+/// with that of the polynomial through its values at the stages' instants, of which the step can
+/// know. The difference is an impulse that the step has missed; its effect on the rates is judged
+/// by the error test. So what lasts a thousandth of the study is seen.
 class ExpressionWatch {
  public:
   explicit ExpressionWatch(const CompiledSystem& system) : system_(system) {}
@@ -29,19 +30,23 @@ class ExpressionWatch {
   double error(const SolverOptions& options, RosenbrockStep<double>* step, Assembly* assembly);
 
  private:
-  static constexpr int kIntervals = 32;
+  static constexpr int kPerStudy = 4096, kLeast = 8;
 
   void use(const RosenbrockTableau& tableau);
-  void evaluate(RosenbrockStep<double>* step);
+  /// False if the number of expressions changes on the way.
+  bool evaluate(RosenbrockStep<double>* step);
+  double simpson(Eigen::Index expression) const;
   double largest_effect(Eigen::Index expression, double missed, const SolverOptions& options,
                         RosenbrockStep<double>* step, Assembly* assembly);
 
   const CompiledSystem& system_;
-  Eigen::Index count_ = 0;  ///< expressions and g; 1: nothing to do
+  bool is_active_ = false;  ///< whether there can be expressions of signals
+  Eigen::Index count_ = 0;  ///< expressions of the present mode, and g
+  int intervals_ = kLeast;  ///< of the last attempt; even
   const RosenbrockTableau* tableau_ = nullptr;
   std::vector<double> nodes_;  ///< different instants of the stages, in parts of the step
   Eigen::VectorXd weights_;    ///< of the quadrature at the nodes
-  Eigen::MatrixXd samples_;    ///< a column per point of Simpson's rule
+  Eigen::MatrixXd samples_;    ///< a column per point of Simpson's rule, and room for more
   Eigen::MatrixXd at_nodes_;   ///< a column per node
   VectorX<double> values_;
   State<double> point_, solved_;

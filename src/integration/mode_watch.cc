@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "equations/equation_code.h"
 #include "integration/step_control.h"
 #include "math/arrays.h"
 
@@ -169,21 +170,25 @@ bool ModeWatch::cut(RosenbrockStep<double>* step) {
   guard_ = crossing.guard;
   is_due_ = true;
   next_mode_ = mode_beyond(crossing, step);
+  const auto row = samples_.row(crossing.guard);
+  guard_pace_ = (row.maxCoeff() - row.minCoeff()) / step_size_;
   return repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
 }
 
-// As near behind the crossing as its guard has another sign: the mode that the motion enters.
+// As near behind the crossing as its guard has another sign: the mode that the motion enters. The
+// dense output goes on a little beyond the end of the step.
 std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
-  constexpr double kNearest = 1e-9, kFarther = 10.0;
+  constexpr double kNearest = 1e-9, kBeyond = 1e-3, kFarther = 10.0;
   for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
-    const double place = std::min(1.0, crossing.to + distance);
+    const double place = std::min(1.0 + kBeyond, crossing.to + distance);
     if (side_at(crossing.guard, place, step) >= 0.0) continue;
     std::vector<bool> mode = step->equations().compiled().mode_of(point_);
     if (mode != mode_) return mode;
   }
-  std::vector<bool> mode = mode_;
-  mode[to_index(crossing.guard)] = !mode[to_index(crossing.guard)];
-  return mode;
+  // It leaves its side more slowly than that. What decides later switches is expected.
+  std::vector<bool> begun(mode_.begin(), mode_.begin() + crossing.guard);
+  begun.push_back(!mode_[to_index(crossing.guard)]);
+  return system_.record_variant({}, EquationPart::kMotion, begun)->mode();
 }
 
 double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {
@@ -226,6 +231,20 @@ Status ModeWatch::count_return(double t) {
           "the expression continuous"};
 }
 
+// At a kink the rates are continuous, and no sensitivity jumps. Where a guard is only touched, its
+// instant has no derivative.
+bool ModeWatch::has_jump(const ModeChange& change) const {
+  constexpr double kSame = 1e-10, kTouched = 1e-6;
+  const double size = std::max(change.before.z.lpNorm<Eigen::Infinity>(),
+                               change.behind.z.lpNorm<Eigen::Infinity>()),
+               jump = (change.before.z - change.behind.z).lpNorm<Eigen::Infinity>(),
+               of_g = std::abs(change.g_before - change.g);
+  if (jump <= kSame * size &&
+      of_g <= kSame * std::max(std::abs(change.g_before), std::abs(change.g)))
+    return false;
+  return std::abs(change.guard_rate) > kTouched * guard_pace_;
+}
+
 Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
                         Equations<double>* equations, ModeChange* change) {
   is_due_ = false;
@@ -253,6 +272,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
     return status;
   equations->residual(change->behind, &residual_, &change->g);
+  if (!has_jump(*change)) change->guard = -1;
   return {};
 }
 

@@ -14,8 +14,8 @@ namespace codesign {
 
 /// A change of the mode, theory (17d), between the end of a step and the beginning of the next one.
 struct ModeChange {
-  /// The switch whose guard became zero at the end of the step; -1 where the instant does not
-  /// depend on the motion: at the start, and where inputs jump.
+  /// The switch whose guard became zero at the end of the step; -1 where no sensitivity jumps: at
+  /// the start, where inputs jump, at a kink, and where a guard is only touched.
   int guard = -1;
   /// The time derivative of that guard along the motion before the change, s_t + s_x f- [per s].
   double guard_rate = 0.0;
@@ -85,6 +85,7 @@ class ModeWatch {
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   Status count_return(double t);
+  bool has_jump(const ModeChange& change) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
   std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,
                                 Equations<double>* equations) const;
@@ -95,6 +96,7 @@ class ModeWatch {
   int guard_ = -1;             ///< that cut the last step
   int returns_ = 0;            ///< changes in turn without a step between them
   double last_change_ = -1.0;  ///< [s]
+  double guard_pace_ = 0.0;    ///< range of the guard over the attempt that it cut, per second
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
   VectorX<double> sizes_;      ///< of what counts as zero of each guard
   State<double> point_;

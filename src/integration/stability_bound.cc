@@ -62,6 +62,10 @@ bool StabilityBound::rests(const RosenbrockStep<double>& step) const {
     }
     return true;
   };
+  // A loop that moves changes its equations with its posture, also where it turns evenly.
+  if (at_.z_size - at_.n - at_.states > 0 &&
+      at.v.lpNorm<Eigen::Infinity>() > options_.absolute_tolerance)
+    return false;
   return small(at.v, from.v, at_.v()) && small(at.q, from.q, at_.x()) &&
          small(at.s, from.s, at_.s());
 }

@@ -24,7 +24,8 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
       integrator_(system),
       most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)),
       watch_(system),
-      residuals_(system) {
+      residuals_(system),
+      is_identity_(control_directions(system).isIdentity()) {
   const double tolerance = sensitivity_tolerance(system.study().solver);
   stages_ = [this, tolerance](RosenbrockStep<double>* step) {
     double error = control_ ? control_->attempt(step) : 0.0;
@@ -38,7 +39,7 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
 }
 
 bool RosenbrockGradient::judges_parameters() const {
-  return most_lanes() >= count() && control_directions(system_).isIdentity();
+  return most_lanes() >= count() && is_identity_;
 }
 
 // The workspace of the tangents is allocated only when derivatives are requested.

@@ -86,6 +86,7 @@ class RosenbrockGradient final : public GradientEngine {
   RosenbrockIntegrator::BeforeAccept stages_;
   SignalWatch watch_;
   ResidualRows residuals_;
+  const bool is_identity_;  ///< whether control_directions() are the parameters
   bool with_gradient_ = false, with_root_ = false;
 };
 

@@ -16,7 +16,7 @@ Problem continuous_axis() {
 /// The objective of the sampled axis at the gains of a result.
 double sampled_objective(const OptimizationResult& result) {
   const Problem problem = shipped_problem("feed_axis", {});
-  const Evaluation evaluation = Evaluator(problem).evaluate(result.best.rho, false);
+  const Evaluation evaluation = Evaluator(problem).evaluate(result.best.rho, true);
   EXPECT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
   return evaluation.objective;
 }

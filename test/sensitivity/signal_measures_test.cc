@@ -121,7 +121,7 @@ TEST(SignalMeasures, RangesMeetTheComplexStep) {
   for (const char* lines :
        {"objective: {stroke: [{signal: slide/velocity}], minimum: [{signal: slide/acceleration, "
         "weight: -1}]}\nconstraints: [{maximum: slide/position, at_least: 1}]\n",
-        "objective: {stroke: [{signal: \"${slide/velocity*abs(slide/position)}\"}], peak: "
+        "objective: {stroke: [{signal: \"${slide/velocity*abs(slide/position - 2)}\"}], peak: "
         "[{signal: "
         "\"${slide/acceleration*slide/position + t}\"}]}\nconstraints: [{maximum: "
         "\"${exp(slide/position)}\", at_least: 1}]\npath: [{signal: "
