@@ -285,7 +285,7 @@ Status differentiate_finer_steps(const CompiledSystem& system,
   study.solver.maximum_steps *= 10;
   const CompiledSystem finer(system.robot(), study, system.sharing());
   Eigen::MatrixXd watched;
-  return differentiate_steps(finer, parameters, Derivatives::kNone,
+  return differentiate_steps(finer, parameters, Derivatives::kGradient,
                              directions_of(finer, directions), extremes, cancel, derivatives,
                              &watched);
 }
