@@ -136,7 +136,7 @@ TEST(Ensemble, StepsThatAreTooLongForAGradientShow) {
     return check.evaluation.warnings.size() == 1 &&
            check.evaluation.warnings[0].code == "coarse_gradient";
   };
-  const std::string loose = "relative_tolerance: 1.0e-2, absolute_tolerance: 1.0e-3",
+  const std::string loose = "relative_tolerance: 1.0e-4, absolute_tolerance: 1.0e-3",
                     tight = "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10";
   for (const int directions : {0, 1}) {
     const GradientCheck coarse = check_at(loose, CheckMethod::kComplexStep, directions),
