@@ -105,9 +105,9 @@ foreach(folder IN LISTS codesign_rooms ITEMS mpi cli ros benchmark cases allocat
   endif()
   add_dependencies(tests ${target})
   if(folder IN_LIST many_cases)
-    codesign_add_test(${folder} ${target} 6 600)
+    codesign_add_test(${folder} ${target} 6 1500)
   else()
-    codesign_add_test(${folder} ${target} 1 600)
+    codesign_add_test(${folder} ${target} 1 1500)
   endif()
 endforeach()
 
@@ -122,7 +122,7 @@ if(CODESIGN_SANITIZE MATCHES thread)
   codesign_warnings(test_threads)
   codesign_sanitize(test_threads)
   set_target_properties(test_threads PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test)
-  codesign_add_test(threads test_threads 4 1200)
+  codesign_add_test(threads test_threads 4 1500)
 endif()
 
 include(${PROJECT_SOURCE_DIR}/cmake/Fuzz.cmake)
@@ -168,7 +168,7 @@ add_test(NAME identify_then_tune COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 if(MPI_C_FOUND)
   add_test(NAME two_hosts COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/mpi/two_hosts_test.py $<TARGET_FILE:codesign> ${MPIEXEC_EXECUTABLE})
   # The network of the hosts is theirs, the processors are not.
-  set_tests_properties(two_hosts PROPERTIES TIMEOUT 600)
+  set_tests_properties(two_hosts PROPERTIES TIMEOUT 1200)
 endif()
 
 # What doc/api.md prints builds outside the project. The configuration is where catkin, or WithoutRos.cmake, writes it.
