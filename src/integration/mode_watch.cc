@@ -251,7 +251,6 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   if (Status status = count_return(state.t); !status.ok()) return status;
   *change = {};
   change->guard = std::exchange(guard_, -1);
-  change->mode_before = mode_;
   change->end = change->before = state;
   if (Status status = assembly->solve_rates(equations, &change->before); !status.ok())
     return status;

@@ -19,10 +19,10 @@ struct ModeChange {
   int guard = -1;
   /// The time derivative of that guard along the motion before the change, s_t + s_x f- [per s].
   double guard_rate = 0.0;
-  std::vector<bool> mode_before, mode;  ///< before and after it
-  State<double> end;                    ///< of the step, with its own z
-  State<double> before, behind;         ///< the same q, v and s with the rates z of both modes
-  double g_before = 0.0, g = 0.0;       ///< integrands of the objective
+  std::vector<bool> mode;          ///< after it
+  State<double> end;               ///< of the step, with its own z
+  State<double> before, behind;    ///< the same q, v and s with the rates z of both modes
+  double g_before = 0.0, g = 0.0;  ///< integrands of the objective
 };
 
 /// Keeps each step within one mode of the equations: the set of outcomes of their switches, which
