@@ -27,6 +27,13 @@ Eigen::VectorXd effects_of_values(const Eigen::VectorXd& lengths, const Eigen::V
       x.unaryExpr([](double value) { return value == 0.0 ? 1.0 : std::abs(value); }));
 }
 
+/// Factors that make each of `p` equally long columns shorter than the one before it, by more than
+/// rounding and by less than anything that matters.
+Eigen::VectorXd in_order(Eigen::Index p) {
+  constexpr double kLess = 1e-9;
+  return Eigen::VectorXd::LinSpaced(p, 1.0, 1.0 - kLess * static_cast<double>(p - 1));
+}
+
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& A, const std::vector<int>& indices) {
   Eigen::MatrixXd result(A.rows(), to_signed(indices.size()));
   for (std::size_t k = 0; k < indices.size(); ++k) result.col(to_signed(k)) = A.col(indices[k]);
@@ -72,7 +79,8 @@ Identifiability find_identifiable(const Eigen::MatrixXd& R, double threshold) {
   const Eigen::VectorXd lengths = column_lengths(R);
   const Eigen::MatrixXd scaled = R * lengths.cwiseInverse().asDiagonal();
   found.singular_values = singular_values(scaled).values;
-  const PivotedColumns pivots = pivot_columns(scaled, threshold);
+  // Of columns that differ by rounding alone the first one is taken, on every machine.
+  const PivotedColumns pivots = pivot_columns(scaled * in_order(p).asDiagonal(), threshold);
   found.rank = scaled.isZero(0.0) ? 0 : static_cast<int>(pivots.rank);
   const std::vector<int> independent(pivots.order.begin(), pivots.order.begin() + found.rank);
   found.dependent.assign(pivots.order.begin() + found.rank, pivots.order.end());

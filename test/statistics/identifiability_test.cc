@@ -39,9 +39,18 @@ TEST(Identifiability, TwoProportionalColumnsAppearAsTheirSum) {
   EXPECT_LT(found.singular_values[2], 1e-12);
   const Sentences sentences = describe_undetermined(found, {"friction", "mass_2", "mass_3"});
   ASSERT_EQ(sentences.size(), 1U);
-  EXPECT_TRUE(sentences[0] == "mass_2 and mass_3 appear only as mass_2 + 0.98 mass_3" ||
-              sentences[0] == "mass_3 and mass_2 appear only as mass_3 + 1.02 mass_2")
-      << sentences[0];
+  EXPECT_EQ(sentences[0], "mass_2 and mass_3 appear only as mass_2 + 0.98 mass_3");
+}
+
+// Which of the columns is called dependent must not be up to the rounding of a machine.
+TEST(Identifiability, OfColumnsEqualButForRoundingTheFirstOneIsTaken) {
+  for (const double rounding : {-1e-13, 0.0, 1e-13}) {
+    Eigen::MatrixXd J = waves(4);
+    J.col(3) = 9.0 * J.col(1);
+    J.col(3).array() += rounding * J.col(0).array();
+    J.col(1) *= 1.0 + rounding;
+    EXPECT_EQ(find_identifiable(upper_factor(J)).dependent, std::vector<int>{3}) << rounding;
+  }
 }
 
 TEST(Identifiability, UnitsDoNotMatter) {
@@ -84,9 +93,7 @@ TEST(Identifiability, ThePendulumTrap) {
   EXPECT_EQ(found.rank, 1);
   const Sentences sentences = describe_undetermined(found, {"mass", "inertia"});
   ASSERT_EQ(sentences.size(), 1U);
-  EXPECT_TRUE(sentences[0] == "mass and inertia appear only as mass + 4 inertia" ||
-              sentences[0] == "inertia and mass appear only as inertia + 0.25 mass")
-      << sentences[0];
+  EXPECT_EQ(sentences[0], "mass and inertia appear only as mass + 4 inertia");
 }
 
 TEST(Identifiability, DirectionsOfSeveralDependenciesStayApart) {
