@@ -73,14 +73,18 @@ class Launch:
         self.process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})}, stdout=self.log, stderr=subprocess.STDOUT)
 
     def end(self, kind=signal.SIGINT):
-        """Repeats the signal, since roslaunch may miss one while it starts."""
+        """Repeats the signal, since roslaunch may miss one while it starts. In a test that fails, what was printed tells why."""
+        fails = sys.exc_info()[0] is not None
         for _ in range(6):
             if self.process.poll() is None:
                 self.process.send_signal(kind)
             try:
-                return self.process.wait(PATIENCE / 6)
+                status = self.process.wait(PATIENCE / 6)
             except subprocess.TimeoutExpired:
                 continue
+            if fails:
+                print(self.output(), file=sys.stderr)
+            return status
         raise AssertionError("roslaunch does not end")
 
     def output(self):
