@@ -83,6 +83,10 @@ TEST_P(ShippedStudies, BothIntegratorsAgree) {
   const Evaluation rosenbrock =
       evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   solver.integrator = IntegratorKind::kIdas;
+  // Its errors of steps add up to more, by the release of SUNDIALS up to five hundred times the
+  // tolerance.
+  solver.relative_tolerance *= 0.01;
+  solver.absolute_tolerance *= 0.01;
   const Evaluation idas =
       evaluator_of(make_system(shipped.robot, shipped.study)).evaluate(shipped.start(), false);
   ASSERT_TRUE(rosenbrock.status.ok() && idas.status.ok())
