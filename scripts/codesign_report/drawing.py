@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The mechanism as a picture: solids as outlines, links as sticks, at the start and faintly later."""
+"""The mechanism as a picture: solids as outlines, at the start and faintly later. Report, gallery and notebooks draw with it."""
 import math
 
 from . import geometry
@@ -51,8 +51,9 @@ class Scene:
     def __init__(self, sides):
         """@param sides [(Robot, poses)], poses as in details.json."""
         self.sides = sides
-        moving = [p for robot, poses in sides for p in self.points_of(robot, poses)]
-        self.right, self.up, self.towards = view_of(moving or [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0)])
+        nowhere = [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0)]
+        moving, cores = ([p for robot, poses in sides for p in self.points_of(robot, poses, part)] for part in ("points", "core"))
+        self.right, self.up, self.towards = view_of(cores or nowhere)
         self.height = HEIGHT
         flat = [self.project(p) for p in moving] or [(0.0, 0.0), (1.0, 1.0)]
         self.scale, self.centre = self.fitted(flat)
@@ -69,16 +70,18 @@ class Scene:
     def fitted(self, flat):
         """Scale and centre of a picture of these points."""
         low, high = ([f(p[k] for p in flat) for k in (0, 1)] for f in (min, max))
-        size = max(high[0] - low[0], high[1] - low[1], 1e-9)
+        size = max(high[0] - low[0], high[1] - low[1]) or 1.0
         wide, tall = (max(b - a, 0.25 * size) for a, b in zip(low, high))
         scale = 0.94 * min((WIDTH - 2 * MARGIN) / wide, (HEIGHT - 2 * MARGIN - 24) / tall)
         return scale, [(a + b) / 2 for a, b in zip(low, high)]
 
-    def points_of(self, robot, poses):
+    @staticmethod
+    def points_of(robot, poses, part):
+        """Where everything but the ground is, over time. @param part of the solids: their points, or their core."""
         for name, series in poses["links"].items():
             if name == robot.root:
                 continue
-            local = [p for solid in robot.solids.get(name, []) for p in solid.points] + robot.joints_on.get(name, []) + [(0.0, 0.0, 0.0)]
+            local = [p for solid in robot.solids.get(name, []) for p in getattr(solid, part)] + robot.joints_on.get(name, []) + [(0.0, 0.0, 0.0)]
             for pose in series:
                 yield from (placed(pose, p) for p in local)
 
@@ -98,9 +101,10 @@ class Scene:
             yield depth, f'<polygon class="{kind} solid" points="{corners}"/>'
         if name == robot.root:
             return
-        centres = [tuple(sum(x) / len(solid.points) for x in zip(*solid.points)) for solid in robot.solids.get(name, [])]
+        # From the joint of a link to its solids, which may be apart from it.
+        centres = [tuple(sum(x) / len(solid.points) for x in zip(*solid.points)) for solid in robot.solids.get(name, []) if not solid.is_stick]
         origin = placed(pose, (0.0, 0.0, 0.0))
-        for end in centres or robot.joints_on.get(name, []):
+        for end in centres:
             a, b = self.place(origin), self.place(placed(pose, end))
             if math.dist(a, b) > 1.0:
                 depth = 0.5 * (geometry.dot(self.towards, origin) + geometry.dot(self.towards, placed(pose, end)))
@@ -139,6 +143,7 @@ class Scene:
     def scale_bar(self):
         length = nice_step(60.0 / self.scale, 1)
         x, y = 14, self.height - 10
-        text = f"{short(1000 * length, 4)} mm" if length < 1.0 else f"{short(length, 4)} m"
+        factor, unit = next((pair for pair in ((1.0, "m"), (1e3, "mm"), (1e6, "\u00b5m")) if pair[0] * length > 0.999), (1e9, "nm"))
+        text = f"{short(factor * length, 4)} {unit}"
         return (f'<path class="frame" d="M{x} {y - 4}V{y}H{x + length * self.scale:.1f}V{y - 4}"/>'
                 f'<text class="tick" x="{x + length * self.scale + 6:.1f}" y="{y}">{escape(text)}</text>')

@@ -83,6 +83,44 @@ class Parts(unittest.TestCase):
         (ax, ay), (bx, by) = scene.place((1.0, 0.0, 0.0)), scene.place((0.5, 0.0, 1.0))
         self.assertEqual(scene.picture(0, "t").count(f'<path class="body stick" d="M{ax} {ay}L{bx} {by}"/>'), 2)
 
+    def test_links_without_shapes_have_the_sticks_that_rviz_shows(self):
+        """The same model and numbers as in the test of the viewers' sticks."""
+        with open(os.path.join(ROOT, "test/reading/urdf/stick_figure_test.cc"), encoding="utf-8") as file:
+            bare = re.search(r'kBare = R"\((.*?)\)";', file.read(), re.DOTALL)[1]
+        solids = geometry.Robot(bare).solids
+        box = {name: [[(min(p[k] for p in s.points), max(p[k] for p in s.points)) for k in range(3)] for s in solids[name]] for name in solids}
+        self.assertEqual([[s.kind for s in solids[name]] for name in ("ground", "cart", "rod", "bob", "tool")],
+                         [[], ["box"], ["cylinder", "sphere"], ["sphere", "cylinder", "sphere"], []])
+        self.assertEqual(box["cart"][0], 3 * [(-0.05, 0.05)])
+        for found, known in zip(box["rod"][0], ((0.0, 1.0), (-0.02, 0.02), (-0.02, 0.02))):
+            self.assertLess(max(abs(a - b) for a, b in zip(found, known)), 1e-12)
+        self.assertLess(max(abs(a - b) for a, b in zip(box["bob"][2][2], (-0.56, -0.44))), 1e-12, "a sphere at the centre of mass")
+        ends = '<predecessor link="ground"><origin xyz="3 0 0"/></predecessor><successor link="bob"><origin xyz="0 2 0"/></successor>'
+        closed = geometry.Robot(bare.replace("</robot>", f'<loop name="pin" type="revolute">{ends}</loop></robot>')).solids
+        self.assertEqual([s.kind for name in ("ground", "bob") for s in closed[name]], ["cylinder", "cylinder", "sphere"])
+        mesh = '<link name="rod"><visual><geometry><mesh filename="package://a/b.stl"/></geometry></visual>'
+        self.assertEqual([s.kind for s in geometry.Robot(bare.replace('<link name="rod">', mesh)).solids["rod"]], ["cylinder", "sphere"])
+
+    def test_a_pendulum_without_shapes_is_seen_from_its_side_with_a_true_scale(self):
+        robot = geometry.Robot("""<robot name="r"><link name="ground"/><link name="bob"><inertial><origin xyz="0 0 -1"/><mass value="1"/></inertial></link>
+            <joint name="j" type="continuous"><parent link="ground"/><child link="bob"/><axis xyz="0 1 0"/></joint></robot>""")
+        poses = [[0.0, 0.0, 0.0, math.cos(0.5 * a), 0.0, math.sin(0.5 * a), 0.0] for a in (0.3, -0.3)]
+        scene = drawing.Scene([(robot, {"times": [0.0, 1.0], "links": {"ground": poses, "bob": poses}})])
+        self.assertEqual(tuple(map(abs, scene.towards)), (0, 1, 0))
+        picture = scene.picture(0, "t")
+        self.assertEqual([picture.count(f'class="{kind} solid"') for kind in ("body", "ghost")], [3, 3])
+        self.assertIn(">500 mm<", picture)
+        bar = re.search(r'<path class="frame" d="M14 [0-9]+V[0-9]+H([0-9.]+)', picture)
+        self.assertAlmostEqual(float(bar[1]) - 14.0, 0.5 * scene.scale, delta=0.1)
+        self.assertGreater(scene.scale, 150.0, "it fills the picture")
+
+    def test_the_scale_of_a_small_mechanism_has_a_unit_that_fits(self):
+        for size, text in ((2.0, ">1 m<"), (2e-6, ">1 \u00b5m<"), (2e-9, ">1 nm<")):
+            robot = geometry.Robot(f"""<robot name="r"><link name="ground"/><link name="a"><visual><geometry><box size="{size} {size} {size}"/></geometry></visual></link>
+                <joint name="j" type="continuous"><parent link="ground"/><child link="a"/></joint></robot>""")
+            pose = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+            self.assertIn(text, drawing.Scene([(robot, {"times": [0.0], "links": {"a": [pose]}})]).picture(0, "t"))
+
     def test_a_fixed_body_is_whole_unless_the_mechanism_became_small(self):
         def scene(height):
             box = f'<visual><origin xyz="0 0 {-0.5 * height}"/><geometry><box size="0.1 0.1 {height}"/></geometry></visual>'
