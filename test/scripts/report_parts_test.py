@@ -10,7 +10,7 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from codesign_report import charts, drawing, geometry, numbers  # noqa: E402
+from codesign_report import asked, charts, drawing, geometry, numbers, signals  # noqa: E402
 
 
 class Parts(unittest.TestCase):
@@ -44,6 +44,37 @@ class Parts(unittest.TestCase):
         self.assertTrue(all(a - b >= 13.9 for a, b in zip(heights, heights[1:])), heights)
         for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="[0-9.]+" text-anchor="end">([^<]*)<', svg):
             self.assertGreater(float(x) - charts.LETTER * len(text), 18.0, "beside the name of the axis")
+
+    def test_intervals_are_on_one_scale_relative_to_their_values(self):
+        intervals = [(0.98, 1.02, 1.0), (190.0, 210.0, 200.0), (-4.2e-5, -3.8e-5, -4e-5)]
+        self.assertAlmostEqual(charts.interval_scale(intervals), 0.05)
+
+        def bar(low, high, value, scale, start=None):
+            svg = charts.interval_chart("t", low, high, value, start, scale)
+            (ends,) = re.findall(r'class="interval" d="M([0-9.]+) 10H([0-9.]+)"', svg)
+            return float(ends[1]) - float(ends[0]), svg
+
+        self.assertEqual([round(bar(*each, 0.1)[0], 6) for each in intervals], [28.0, 70.0, 70.0])
+        self.assertEqual([bar(*each, 0.1)[1].count("beyond") for each in ((0.95, 1.2, 1.0), (0.5, 1.5, 1.0), (-1.0, 1.0, 0.0))], [1, 2, 2])
+        self.assertEqual([bar(0.9, 1.1, 1.0, 0.1, start)[1].count("initial") for start in (1.05, 3.0)], [1, 0])
+        self.assertEqual(charts.interval_scale([(None, None, 2.0), (0.0, 9.0, 1.0)]), 1.0)
+        self.assertEqual(charts.interval_scale([]), 1.0)
+
+    def test_all_terms_of_an_objective_and_all_bounds_are_told(self):
+        study = {"positions": {"crank": [0, 1]}, "final": [{"signal": "a", "between": [1, 2]}],
+                 "objective": {"sum": [{"signal": "s", "reference": [1, 2.5]}, {"signal": "e", "reference": "${x}"}], "terminal": [{"signal": "t"}],
+                               "stroke": [{"signal": "d", "weight": -1, "after": 2, "before": 3}]},
+                 "constraints": [{"stroke": "o", "at_least": 0.5}, {"dwell": "p", "band": [0, 1], "at_least": 0.3}, {"expression": "${a+b}", "at_most": 1}]}
+        self.assertEqual([(term.signal, term.kind) for term in asked.objective_terms(study)],
+                         [("s", "sum over the postures of " + asked.SQUARE), ("e", "sum over the postures of " + asked.SQUARE),
+                          ("t", "in the last posture, " + asked.SQUARE),
+                          ("d", "weight \u00b7 (largest minus smallest signal \u2212 reference), after 2, before 3")])
+        self.assertEqual(asked.bounds(study), [("a in the last posture", "between [1, 2]"), ("stroke of o", "at least 0.5"),
+                                               ("dwell of p, band [0, 1]", "at least 0.3"), ("${a+b}", "at most 1")])
+        self.assertEqual(asked.numbers_asked(study), {"s": [1.0, 2.5]})
+        for key in ("integral", "sum", "terminal", *asked.MEASURES):
+            self.assertEqual(len(asked.objective_terms({"objective": {key: [{"signal": "s"}]}})), 1, key)
+            self.assertEqual(signals.used_signals({"constraints": [{key: "s"}]}), {"s"} if key in asked.MEASURES else set())
 
     def test_names_of_correlations_are_whole(self):
         name = "data[0].start.crank_joint"

@@ -50,12 +50,15 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.open, self.faults, self.data, self.ids, self.links, self.tags, self.text = [], [], [], [], [], [], ""
+        self.seen = []  # the tags that are not folded away
         self.feed(text)
         self.close()
 
     def handle_starttag(self, tag, attrs):
         attributes = dict(attrs)
         self.tags.append((tag, attributes))
+        if "details" not in self.open:
+            self.seen.append(tag)
         if "id" in attributes:
             self.ids.append(attributes["id"])
         self.links += [attributes[key] for key in ("href", "src", "data", "action") if key in attributes]
@@ -289,6 +292,52 @@ class Report(unittest.TestCase):
                 for row in range(501):
                     file.write(",".join(f"{math.sin(0.1 * row * (k + 1)):.17g}" if k else str(row) for k in range(601)) + "\n")
         self.made_page("large")
+
+    def test_what_decides_is_seen_and_the_rest_is_folded(self):
+        """A robot of thirty joints, of which the objective reads one: its curve, and none of the others, is seen at once."""
+        folder = self.path("folded")
+        os.makedirs(folder)
+        names = [f"joint_{k}/{quantity}" for k in range(30) for quantity in ("position", "velocity")]
+        files = {"result.json": json.dumps({"objective": 1.0, "gradient": {"g1": 0.0}, "termination": "success", "evaluations": 1,
+                                            "warnings": [{"code": "a_code", "message": "a doubt"}]}),
+                 "details.json": json.dumps({"parameters": [{"name": f"g{k}", "initial": 1.0, "value": 2.0, "lower": 0.0, "upper": 3.0, "unit": "", "tuned": k < 2}
+                                                            for k in range(40)]}),
+                 "job_study.yaml": "duration: 1\nobjective: {terminal: [{signal: joint_7/position}]}\n",
+                 "tuned.csv": ",".join(["time", *names]) + "\n" + "".join(",".join([str(t), *("1.5" for _ in names)]) + "\n" for t in (0, 1))}
+        for name, text in files.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        text, page = self.made_page("folded")
+        self.assertEqual(page.seen.count("figure"), 1)
+        self.assertEqual([tag for tag, _ in page.tags].count("figure"), 60)
+        self.assertEqual(text.count("<details>"), page.seen.count("details"), "nothing is folded twice")
+        self.assertIn("38 parameters that were not tuned", page.text)
+        self.assertLess(page.seen.count("tr"), 12)
+        self.assertLess(text.index("a doubt"), text.index('aria-label="Tuned parameters"'), "doubts come first")
+
+    def test_a_study_of_postures(self):
+        """Its page speaks of postures, shows the path and where it should be, and nothing that is zero."""
+        case = [os.path.join(ROOT, folder, "four_bar_path" + end) for folder, end in (("urdf", ".urdf"), ("config", ".yaml"))]
+        done = run("optimize", *case, "--quiet", "--output", self.path("postures"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text, page = self.made_page("postures")
+        for words in ("18 postures, given by the position of crank_joint", "Minimize the sum of these terms", "sum over the postures of weight",
+                      "[0.5, 0.4, 0.3, 0.2,", "the path of pen", "the tuned postures as a table"):
+            self.assertIn(words, page.text)
+        for words in ("time [s]", "at [s]", "Runs of", "over the run", "energy balance"):
+            self.assertNotIn(words, text.split("result-json")[0], words)
+        self.assertEqual(text.count(">posture</text>"), 4, "position of two joints, and two coordinates of the pen")
+        pictures = re.findall(r'<g class="mechanism">.*?</g>', text, re.DOTALL)
+        for picture in pictures:
+            (path,) = re.findall(r'<path class="trace" d="([^"]*)"', picture)
+            self.assertEqual(len(re.findall("[ML]", path)), 18)
+            self.assertEqual(picture.count('class="target mark"'), 18)
+        (after,) = re.findall(r'<path class="trace" d="([^"]*)"', pictures[1])
+        wanted = re.findall(r'<path class="target mark" d="M([0-9.]+) ([0-9.]+)', pictures[1])
+        for (x, y), (wanted_x, wanted_y) in zip(re.findall(r"[ML]([0-9.]+) ([0-9.]+)", after), wanted):
+            self.assertLess(abs(float(x) - float(wanted_x) - 4.0) + abs(float(y) - float(wanted_y)), 8.0, "the tuned path passes the crosses")
+        self.assertIn("Zero throughout, and not drawn: crank_joint/velocity", page.text)
+        self.assertNotRegex(text, "<figcaption>mechanism/")
 
     def page_of_efforts(self, name, study):
         for suffix, text in ((".urdf", PENDULUM), (".yaml", study)):
