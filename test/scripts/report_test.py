@@ -17,7 +17,7 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from codesign_report import numbers, words  # noqa: E402
+from codesign_report import geometry, numbers, words  # noqa: E402
 
 PENDULUM = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
 <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
@@ -314,6 +314,23 @@ class Report(unittest.TestCase):
         self.assertIn("38 parameters that were not tuned", page.text)
         self.assertLess(page.seen.count("tr"), 12)
         self.assertLess(text.index("a doubt"), text.index('aria-label="Tuned parameters"'), "doubts come first")
+
+    def test_links_without_shapes_are_the_sticks_of_viewers(self):
+        """In every shipped model: what `codesign urdf --sticks` gives rviz, apart from sticks to springs, of which rviz has none."""
+        models = [os.path.join(ROOT, "urdf", name) for name in sorted(os.listdir(os.path.join(ROOT, "urdf"))) if name.endswith(".urdf")]
+        compared = 0
+        for model in models:
+            plain, sticks = (run("urdf", model, *options) for options in ((), ("--sticks",)))
+            self.assertEqual(plain.returncode + sticks.returncode, 0, plain.stderr + sticks.stderr)
+            ours, theirs = geometry.Robot(plain.stdout), geometry.Robot(sticks.stdout)
+            springs = set(re.findall(r'link="([^"]*)"', "".join(re.findall(r"<codesign:spring_damper.*?</codesign:spring_damper>", plain.stdout, re.DOTALL))))
+            for name in set(ours.solids) - springs:
+                pairs = [[sorted(point for solid in robot.solids[name] for point in solid.points)] for robot in (ours, theirs)]
+                self.assertEqual(*map(len, pairs[0] + pairs[1]), f"{model}: {name}")
+                compared += any(solid.is_stick for solid in ours.solids[name])
+                for one, other in zip(pairs[0][0], pairs[1][0]):
+                    self.assertLess(math.dist(one, other), 1e-6, f"{model}: {name}")
+        self.assertGreaterEqual(compared, 10)
 
     def test_a_study_of_postures(self):
         """Its page speaks of postures, shows the path and where it should be, and nothing that is zero."""
