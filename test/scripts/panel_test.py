@@ -1,10 +1,14 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """The panel without ROS: its curves, what it answers and what it refuses."""
+import contextlib
 import http.client
+import io
 import json
 import math
 import os
+import socket
+import struct
 import subprocess
 import sys
 import unittest
@@ -154,6 +158,31 @@ class RequestsTest(PanelTestCase):
         self.assertEqual(event()[1]["points"]["elbow/friction"][0][0], 0.1)
         self.board.tell("simulation", seen=-math.inf)
         self.assertFalse(event()[1]["simulation"]["answers"])
+
+    def test_a_client_that_closes_the_connection_is_no_fault(self):
+        """It leaves no traceback, at whatever place of an answer it goes; a fault of the program does."""
+        told = io.StringIO()
+        with contextlib.redirect_stderr(told):
+            for error in (BrokenPipeError(), ConnectionResetError(), ConnectionAbortedError(), TimeoutError()):
+                with contextlib.suppress(OSError):
+                    try:
+                        raise error
+                    finally:
+                        self.server.handle_error(None, ("127.0.0.1", 1))
+            for path in ("/events", "/"):
+                connection = socket.create_connection(("127.0.0.1", self.port), PATIENCE)
+                # Closed at once with an RST, so that the answer has no receiver.
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+                connection.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+                connection.close()
+            self.assertEqual(self.ask("GET", "/")[0], 200)
+            self.assertEqual(told.getvalue(), "")
+            with contextlib.suppress(ValueError):
+                try:
+                    raise ValueError("a fault")
+                finally:
+                    self.server.handle_error(None, ("127.0.0.1", 1))
+        self.assertIn("ValueError: a fault", told.getvalue())
 
     def test_more_signals_than_a_page_has_curves_and_other_addresses_are_refused(self):
         self.assertEqual(self.ask("GET", "/events?" + "signal=x&" * (server.MOST_CURVES + 1))[0], 400)

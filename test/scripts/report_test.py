@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """The page of `codesign report`, of jobs that the program runs here and of files made here. Usage: report_test.py CODESIGN"""
+import contextlib
 import csv
 import html.parser
 import json
@@ -9,6 +10,7 @@ import os
 import re
 import resource
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -17,7 +19,9 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
+sys.path.insert(0, os.path.join(ROOT, "test"))
 from codesign_report import geometry, numbers, words  # noqa: E402
+from patience import PATIENCE  # noqa: E402
 
 PENDULUM = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
 <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
@@ -418,14 +422,46 @@ class Report(unittest.TestCase):
             self.assertEqual(done.returncode, 2, output)
             self.assertIn(f"{output}: the page would replace this file of the job", done.stderr)
             self.assertEqual(read(output), before)
-        kept, part = self.path("kept"), self.path("linked.html.part")
-        with open(kept, "w", encoding="utf-8") as file:
-            file.write("kept")
-        os.symlink(kept, part)
-        for output in (self.path("job", "report.html"), self.path("job", "report.html"), self.path("linked.html")):
-            self.assertEqual(run("report", self.path("job"), "-o", output).returncode, 0, "a page replaces an earlier page")
-        self.assertEqual(read(kept), b"kept")
+        for _ in range(2):
+            self.assertEqual(run("report", self.path("job"), "-o", self.path("job", "report.html")).returncode, 0, "a page replaces an earlier page")
         os.remove(self.path("job", "report.html"))
+
+    def test_devices_and_links_stay_and_nothing_begun_remains(self):
+        """As root a device that was replaced is lost to the whole machine, so that all of it happens in a folder of its own."""
+        folder = self.path("outputs")
+        os.makedirs(folder)
+        fifo, link, leads_to, device, page = (os.path.join(folder, name) for name in ("fifo", "link", "leads_to", "device", "page.html"))
+        os.mkfifo(fifo)
+        reader = subprocess.Popen(["cat", fifo], stdout=subprocess.PIPE)
+        self.assertEqual(run("report", self.path("job"), "-o", fifo).returncode, 0)
+        self.assertIn(b"</html>", reader.communicate(timeout=PATIENCE)[0])
+        self.assertTrue(stat.S_ISFIFO(os.lstat(fifo).st_mode))
+        os.symlink(leads_to, link)
+        for before in (None, "of before"):
+            if before:
+                with open(leads_to, "w", encoding="utf-8") as file:
+                    file.write(before)
+                os.chmod(leads_to, 0o640)
+            self.assertEqual(run("report", self.path("job"), "-o", link).returncode, 0)
+            self.assertIn(b"</html>", read(leads_to))
+            self.assertTrue(os.path.islink(link))
+        self.assertEqual(stat.S_IMODE(os.stat(leads_to).st_mode), 0o640)
+        with contextlib.suppress(PermissionError):  # only root makes devices, and not in every container
+            os.mknod(device, 0o666 | stat.S_IFCHR, os.makedev(1, 3))  # as /dev/null
+            run("report", self.path("job"), "-o", device)
+            self.assertTrue(stat.S_ISCHR(os.lstat(device).st_mode))
+            os.remove(device)
+        self.assertIn("</html>", run("report", self.path("job"), "-o", "/dev/stdout").stdout)
+        done = run("report", self.path("job"), "-o", folder)
+        self.assertEqual((done.returncode, done.stderr), (1, f"codesign report: {folder}: cannot be written: Is a directory\n"))
+        # A disk that is full after 2000 bytes: the page of before stays, and no part of the new one.
+        with open(page, "w", encoding="utf-8") as file:
+            file.write("of before")
+        names = sorted(os.listdir(folder))
+        done = run("report", self.path("job"), "-o", page, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"codesign report: {page}: cannot be written: ", done.stderr)
+        self.assertEqual((read(page), sorted(os.listdir(folder))), (b"of before", names))
 
     def test_damaged_files_are_named(self):
         shutil.copytree(self.path("job"), self.path("damaged"))
