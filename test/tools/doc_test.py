@@ -142,7 +142,7 @@ class DocTest(unittest.TestCase):
         self.assertEqual(page.run(narrow), [])
         label = "(() => { const cell = [...document.querySelectorAll('td')].find(e => e.textContent.startsWith('frames per second of the run')); return [getComputedStyle(cell, '::before').content, cell.getBoundingClientRect().width]; })()"
         content, width = page.run(label)
-        self.assertEqual(content, '"meaning" ": "')
+        self.assertEqual(content, '"meaning: "')
         self.assertGreater(width, 300)
         page.resize(1280)
         self.assertEqual(page.run(label)[0], "none")
