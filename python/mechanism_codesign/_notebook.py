@@ -67,12 +67,15 @@ def run(of: Any) -> str:
     found = of._problem._core.details(rho, parameters) if of.statistics["cpu_seconds"] < _MOST_SECONDS else {}
     units = {signal["name"]: signal["unit"] for signal in found.get("signals", [])}
     rows = [(name, float(y.min()), float(y.max()), float(y[-1]), units.get(name, "")) for name, y in of.items() if len(y)]
-    pictures = [_curve(name, of.time, [(name, "tuned", y)], units.get(name, "")) for name, y in list(of.items())[:_MOST_CURVES] if len(y)]
+    in_postures = bool(found) and of.status.ok and "energy" not in found  # a motion has energies
+    pictures = [_curve(name, of.time, [(name, "tuned", y)], units.get(name, ""), "posture" if in_postures else "time [s]")
+                for name, y in list(of.items())[:_MOST_CURVES] if len(y)]
     if found.get("poses", {}).get("times"):
-        pictures = _scene([("at the start; faint: later", of._problem.urdf(rho, **parameters), found["poses"])]) + pictures
+        moments = "in the first posture; faint: in others" if in_postures else "at the start; faint: later"
+        pictures = _scene([(moments, of._problem.urdf(rho, **parameters), found["poses"])]) + pictures
     objective = "" if of.objective is None else f", objective {of.objective:.10g}"
     head = f'<p>{escape(str(of.status))}{objective}, {of.statistics["steps"]} steps, {of.statistics["cpu_seconds"]:.3g} s of processor time</p>'
-    return head + _table(("signal", "smallest", "largest", "at the end", "unit"), rows) + _images(pictures) + _notes(of.warnings)
+    return head + _table(("signal", "smallest", "largest", "in the last posture" if in_postures else "at the end", "unit"), rows) + _images(pictures) + _notes(of.warnings)
 
 
 def result(of: Any) -> str:

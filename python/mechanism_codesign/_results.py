@@ -212,7 +212,7 @@ class _Job:
 
     def report(self, path: "str | os.PathLike[str] | None" = None) -> str:
         """The page of `codesign report` as HTML; also written to `path` if it is given. write() first, and its commands name that folder."""
-        from .codesign_report import job, page  # type: ignore  # scripts/codesign_report
+        from .codesign_report import job, output, page  # type: ignore  # scripts/codesign_report
         if self._folder is not None:
             html = page.render(job.find_job(self._folder))
         else:
@@ -222,8 +222,7 @@ class _Job:
                 html = page.render(job.find_job(folder))
         if path is not None:
             try:
-                with open(path, "w", encoding="utf-8") as file:
-                    file.write(html)
+                output.write_output(path, html)
             except OSError as error:
                 raise OutputError(f"{os.fspath(path)}: cannot be written: {error.strerror}") from error
         return str(html)

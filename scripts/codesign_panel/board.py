@@ -9,7 +9,7 @@ import threading
 import time
 
 MOST_FRAMES = 3000  # kept of each signal
-SILENCE = 4.0  # [s] without diagnostics, of which nodes send one each second, after which a node does not answer
+SILENCE = 4.0  # [s] without diagnostics, of which nodes send one each second, or without frames, after which a node does not answer
 
 
 def number(value):
@@ -35,11 +35,19 @@ class Curves:
             if track is None:
                 self._begin = stamp if self._begin is None else self._begin
                 track = self._tracks[topic] = {"objects": objects, "rows": collections.deque(maxlen=MOST_FRAMES), "count": 0}
-                names = [f"{each}/{quantity}" if quantity else each for quantity in quantities for each in objects]
+                track["names"] = names = [f"{each}/{quantity}" if quantity else each for quantity in quantities for each in objects]
                 for place, name in enumerate(names):
                     self._places.setdefault(name, (topic, place))
+            track["seen"] = time.monotonic()
             track["rows"].append((stamp, array.array("d", itertools.chain.from_iterable(columns))))
             track["count"] += 1
+
+    def silent(self, is_alive):
+        """The signals of topics that have had no frame for a while: of all topics if the node that publishes them does not answer, else of those
+        that others have left behind, such as of a robot before. A run that is paused has no frames either."""
+        with self._lock:
+            now = max((track["seen"] for track in self._tracks.values()), default=0.0) if is_alive else time.monotonic()
+            return sorted(name for topic, track in self._tracks.items() if now - track["seen"] > SILENCE for name in track["names"] if self._places[name][0] == topic)
 
     def names(self):
         with self._lock:
@@ -93,5 +101,6 @@ class Board:
             state = {part: dict(fields) for part, fields in self._parts.items()}
             for node in ("simulation", "optimization"):
                 state[node]["answers"] = time.monotonic() - state[node].pop("seen") < SILENCE
+            state["silent"] = self.curves.silent(state["simulation"]["answers"])
             state["job"]["running"] = state["job"]["running"] and state["optimization"]["answers"]
             return json.dumps({**state, "signals": names}, allow_nan=False)

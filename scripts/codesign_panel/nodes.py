@@ -11,6 +11,8 @@ from .board import number
 from .requests import Refused
 
 PATIENCE = 3.0  # [s] until a service or a listener must be known to the master
+STANDS = "~step or ~resume"  # what a paused run waits for
+AFTER_PAUSE = 2.5  # [s] after which the real-time factor of a run that goes on, which is of half a second, has none of the pause
 LATENESS = 30.0  # [s] until one that is known must answer: its machine may be busy
 
 
@@ -43,6 +45,7 @@ class Nodes:
         self._ros, self._msg, self._reconfigure, self._float, self._joint_state = rospy, msg, reconfigure, Float64, JointState
         self._trigger, self._set_parameters, self._rejected = Trigger, reconfigure_services.Reconfigure, GoalStatus.REJECTED
         self._board, self._simulation, self._optimization = board, simulation, optimization
+        self.forget_pauses()
         self._publishers, self._lock, self._controllers, self._goals, self._ended = {}, threading.Lock(), None, {}, None
         board.tell("simulation", name=rospy.resolve_name(simulation))
         board.tell("optimization", name=rospy.resolve_name(optimization))
@@ -97,9 +100,41 @@ class Nodes:
             for part in ("simulation", "optimization"):
                 if status.name.startswith(self._board.read(part, "name")[1:] + ":"):
                     values = {value.key: value.value for value in status.values}
+                    if part == "simulation":
+                        self.correct(values)
                     self._board.tell(part, seen=time.monotonic(), level=status.level, message=status.message, values=values)
                     if part == "optimization" and not status.message.startswith(("optimizing", "identifying")):
                         self.note_rest()
+
+    def forget_pauses(self):
+        # Time of a run that is paused, when one was seen, and when the run answered last.
+        self._stands_at, self._stood, self._answered = None, -math.inf, -math.inf
+
+    def correct(self, values):
+        """While the run is paused its node tells neither the time after a step nor a real-time factor without the pause; nor does it tell one until
+        the pause is a while ago."""
+        now = time.monotonic()
+        if values.get("waits for") == STANDS:
+            self._stood = now
+            if self._stands_at is not None:
+                values["time of the run"] = self._stands_at
+        elif now - self._answered > AFTER_PAUSE:  # it goes on; diagnostics may be older than the answer
+            self._stands_at = None
+        if now - self._stood < AFTER_PAUSE:
+            values.pop("real-time factor", None)
+
+    def note_answer(self, what, message):
+        """What an answer of the run tells: whether it stands, and where."""
+        values = dict(self._board.read("simulation", "values"))
+        if what in ("pause", "resume"):
+            values["waits for"] = STANDS if what == "pause" else "nothing"
+        found = re.search(r"\bt = ([-+0-9.e]+) s\b", message)
+        self._answered, self._stands_at = time.monotonic(), None
+        if found:
+            values["time of the run"] = found[1]
+            self._stands_at = found[1] if what in ("pause", "step") else None
+        self.correct(values)
+        self._board.tell("simulation", values=values)
 
     def note_rest(self):
         """Jobs of services tell no result here, and the state may be older than a job that has just begun."""
@@ -202,9 +237,8 @@ class Nodes:
             answer = self.call(f"{self._optimization if what == 'cancel' else self._simulation}/{what}", self._trigger)
             if not answer.success:
                 raise Refused(answer.message)
-            if what in ("pause", "resume"):
-                values = dict(self._board.read("simulation", "values"), **{"waits for": "~step or ~resume" if what == "pause" else "nothing"})
-                self._board.tell("simulation", values=values)
+            if what in ("pause", "resume", "step", "restart"):
+                self.note_answer(what, answer.message)
             return answer.message
         if what == "parameters":
             return self.set_parameters(fields["values"])

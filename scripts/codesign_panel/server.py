@@ -15,11 +15,11 @@ import threading
 import time
 import urllib.parse
 
+from .local import LocalServer, refusal
 from .requests import Refused, read_request
 
 SCRIPTS = pathlib.Path(__file__).resolve().parent.parent
 PAGE = SCRIPTS / "panel.html"
-HOSTS = ("localhost", "127.0.0.1")
 MOST_CURVES = 12  # of one page
 MOST_BYTES = 65536  # of a request
 PERIOD = 0.1  # [s] between two events of a page
@@ -53,23 +53,10 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self._board, self._nodes = board, nodes
         super().__init__(*arguments)
 
-    def refusal(self):
-        """Why a request is not answered, or None. A page of another site reaches this machine under a name of its own (Host), or says where it
-        is from (Origin, Sec-Fetch-Site)."""
-        hosts = self.headers.get_all("Host", [])
-        if len(hosts) != 1 or not re.fullmatch("(" + "|".join(map(re.escape, HOSTS)) + r")(:\d+)?", hosts[0], re.IGNORECASE):
-            return "Host: only localhost and 127.0.0.1 are answered"
-        origins = self.headers.get_all("Origin", [])
-        if any(origin.lower() != f"http://{hosts[0].lower()}" for origin in origins):
-            return "Origin: pages of other origins are not answered"
-        # A link from elsewhere may open the page, which has no effect.
-        if self.path != "/" and self.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin"):
-            return "Sec-Fetch-Site: pages of other origins are not answered"
-        return None
-
     def do_GET(self):  # noqa: N802, the name that the base class calls
-        if self.refusal():
-            self.send_error(403, self.refusal())
+        why = refusal(self.headers, self.path)
+        if why:
+            self.send_error(403, why)
             return
         try:
             address = urllib.parse.urlparse(self.path)
@@ -93,8 +80,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
         length = self.headers.get("Content-Length", "")
         is_short = re.fullmatch("0*[0-9]{1,9}", length) and int(length[-9:]) <= MOST_BYTES
         content = self.rfile.read(int(length[-9:])) if is_short else None
-        if self.refusal():
-            self.send_error(403, self.refusal())
+        why = refusal(self.headers, self.path)
+        if why:
+            self.send_error(403, why)
         elif self.path != "/do":
             self.send_error(404)
         # A form of another site cannot send this kind without being asked for its origin first.
@@ -162,6 +150,6 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
 def make_server(port, board, nodes):
     """Raises OSError for a port that is taken."""
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", port), functools.partial(Handler, board, nodes))
+    server = LocalServer(port, functools.partial(Handler, board, nodes))
     server.has_ended = threading.Event()
     return server

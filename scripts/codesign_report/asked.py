@@ -22,15 +22,52 @@ def maps(value):
     return [item for item in value if isinstance(item, dict)] if isinstance(value, list) else []
 
 
+SQUARE = "weight \u00b7 (signal \u2212 reference)\u00b2"
+KINDS = (("integral", "integral over the run of " + SQUARE),
+         ("sum", "sum over the postures of " + SQUARE),
+         ("terminal", "at the end, " + SQUARE),
+         ("peak", "weight \u00b7 largest |signal \u2212 reference|"),
+         ("stroke", "weight \u00b7 (largest minus smallest signal \u2212 reference)"),
+         ("maximum", "weight \u00b7 largest signal \u2212 reference"),
+         ("minimum", "weight \u00b7 smallest signal \u2212 reference"),
+         ("arrival", "weight \u00b7 first time after which signal \u2212 reference stays in the band"),
+         ("dwell", "weight \u00b7 time of signal \u2212 reference in the band"))
+MEASURES = ("peak", "stroke", "maximum", "minimum", "arrival", "dwell")
+
+
+def in_postures(study):
+    """Whether the study is of postures in place of a motion."""
+    return isinstance(study.get("positions"), dict) and bool(study["positions"])
+
+
+def interval_text(item):
+    """Band and interval of a measure; empty without them."""
+    return "".join(f", {key} {text_of(item[key])}" for key in ("band", "after", "before") if key in item)
+
+
 def objective_terms(study):
     """The terms of the objective: when they count, signal, reference, weight."""
     objective = study.get("objective")
     objective = objective if isinstance(objective, dict) else {}
-    kinds = (("integral", "integral over the run of weight \u00b7 (signal \u2212 reference)\u00b2"),
-             ("terminal", "at the end, weight \u00b7 (signal \u2212 reference)\u00b2"),
-             ("peak", "weight \u00b7 largest |signal \u2212 reference|"))
-    return [Term(words, text_of(item.get("signal", "")), text_of(item.get("reference", 0)), text_of(item.get("weight", 1)))
-            for kind, words in kinds for item in maps(objective.get(kind))]
+    terms = []
+    for kind, words in KINDS:
+        if kind == "terminal" and in_postures(study):
+            words = "in the last posture, " + SQUARE
+        terms += [Term(words + interval_text(item), text_of(item.get("signal", "")), text_of(item.get("reference", 0)), text_of(item.get("weight", 1)))
+                  for item in maps(objective.get(kind))]
+    return terms
+
+
+def numbers_asked(study):
+    """{signal: its reference in each posture} of those terms of the sum whose references are numbers."""
+    objective = study.get("objective")
+    found = {}
+    for item in maps(objective.get("sum") if isinstance(objective, dict) else None):
+        reference = item.get("reference", 0)
+        reference = reference if isinstance(reference, list) else [reference]
+        if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in reference):
+            found[text_of(item.get("signal", ""))] = [float(value) for value in reference]
+    return found
 
 
 def bounds_text(item):
@@ -42,11 +79,13 @@ def bounds_text(item):
 
 def bounds(study):
     """(what, bounds) of everything that is constrained."""
-    rows = [(text_of(item.get("signal", "")) + (" at the end" if key == "final" else ""), bounds_text(item))
+    last = " in the last posture" if in_postures(study) else " at the end"
+    rows = [(text_of(item.get("signal", "")) + (last if key == "final" else ""), bounds_text(item))
             for key in ("path", "final") for item in maps(study.get(key))]
     for item in study.get("constraints") or []:
         if isinstance(item, dict):
-            what = "peak of " + text_of(item["peak"]) if "peak" in item else text_of(item.get("expression", ""))
+            measure = next((key for key in MEASURES if key in item), None)
+            what = f"{measure} of {text_of(item[measure])}{interval_text(item)}" if measure else text_of(item.get("expression", ""))
             rows.append((what, bounds_text(item)))
         else:
             rows.append((text_of(item), ""))
@@ -78,7 +117,7 @@ def identification(study):
 
 
 OVER = ("runs", "uncertain", "robust", "multistart")
-SOLVED = ("gravity", "initial_state", "loads", "motion", "limits", "optimizer", "solver", "engine")
+SOLVED = ("gravity", "positions", "hold", "initial_state", "loads", "motion", "limits", "optimizer", "solver", "engine")
 
 
 def settings(study, keys):

@@ -5,14 +5,14 @@ import math
 import os
 import re
 
-from .numbers import Markup, escape, log_ticks, short, tick_labels, ticks
+from .numbers import Markup, escape, log_ticks, nice_step, short, tick_labels, ticks
 
 WIDTH, HEIGHT = 420, 210
 LEFT, RIGHT, TOP, BOTTOM = 58, 10, 10, 34
 LETTER = 7.8  # width of a letter of a tick, at most: letters are larger on a narrow page
 ROUNDING = 1e-9  # smaller variations are drawn as a flat line, in any SI unit
 
-# kind: initial, tuned or another class of the style; style: line, dots or steps.
+# kind: initial, tuned or another class of the style; style: line, dots, steps, or points: a line with a dot at each of them.
 Series = collections.namedtuple("Series", "label kind xs ys style", defaults=("line",))
 
 
@@ -157,9 +157,10 @@ def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240):
         body.append(f'<path class="limit" d="M{left:.0f} {y.place(value):.1f}H{WIDTH - RIGHT}"/>')
     for s in series:
         points = [(px, py) for px, py in thin(s.xs, s.ys, most) if not y.log or py > 0.0]
-        if s.style == "dots":
-            body += [f'<circle class="{s.kind} dot" cx="{x.place(px):.1f}" cy="{y.place(py):.1f}" r="3"/>' for px, py in points]
-        elif points:
+        if s.style in ("dots", "points"):
+            radius = 3 if s.style == "dots" else 2.2
+            body += [f'<circle class="{s.kind} dot" cx="{x.place(px):.1f}" cy="{y.place(py):.1f}" r="{radius}"/>' for px, py in points]
+        if points and s.style != "dots":
             body.append(f'<path class="{s.kind} line" d="{path_of(points, x, y, s.style == "steps")}"/>')
     return svg("".join(body), title)
 
@@ -228,13 +229,34 @@ def map_chart(title, x_label, y_label, xs, ys, rows):
     return svg("".join(body), title)
 
 
-def interval_chart(title, low, high, value, start):
-    """One confidence interval in a row of a table: a bar from low to high, a dot at the value, and a tick at the start if that is near."""
-    values = finite([low, high, value])
-    x = Axis(values, 6, 154, margin=0.6)
-    body = '<path class="grid" d="M6 10H154"/>'
+def relative(bound, value):
+    """How far a bound of an interval is from its value, relative to it; infinite where the value is zero."""
+    return math.copysign(math.inf, bound) if value == 0.0 and bound else (bound - value) / abs(value) if value else 0.0
+
+
+def interval_scale(intervals):
+    """The common scale of several intervals: the largest relative distance of a bound from its value, rounded up, and at most 1.
+
+    @param intervals [(low, high, value)]; None: not known."""
+    reach = [abs(relative(bound, value)) for low, high, value in intervals if value is not None for bound in (low, high) if bound is not None]
+    widest = max((r for r in reach if r <= 1.0), default=0.0)
+    return 1.0 if any(r > 1.0 for r in reach) or not widest else nice_step(widest, 1)
+
+
+def interval_chart(title, low, high, value, start, scale):
+    """One confidence interval in a row of a table, relative to its value: a bar from low to high, a dot at the value, and a tick at the start if
+    that is near. An end beyond the scale, which all rows share, has an arrowhead. @param scale at the ends of the picture, relative to the value."""
+    left, middle, right = 10.0, 80.0, 150.0
+
+    def place(bound):
+        return middle + (right - middle) * max(-1.0, min(1.0, relative(bound, value) / scale))
+
+    body = f'<path class="grid" d="M{left:.0f} 10H{right:.0f}M{middle:.0f} 3V17"/>'
     if low is not None and high is not None:
-        body += f'<path class="interval" d="M{x.place(low):.1f} 10H{x.place(high):.1f}"/>'
-    if start is not None and x.low <= start <= x.high:
-        body += f'<path class="initial line" d="M{x.place(start):.1f} 4V16"/>'
-    return svg(body + f'<circle class="tuned dot" cx="{x.place(value):.1f}" cy="10" r="3.5"/>', title, 160, 20)
+        body += f'<path class="interval" d="M{place(low):.1f} 10H{place(high):.1f}"/>'
+        for bound, end, side in ((low, left, -1), (high, right, 1)):
+            if side * relative(bound, value) > scale:
+                body += f'<path class="beyond" d="M{end:.0f} 5L{end + 6 * side:.0f} 10L{end:.0f} 15Z"/>'
+    if start is not None and abs(relative(start, value)) <= scale:
+        body += f'<path class="initial line" d="M{place(start):.1f} 4V16"/>'
+    return svg(body + f'<circle class="tuned dot" cx="{middle:.0f}" cy="10" r="3.5"/>', title, 160, 20)

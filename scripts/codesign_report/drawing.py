@@ -1,5 +1,5 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The mechanism as a picture: solids as outlines, links as sticks, at the start and faintly later."""
+"""The mechanism as a picture: solids as outlines, at the start and faintly later. Report, gallery and notebooks draw with it."""
 import math
 
 from . import geometry
@@ -7,6 +7,7 @@ from .charts import svg
 from .numbers import escape, nice_step, short
 
 WIDTH, HEIGHT, MARGIN = 420, 300, 16
+MOST_GHOSTS = 12  # faint ones of later times or postures
 
 
 def placed(pose, point):
@@ -48,11 +49,13 @@ def hull(points):
 class Scene:
     """Both designs in one view and one scale, so that their pictures can be compared."""
 
-    def __init__(self, sides):
-        """@param sides [(Robot, poses)], poses as in details.json."""
-        self.sides = sides
-        moving = [p for robot, poses in sides for p in self.points_of(robot, poses)]
-        self.right, self.up, self.towards = view_of(moving or [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0)])
+    def __init__(self, sides, traced=(), wanted=None):
+        """@param sides [(Robot, poses)], poses as in details.json. @param traced links whose origin's path is drawn, through all poses.
+        @param wanted {signal: values at all poses} of positions LINK/position/x, y and z: where these origins should be."""
+        self.sides, self.traced, self.wanted = sides, traced, wanted or {}
+        nowhere = [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0)]
+        moving, cores = ([p for robot, poses in sides for p in self.points_of(robot, poses, part)] for part in ("points", "core"))
+        self.right, self.up, self.towards = view_of(cores or nowhere)
         self.height = HEIGHT
         flat = [self.project(p) for p in moving] or [(0.0, 0.0), (1.0, 1.0)]
         self.scale, self.centre = self.fitted(flat)
@@ -69,18 +72,39 @@ class Scene:
     def fitted(self, flat):
         """Scale and centre of a picture of these points."""
         low, high = ([f(p[k] for p in flat) for k in (0, 1)] for f in (min, max))
-        size = max(high[0] - low[0], high[1] - low[1], 1e-9)
+        size = max(high[0] - low[0], high[1] - low[1]) or 1.0
         wide, tall = (max(b - a, 0.25 * size) for a, b in zip(low, high))
         scale = 0.94 * min((WIDTH - 2 * MARGIN) / wide, (HEIGHT - 2 * MARGIN - 24) / tall)
         return scale, [(a + b) / 2 for a, b in zip(low, high)]
 
-    def points_of(self, robot, poses):
+    def points_of(self, robot, poses, part):
+        """Where everything but the ground is, over time. @param part of the solids: their points, or their core."""
         for name, series in poses["links"].items():
             if name == robot.root:
                 continue
-            local = [p for solid in robot.solids.get(name, []) for p in solid.points] + robot.joints_on.get(name, []) + [(0.0, 0.0, 0.0)]
+            local = [p for solid in robot.solids.get(name, []) for p in getattr(solid, part)] + robot.joints_on.get(name, []) + [(0.0, 0.0, 0.0)]
             for pose in series:
                 yield from (placed(pose, p) for p in local)
+
+        for name in self.traced:
+            yield from self.places_wanted(poses, name)
+
+    def places_wanted(self, poses, name):
+        """Where a link's origin should be in each pose; a coordinate that the study leaves open is that which it has."""
+        asked = [self.wanted.get(f"{name}/position/{axis}") for axis in "xyz"]
+        series = poses["links"].get(name, []) if any(asked) else []
+        for k, pose in enumerate(series):
+            if all(values is None or k < len(values) or len(values) == 1 for values in asked):
+                yield tuple(pose[axis] if values is None else values[k if len(values) > 1 else 0] for axis, values in enumerate(asked))
+
+    def draw_traces(self, poses):
+        body = []
+        for name in self.traced:
+            places = [self.place(tuple(pose[:3])) for pose in poses["links"].get(name, [])]
+            body.append('<path class="trace" d="' + "".join(f'{"L" if k else "M"}{x} {y}' for k, (x, y) in enumerate(places)) + '"/>')
+            body += [f'<path class="target mark" d="M{x - 4:.1f} {y:.1f}H{x + 4:.1f}M{x:.1f} {y - 4:.1f}V{y + 4:.1f}"/>'
+                     for x, y in map(self.place, self.places_wanted(poses, name))]
+        return body
 
     def project(self, point):
         return geometry.dot(self.right, point), geometry.dot(self.up, point)
@@ -98,9 +122,10 @@ class Scene:
             yield depth, f'<polygon class="{kind} solid" points="{corners}"/>'
         if name == robot.root:
             return
-        centres = [tuple(sum(x) / len(solid.points) for x in zip(*solid.points)) for solid in robot.solids.get(name, [])]
+        # From the joint of a link to its solids, which may be apart from it.
+        centres = [tuple(sum(x) / len(solid.points) for x in zip(*solid.points)) for solid in robot.solids.get(name, []) if not solid.is_stick]
         origin = placed(pose, (0.0, 0.0, 0.0))
-        for end in centres or robot.joints_on.get(name, []):
+        for end in centres:
             a, b = self.place(origin), self.place(placed(pose, end))
             if math.dist(a, b) > 1.0:
                 depth = 0.5 * (geometry.dot(self.towards, origin) + geometry.dot(self.towards, placed(pose, end)))
@@ -123,7 +148,8 @@ class Scene:
     def picture(self, side, title):
         robot, poses = self.sides[side]
         body, count = [], len(poses["times"])
-        for index in list(range(count - 1, 0, -1)) + [0]:
+        stride = max(1, -(-(count - 1) // MOST_GHOSTS))
+        for index in list(range(count - 1, 0, -stride)) + [0]:
             parts = []
             for name, series in poses["links"].items():
                 kind = "ground" if name == robot.root else "ghost" if index else "body"
@@ -133,12 +159,14 @@ class Scene:
             body += [text for _, text in sorted(parts, key=lambda part: part[0])]
         if count:
             body.append(self.joints(robot, poses, 0))
+        body += self.draw_traces(poses)
         body.append(self.scale_bar())
         return svg(f'<g class="mechanism">{"".join(body)}</g>', title, WIDTH, self.height)
 
     def scale_bar(self):
         length = nice_step(60.0 / self.scale, 1)
         x, y = 14, self.height - 10
-        text = f"{short(1000 * length, 4)} mm" if length < 1.0 else f"{short(length, 4)} m"
+        factor, unit = next((pair for pair in ((1.0, "m"), (1e3, "mm"), (1e6, "\u00b5m")) if pair[0] * length > 0.999), (1e9, "nm"))
+        text = f"{short(factor * length, 4)} {unit}"
         return (f'<path class="frame" d="M{x} {y - 4}V{y}H{x + length * self.scale:.1f}V{y - 4}"/>'
                 f'<text class="tick" x="{x + length * self.scale + 6:.1f}" y="{y}">{escape(text)}</text>')

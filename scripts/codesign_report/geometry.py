@@ -3,6 +3,8 @@
 import math
 import xml.etree.ElementTree as ElementTree
 
+from . import sticks
+
 SPRING = "{urn:mechanism_codesign}spring_damper"
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -48,14 +50,17 @@ def numbers(text, default):
         values = tuple(float(part) for part in text.split())
     except (AttributeError, ValueError):
         return default
-    return values if len(values) == len(default) else default
+    return values if len(values) == len(default) and all(map(math.isfinite, values)) else default
 
 
 class Solid:
-    """A visual in its link's frame: its points, of which a picture shows the outline."""
+    """A visual in its link's frame: its points, of which a picture shows the outline.
 
-    def __init__(self, kind, points):
-        self.kind, self.points = kind, points
+    core: the points that tell in which plane a mechanism moves: all, or of a stick its ends, which have no thickness."""
+
+    def __init__(self, kind, points, core=None):
+        self.kind, self.points, self.core = kind, points, core or points
+        self.is_stick = core is not None
 
 
 def outline_points(kind, size):
@@ -80,37 +85,57 @@ def read_solid(visual):
     size = {"box": lambda: numbers(shape.get("size"), (0.0, 0.0, 0.0)),
             "cylinder": lambda: numbers(f'{shape.get("radius")} {shape.get("length")}', (0.0, 0.0)),
             "sphere": lambda: numbers(shape.get("radius"), (0.0,))}[shape.tag]()
-    origin = visual.find("origin")
-    get = (lambda key: None) if origin is None else origin.get
-    rotation, position = from_rpy(*numbers(get("rpy"), (0.0, 0.0, 0.0))), numbers(get("xyz"), (0.0, 0.0, 0.0))
+    rotation, position = from_rpy(*numbers(origin_of(visual).get("rpy"), (0.0, 0.0, 0.0))), place_of(visual)
     return Solid(shape.tag, [apply(rotation, position, point) for point in outline_points(shape.tag, size)])
 
 
+def origin_of(element):
+    """The element with `xyz` and `rpy`: the child `<origin>`, or the element itself; {} without any."""
+    if element is None:
+        return {}
+    origin = element.find("origin")
+    return element if origin is None else origin
+
+
+def place_of(element):
+    return numbers(origin_of(element).get("xyz"), (0.0, 0.0, 0.0))
+
+
+class Link:
+    """What a picture needs of a link: its solids, and where they are missing its mass and centre of mass [m]."""
+
+    def __init__(self, element):
+        inertial, mass = element.find("inertial"), element.find("inertial/mass")
+        self.solids = [solid for solid in map(read_solid, element.findall("visual")) if solid]
+        self.mass = numbers(mass.get("value"), (0.0,))[0] if mass is not None else 0.0
+        self.centre = place_of(inertial)
+        self.is_root, self.slides = True, False
+
+
 class Robot:
-    """Links with their solids, and the lines between the joints that a link has."""
+    """Links with their solids, and where the joints are. A link without shapes that can be drawn has sticks as its solids."""
 
     def __init__(self, urdf):
         root = ElementTree.fromstring(urdf)
-        self.solids = {link.get("name"): [s for s in map(read_solid, link.findall("visual")) if s] for link in root.findall("link")}
-        self.links = [link.get("name") for link in root.findall("link")]
-        # Where joints and loops sit on each link, in its frame.
-        self.joints_on = {name: [] for name in self.links}
-        children = set()
+        links = {link.get("name"): Link(link) for link in root.findall("link")}
+        # Where joints, loops and springs sit on each link, in its frame; frames: of joints below a link and loops; springs: their ends.
+        self.joints_on, frames, springs = {name: [] for name in links}, {}, {}
         for joint in root.findall("joint"):
             parent, child = (joint.find(tag).get("link") for tag in ("parent", "child"))
-            children.add(child)
-            self.add_point(parent, joint.find("origin"))
+            if child in links:
+                links[child].is_root, links[child].slides = False, joint.get("type") == "prismatic"
+            frames.setdefault(parent, []).append(place_of(joint))
             self.joints_on.setdefault(child, []).append((0.0, 0.0, 0.0))
         # Rods without mass and springs: what runs between points of two links.
         self.rods = []
         for part in root.findall("loop") + root.findall(SPRING):
-            ends = [(end.get("link"), self.add_point(end.get("link"), end.find("origin")))
-                    for end in map(part.find, ("predecessor", "successor")) if end is not None]
+            ends = [(end.get("link"), place_of(end)) for end in map(part.find, ("predecessor", "successor")) if end is not None]
+            for name, point in ends:
+                (springs if part.tag == SPRING else frames).setdefault(name, []).append(point)
             if len(ends) == 2 and part.get("type", "codesign:distance") == "codesign:distance":
                 self.rods.append(ends)
-        self.root = next((name for name in self.links if name not in children), None)
-
-    def add_point(self, link, origin):
-        xyz = numbers(origin.get("xyz"), (0.0, 0.0, 0.0)) if origin is not None else (0.0, 0.0, 0.0)
-        self.joints_on.setdefault(link, []).append(xyz)
-        return xyz
+        for name, points in [*frames.items(), *springs.items()]:
+            self.joints_on.setdefault(name, []).extend(points)
+        self.root = next((name for name, link in links.items() if link.is_root), None)
+        sticks.draw(links, frames, springs)
+        self.solids = {name: link.solids for name, link in links.items()}

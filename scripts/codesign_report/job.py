@@ -9,6 +9,8 @@ import re
 
 import yaml
 
+from .asked import in_postures
+
 
 class ReportError(Exception):
     """Bad input; the text is a sentence for the user."""
@@ -89,6 +91,7 @@ class Job:
         self.result = read_json(self.path("result.json" if self.kind == "optimization" else "identification.json"))
         self.details = read_json(self.path("details.json")) if self.has("details.json") else {}
         self.study_text, self.study = read_study(self.path("job_study.yaml")) if self.has("job_study.yaml") else ("", {})
+        self.in_postures = in_postures(self.study)
         self.gains = read_text(self.path("gains.yaml")) if self.has("gains.yaml") else ""
         self.runs = {side: self.table(side + ".csv") for side in ("initial", "tuned")}
         self.convergence, self.starts, self.scenarios, self.residuals = (

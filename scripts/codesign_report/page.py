@@ -27,18 +27,19 @@ def read_robot(path):
 
 
 def mechanism(job):
-    """Pictures of the mechanism before and after; empty if the poses or the models are missing."""
+    """(pictures, traced): the mechanism before and after, empty if the poses or the models are missing; links whose path is drawn."""
     sides = []
     for side in ("initial", "tuned"):
         poses = job.details.get(side, {}).get("poses")
         if poses and poses["times"] and job.has(side + ".urdf"):
             sides.append((side, read_robot(job.path(side + ".urdf")), poses))
     if not sides:
-        return []
-    scene = drawing.Scene([side[1:] for side in sides])
+        return [], ()
+    traced = signals.traced(job.study, sides[0][2]["links"]) if job.in_postures else ()
+    scene = drawing.Scene([side[1:] for side in sides], traced, asked.numbers_asked(job.study))
     titles = {"initial": "Before", "tuned": "After"}
-    return [(titles[side], scene.picture(k, f"The mechanism {titles[side].lower()}, at the start; faint: later"))
-            for k, (side, _, _) in enumerate(sides)]
+    moments = "in the first posture; faint: in others" if job.in_postures else "at the start; faint: later"
+    return [(titles[side], scene.picture(k, f"The mechanism {titles[side].lower()}, {moments}")) for k, (side, _, _) in enumerate(sides)], traced
 
 
 def embedded(job):
@@ -65,7 +66,7 @@ def commands(job):
         rows.append(("the same job from its files", f"codesign optimize {inputs} --output again"))
     rows += [("the same job from this folder alone", f"{here} && codesign optimize initial.urdf job_study.yaml --result initial.json --output again"),
              ("the objective of the result, to the last digit", f"{here} && codesign gradient tuned.urdf job_study.yaml --result result.json --json"),
-             ("the tuned run as a table", f"{here} && codesign simulate tuned.urdf job_study.yaml --result result.json --csv run.csv"),
+             ("the tuned postures as a table" if job.in_postures else "the tuned run as a table", f"{here} && codesign simulate tuned.urdf job_study.yaml --result result.json --csv run.csv"),
              ("the tuned mechanism in rviz",
               f"{here} && roslaunch mechanism_codesign simulate.launch model:=tuned.urdf study:=job_study.yaml result:=result.json")]
     if job.bag:
@@ -75,20 +76,30 @@ def commands(job):
     return rows
 
 
+def postures(job):
+    """(number, joints) of a study of postures; None of a motion."""
+    tables = [table for table in job.runs.values() if table]
+    return (len(tables[-1]) if tables else None, list(job.study["positions"])) if job.in_postures else None
+
+
 def context(job, scale):
     """Everything that the template shows."""
     friction_rows, friction_chart = results.friction(job)
+    pictures, traced = mechanism(job)
+    identified, interval_scale = results.identified(job)
+    signal_rows, zeros = signals.signal_rows(job)
     return {
         "job": job, "result": job.result, "details": job.details, "embedded": embedded(job),
         "verdict": " ".join(filter(None, (words.termination(job.result.get("termination", "")), words.stationarity(job.result)))),
         "terms": asked.objective_terms(job.study), "bounds": asked.bounds(job.study), "controllers": asked.controllers(job.study),
         "fitted": asked.identification(job.study) if job.kind == "identification" else [],
         "over": asked.settings(job.study, asked.OVER), "settings": asked.settings(job.study, asked.SOLVED),
-        "mechanism": mechanism(job), "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
+        "mechanism": pictures, "traced": traced, "postures": postures(job),
+        "wanted": job.in_postures and bool(asked.numbers_asked(job.study)), "objective_title": signals.GROUPS[0][0], "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
         "friction_rows": friction_rows, "friction_chart": friction_chart, "energies": results.energies(job),
-        "signal_rows": signals.signal_rows(job), "signal_groups": signals.signal_groups(job, scale),
+        "signal_rows": signal_rows, "zeros": zeros, "signal_groups": signals.signal_groups(job, scale),
         "waterfall": results.waterfall(job), "samples": results.samples(job),
-        "identified": results.identified(job), "correlations": results.correlations(job), "residuals": results.residuals(job),
+        "identified": identified, "interval_percent": numbers.short(100.0 * interval_scale, 3), "correlations": results.correlations(job), "residuals": results.residuals(job),
         "commands": commands(job),
     }
 

@@ -2,7 +2,7 @@
 """Charts of a search: convergence, starts, samples, what friction costs; and of an identification: intervals, correlations, residuals."""
 import math
 
-from .charts import Series, bar_chart, interval_chart, line_chart, matrix_chart
+from .charts import Series, bar_chart, interval_chart, interval_scale, line_chart, matrix_chart
 
 
 def convergence(job):
@@ -47,7 +47,7 @@ ENERGIES = (("friction", "friction, all joints"), ("damping", "damping"), ("actu
 
 def energies(job):
     sides = [job.details.get(side, {}).get("energy", {}) for side in ("initial", "tuned")]
-    return [(words, *(side.get(key) for side in sides)) for key, words in ENERGIES if any(key in side for side in sides)]
+    return [(words, *(side.get(key) for side in sides)) for key, words in ENERGIES if any(side.get(key) for side in sides)]
 
 
 def waterfall(job):
@@ -85,15 +85,16 @@ def samples(job):
 
 
 def identified(job):
-    """Rows of the identified numbers with a picture of each interval."""
+    """(rows, scale): the identified numbers with a picture of each interval, all on one scale relative to the value."""
+    items = {name: (item, *(item.get("interval") or [None, None])[:2]) for name, item in job.result.get("identified", {}).items()}
+    scale = interval_scale([(low, high, item.get("value")) for item, low, high in items.values()])
     rows = []
-    for name, item in job.result.get("identified", {}).items():
-        low, high = (item.get("interval") or [None, None])[:2]
+    for name, (item, low, high) in items.items():
         value = item.get("value")
-        chart = interval_chart(f"Interval of {name}", low, high, value, item.get("start")) if value is not None else ""
+        chart = interval_chart(f"Interval of {name}", low, high, value, item.get("start"), scale) if value is not None else ""
         note = "on its bound" if item.get("on_bound") else "" if item.get("determined", True) else "the data do not tell it"
         rows.append({"name": name, "item": item, "low": low, "high": high, "chart": chart, "note": note})
-    return rows
+    return rows, scale
 
 
 def correlations(job):

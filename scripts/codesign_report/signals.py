@@ -1,9 +1,14 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Every signal before and after, in groups, with peaks and limits."""
+import math
+import re
+
+from . import asked
 from .charts import Series, line_chart
 
 GROUPS = (
-    ("Objective and controllers", "errors, efforts and whatever else the study reads"),
+    ("Objective and bounds", "what the objective and the constraints read"),
+    ("Controllers", "errors, efforts and whatever else the study reads"),
     ("Friction", "friction, normal force, sliding velocity and power of each joint with friction; loss and torque of gears"),
     ("Motion", "positions and velocities"),
     ("Powers of the mechanism", "negative where energy leaves the mechanism"),
@@ -13,25 +18,27 @@ CAPACITY = 1_100_000  # bytes of all curves, so that the page stays below two me
 MOST_CHARTS = 300
 
 
-def group_of(name, used):
+def group_of(name, asked_for, used):
     quantity = name.rsplit("/", 1)[-1]
-    if name.startswith("mechanism/"):
-        return 3
-    if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss", "gear_deflection"):
-        return 1
-    if name in used or quantity in ("error", "output", "effort", "integral"):
+    if name in asked_for:
         return 0
-    return 2 if quantity in ("position", "velocity", "acceleration") else 4
+    if name.startswith("mechanism/"):
+        return 4
+    if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss", "gear_deflection"):
+        return 2
+    if name in used or quantity in ("error", "output", "effort", "integral"):
+        return 1
+    return 3 if quantity in ("position", "velocity", "acceleration") else 5
 
 
 def used_signals(study):
-    """The texts of all signals that the study names, at any place."""
+    """The texts of all signals that the study, or a part of it, names at any place."""
     found = set()
 
     def search(value):
         if isinstance(value, dict):
             for key, item in value.items():
-                if key in ("signal", "input", "peak") and isinstance(item, str):
+                if key in ("signal", "input", *asked.MEASURES) and isinstance(item, str):
                     found.add(item)
                 search(item)
         elif isinstance(value, list):
@@ -42,6 +49,16 @@ def used_signals(study):
     return found
 
 
+def asked_signals(study):
+    return used_signals({key: study.get(key) for key in ("objective", "path", "final", "constraints")})
+
+
+def traced(study, links):
+    """The links whose position the study reads, in the order of the model."""
+    found = {name for text in used_signals(study) for name in re.findall(r"([\w.:-]+)/position/[xyz]\b", text)}
+    return [name for name in links if name in found]
+
+
 def by_name(details, side):
     return {item["name"]: item for item in details.get(side, {}).get("signals", [])}
 
@@ -50,8 +67,23 @@ def limits_of(*items):
     return sorted({item[key] for item in items if item for key in ("lower", "upper") if item.get(key) is not None})
 
 
+def is_zero(job, row):
+    """Whether a signal is zero at all times, before and after, as powers are where nothing drives or moves the mechanism."""
+    sides = [side for side in (row["initial"], row["tuned"]) if side]
+    tables = [table[row["name"]] for table in job.runs.values() if table and row["name"] in table]
+    values = [side.get(key) for side in sides for key in ("smallest", "largest")] + [value for table in tables for value in table]
+    known = [value for value in values if value is not None and not (isinstance(value, float) and math.isnan(value))]
+    return bool(known) and not any(known)
+
+
 def signal_rows(job):
-    """One row per signal: name, unit, its summary before and after."""
+    """(rows, zeros): one row per signal, its name, unit, and summary before and after; and the names of those that are zero and not asked for."""
+    used, rows = used_signals(job.study), every_row(job)
+    zeros = [row["name"] for row in rows if row["name"] not in used and is_zero(job, row)]
+    return [row for row in rows if row["name"] not in zeros], zeros
+
+
+def every_row(job):
     before, after = by_name(job.details, "initial"), by_name(job.details, "tuned")
     names = list(after) + [name for name in before if name not in after]
     if not names:
@@ -64,21 +96,33 @@ def signal_rows(job):
     return rows
 
 
+MOST_DOTS = 60  # of a curve over postures, which has a dot in each
+
+
 def curves(job, name):
-    return [Series("before" if side == "initial" else "after", side, table["time"], table[name])
-            for side, table in job.runs.items() if table and name in table]
+    found = []
+    for side, table in job.runs.items():
+        if table and name in table:
+            times = [int(time) for time in table["time"]] if job.in_postures else table["time"]
+            style = "points" if job.in_postures and len(times) <= MOST_DOTS else "line"
+            found.append(Series("before" if side == "initial" else "after", side, times, table[name], style))
+    return found
 
 
 def signal_groups(job, scale=1.0):
     """[(title, words, [(row, chart)])] without empty groups. @param scale of the number of points of each curve."""
     used = used_signals(job.study)
     groups = [(title, words, []) for title, words in GROUPS]
-    rows = signal_rows(job)
+    rows, references = signal_rows(job)[0], asked.numbers_asked(job.study)
     most = int(scale * max(24, min(240, CAPACITY // (22 * max(1, min(len(rows), MOST_CHARTS))))))
-    for row in sorted(rows, key=lambda row: group_of(row["name"], used))[:MOST_CHARTS]:
+    groups_of = {row["name"]: group_of(row["name"], asked_signals(job.study), used) for row in rows}
+    for row in sorted(rows, key=lambda row: groups_of[row["name"]])[:MOST_CHARTS]:
         series = curves(job, row["name"])
         if series:
-            title = f'{row["name"]} before and after'
-            chart = line_chart(title, series, "time [s]", f'[{row["unit"]}]' if row["unit"] else "", row["limits"], most=most)
-            groups[group_of(row["name"], used)][2].append((row, chart))
+            if job.in_postures and row["name"] in references:
+                wanted, count = references[row["name"]], len(series[-1].xs)
+                series.append(Series("asked", "target", list(range(count)), (wanted * count if len(wanted) == 1 else wanted)[:count], "dots"))
+            chart = line_chart(f'{row["name"]} before and after', series, "posture" if job.in_postures else "time [s]",
+                               f'[{row["unit"]}]' if row["unit"] else "", row["limits"], most=most)
+            groups[groups_of[row["name"]]][2].append((row, chart))
     return [group for group in groups if group[2]]

@@ -42,6 +42,14 @@ class Notebook(unittest.TestCase):
             self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
             self.assertIn("--after", picture.find("{http://www.w3.org/2000/svg}style").text)
 
+    def test_a_run_of_postures_speaks_of_postures(self):
+        html = codesign.Problem(PENDULUM, "positions: {pivot: [0.0, 0.5, 1.0]}\n").simulate()._repr_html_()
+        self.assertIn("in the first posture; faint: in others", pictures(html))
+        self.assertIn("<th style=\"text-align:right\">in the last posture</th>", html)
+        texts = {text.text for text in pictures(html)["pivot/position"].iter("{http://www.w3.org/2000/svg}text")}
+        self.assertIn("posture", texts)
+        self.assertNotIn("time [s]", texts)
+
     def test_a_result_has_both_designs_and_the_search(self):
         result = codesign.Problem(PENDULUM, SWING).optimize()
         html = result._repr_html_()

@@ -126,6 +126,8 @@ class PanelTest(unittest.TestCase):
         stepped = self.page.done("step")
         period = self.robot.elapsed(self.robot.joints.messages[1])
         self.assertAlmostEqual(time_in(stepped) - time_in(paused), period, delta=1e-6, msg="a step is one frame")
+        self.page.wait(lambda state: float(state["simulation"]["values"]["time of the run"]) == time_in(stepped), "the page does not show the time after the step")
+        self.assertNotIn("real-time factor", self.page.state["simulation"]["values"])
         wait_until(lambda: self.robot.joints.last().header.stamp > last.header.stamp, "a step without a frame")
         self.page.done("resume")
         refused = self.page.do("step")

@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from node_process import PATIENCE, Launch, NodesTestCase, listeners, study_of, wait_until  # noqa: E402
 
 LONG, SECONDS = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000), 100.0  # of a run: minutes of computing
-# The pendulum of the README, without a visual.
+# A pendulum without a visual.
 MODEL = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
   <link name="ground"/>
   <link name="rod"><inertial><origin xyz="0 0 -0.25"/><mass value="1"/>

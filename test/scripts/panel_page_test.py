@@ -6,6 +6,7 @@ import math
 import os
 import sys
 import threading
+import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -167,6 +168,36 @@ class PageTest(PanelTestCase):
     def test_a_node_that_ends_is_said(self):
         self.board.tell("simulation", seen=-math.inf)
         self.page.wait("document.getElementById('state').textContent === 'The node /simulation does not answer.'")
+
+    def test_curves_of_a_robot_that_is_gone_are_its_last_ones(self):
+        values = "[...document.querySelectorAll('figure .values')].map(e => e.textContent.slice(0, 4))"
+        self.assertEqual(self.page.run(values), ["now "] * 3)
+        self.board.tell("simulation", seen=-math.inf)
+        for track in self.board.curves._tracks.values():
+            track["seen"] = -math.inf
+        self.page.wait("document.querySelectorAll('figure.gone').length === 3")
+        self.assertEqual(self.page.run(values), ["last"] * 3)
+        self.assertIn("The node /simulation does not answer: these are its last curves.", self.text("no-curves"))
+        self.assertEqual(self.page.run("[...document.querySelectorAll('#pause, #step, #restart, #parameters input, #defaults, #efforts button')].filter(e => !e.matches(':disabled')).length"), 0)
+        for _ in range(2):
+            self.board.tell("simulation", seen=time.monotonic() + 1e6)
+            self.frame(41)
+        self.page.wait("document.querySelectorAll('figure.gone').length === 0")
+        self.assertEqual(self.page.run("document.getElementById('pause').disabled"), False)
+
+    def test_an_answer_stands_at_its_control(self):
+        for width in (1280, 400):
+            self.page.resize(width, 600)
+            for control, act, text in (("pause", "document.getElementById('pause').click()", "pause is done"),
+                                       ("parameter-1", "{const f = document.getElementById('parameter-1'); f.value = 3; f.dispatchEvent(new Event('change'))}", "parameters is done"),
+                                       ("effort-0", "{const f = document.getElementById('effort-0'); f.value = 1; f.form.requestSubmit()}", "effort is done"),
+                                       ("optimize", "document.getElementById('optimize').click()", "optimize is done")):
+                self.page.run(f"document.getElementById('{control}').scrollIntoView({{block: 'center'}}); {act}")
+                self.page.wait(f"document.querySelector('.answer')?.textContent === '{text}'")
+                distance = self.page.run(f"document.querySelector('.answer').getBoundingClientRect().top - document.getElementById('{control}').getBoundingClientRect().bottom")
+                self.assertTrue(-1.0 <= distance < 90.0, f"{control}, {width}: {distance}")
+                self.assertEqual(self.page.run("document.querySelectorAll('.answer').length"), 1)
+                self.assertEqual(self.text("said"), text, "for a screen reader")
 
     def test_a_page_of_another_site_can_neither_read_nor_command(self):
         class Foreign(http.server.BaseHTTPRequestHandler):

@@ -1,13 +1,18 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """The panel without ROS: its curves, what it answers and what it refuses."""
+import contextlib
 import http.client
+import io
 import json
 import math
 import os
+import socket
+import struct
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from panel_fixture import PANEL, PATIENCE, PanelTestCase, server  # noqa: E402
@@ -53,6 +58,61 @@ class CurvesTest(unittest.TestCase):
         self.curves.add("signals", 0.0, ["elbow/position", "gravity/energy"], ("",), [[1.0, 3.0]])
         self.assertEqual(self.curves.names(), ["elbow/position", "elbow/velocity", "gravity/energy", "wrist/position", "wrist/velocity"])
         self.assertEqual(self.curves.since(["gravity/energy", "unknown"], None)[0], {"gravity/energy": [[0.0, 3.0]]})
+
+
+    def test_a_robot_that_is_gone_is_silent(self):
+        self.add(0.0, 1.0, 2.0)
+        self.curves.add("signals", 0.0, ["energy"], ("",), [[3.0]])
+        self.assertEqual(self.curves.silent(False), [], "its last frames are new")
+        for track in self.curves._tracks.values():
+            track["seen"] -= 2.0 * board.SILENCE
+        self.assertEqual(self.curves.silent(True), [], "a run that is paused")
+        self.assertEqual(self.curves.silent(False), ["elbow/position", "elbow/velocity", "energy", "wrist/position", "wrist/velocity"])
+        self.add(0.1, 1.0, 2.0)
+        self.assertEqual(self.curves.silent(True), ["energy"], "of the robot before, whose signals the one of now has not")
+
+
+class PausesTest(unittest.TestCase):
+    """A run that is paused: its node's diagnostics keep the time before the step, and a factor that counts the pause."""
+
+    def setUp(self):
+        self.now = 100.0
+        patch = unittest.mock.patch.object(nodes.time, "monotonic", lambda: self.now)
+        patch.start()
+        self.addCleanup(patch.stop)
+        self.nodes = nodes.Nodes.__new__(nodes.Nodes)
+        self.nodes._board = board.Board()
+        self.nodes.forget_pauses()
+
+    def told(self, wait=1.0, **values):
+        """What the board tells after diagnostics with these values, a moment later."""
+        self.now += wait
+        values = {key.replace("_", " ").replace("real time", "real-time"): value for key, value in values.items()}
+        self.nodes.correct(values)
+        self.nodes._board.tell("simulation", values=values)
+        return values
+
+    def answer(self, what, message):
+        self.nodes.note_answer(what, message)
+        return self.nodes._board.read("simulation", "values")
+
+    def test_the_time_after_a_step_is_that_of_its_answer(self):
+        self.told(time_of_the_run="0.9", waits_for="nothing", real_time_factor="1.0")
+        self.assertEqual(self.answer("pause", "paused after t = 1 s")["time of the run"], "1")
+        self.assertEqual(self.told(time_of_the_run="0.9", waits_for=nodes.STANDS)["time of the run"], "1")
+        self.assertEqual(self.answer("step", "t = 1.25 s")["time of the run"], "1.25")
+        self.assertEqual(self.told(0.01, time_of_the_run="0.9", waits_for="nothing")["time of the run"], "0.9", "on its way")
+        self.assertEqual(self.told(time_of_the_run="0.9", waits_for=nodes.STANDS)["time of the run"], "1.25")
+        self.answer("resume", "continues from t = 1.25 s")
+        self.assertEqual(self.told(time_of_the_run="2.25", waits_for="nothing")["time of the run"], "2.25")
+        self.assertEqual(self.told(time_of_the_run="2.5", waits_for=nodes.STANDS)["time of the run"], "2.5", "paused by another client")
+
+    def test_the_real_time_factor_does_not_count_the_pause(self):
+        self.assertEqual(self.told(waits_for="nothing", real_time_factor="1.0")["real-time factor"], "1.0")
+        self.assertNotIn("real-time factor", self.told(waits_for=nodes.STANDS, real_time_factor="1.0"))
+        self.answer("resume", "continues from t = 1.25 s")
+        self.assertNotIn("real-time factor", self.told(waits_for="nothing", real_time_factor="0.02"))
+        self.assertEqual(self.told(2.0, waits_for="nothing", real_time_factor="1.0")["real-time factor"], "1.0")
 
 
 class TopicsTest(unittest.TestCase):
@@ -154,6 +214,31 @@ class RequestsTest(PanelTestCase):
         self.assertEqual(event()[1]["points"]["elbow/friction"][0][0], 0.1)
         self.board.tell("simulation", seen=-math.inf)
         self.assertFalse(event()[1]["simulation"]["answers"])
+
+    def test_a_client_that_closes_the_connection_is_no_fault(self):
+        """It leaves no traceback, at whatever place of an answer it goes; a fault of the program does."""
+        told = io.StringIO()
+        with contextlib.redirect_stderr(told):
+            for error in (BrokenPipeError(), ConnectionResetError(), ConnectionAbortedError(), TimeoutError()):
+                with contextlib.suppress(OSError):
+                    try:
+                        raise error
+                    finally:
+                        self.server.handle_error(None, ("127.0.0.1", 1))
+            for path in ("/events", "/"):
+                connection = socket.create_connection(("127.0.0.1", self.port), PATIENCE)
+                # Closed at once with an RST, so that the answer has no receiver.
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+                connection.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+                connection.close()
+            self.assertEqual(self.ask("GET", "/")[0], 200)
+            self.assertEqual(told.getvalue(), "")
+            with contextlib.suppress(ValueError):
+                try:
+                    raise ValueError("a fault")
+                finally:
+                    self.server.handle_error(None, ("127.0.0.1", 1))
+        self.assertIn("ValueError: a fault", told.getvalue())
 
     def test_more_signals_than_a_page_has_curves_and_other_addresses_are_refused(self):
         self.assertEqual(self.ask("GET", "/events?" + "signal=x&" * (server.MOST_CURVES + 1))[0], 400)

@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """What README.md tells a newcomer to paste works and prints what stands there. Usage: readme_test.py CODESIGN"""
+import csv
+import json
+import math
 import os
 import re
 import shutil
@@ -40,6 +43,27 @@ class Readme(unittest.TestCase):
                 self.assertAlmostEqual(value, expected, delta=1e-6 * max(1.0, abs(expected)), msg=f"{found} instead of {shown}")
         page = subprocess.run([sys.argv[1], "report", "job", "-o", "swing.html"], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(page.returncode, 0, page.stderr)
+        with open(os.path.join(self.folder, "swing.html"), encoding="utf-8") as file:
+            pictures = re.findall(r'<g class="mechanism">.*?</g>', file.read(), re.DOTALL)
+        self.assertEqual([(picture.count('class="body solid"'), ">500 mm<" in picture) for picture in pictures], 2 * [(3, True)],
+                         "the joint, the rod and the bob, before and after")
+        self.check_promise()
+
+    def check_promise(self):
+        """What the text promises, and the closed form that it names."""
+        with open(os.path.join(self.folder, "job", "result.json"), encoding="utf-8") as file:
+            length = json.load(file)["parameters"]["length"]
+        with open(os.path.join(self.folder, "job", "tuned.csv"), encoding="utf-8") as file:
+            last = list(csv.DictReader(file))[-1]
+        self.assertEqual(float(last["time"]), 2.0)
+        self.assertLess(abs(float(last["pivot/velocity"])), 1e-6)
+        self.assertGreater(float(last["pivot/position"]), 0.045, "back where it was released, but for what friction took")
+        self.assertLess(float(last["pivot/position"]), 0.0499)
+        (shown,) = re.findall(r"g/π² = ([0-9.]+) m", TEXT)
+        self.assertEqual(f"{9.81 / math.pi ** 2:.3f}", shown)
+        self.assertEqual(f"{length:.3f}", shown)
+        # Of a bob with moment of inertia I: length + I / (mass * length), in a swing of 0.05 rad.
+        self.assertAlmostEqual(length + 1e-4 / length, 9.81 / math.pi ** 2 / (1.0 + 0.05 ** 2 / 16.0) ** 2, delta=2e-5)
 
     def test_what_it_names_exists(self):
         for path in re.findall(r"\]\((?!http)([^)#]+)", TEXT) + re.findall(r"\./(tools/\w+)", TEXT):

@@ -10,7 +10,7 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from codesign_report import charts, drawing, geometry, numbers  # noqa: E402
+from codesign_report import asked, charts, drawing, geometry, numbers, signals  # noqa: E402
 
 
 class Parts(unittest.TestCase):
@@ -44,6 +44,37 @@ class Parts(unittest.TestCase):
         self.assertTrue(all(a - b >= 13.9 for a, b in zip(heights, heights[1:])), heights)
         for x, text in re.findall(r'class="tick" x="([0-9.]+)" y="[0-9.]+" text-anchor="end">([^<]*)<', svg):
             self.assertGreater(float(x) - charts.LETTER * len(text), 18.0, "beside the name of the axis")
+
+    def test_intervals_are_on_one_scale_relative_to_their_values(self):
+        intervals = [(0.98, 1.02, 1.0), (190.0, 210.0, 200.0), (-4.2e-5, -3.8e-5, -4e-5)]
+        self.assertAlmostEqual(charts.interval_scale(intervals), 0.05)
+
+        def bar(low, high, value, scale, start=None):
+            svg = charts.interval_chart("t", low, high, value, start, scale)
+            (ends,) = re.findall(r'class="interval" d="M([0-9.]+) 10H([0-9.]+)"', svg)
+            return float(ends[1]) - float(ends[0]), svg
+
+        self.assertEqual([round(bar(*each, 0.1)[0], 6) for each in intervals], [28.0, 70.0, 70.0])
+        self.assertEqual([bar(*each, 0.1)[1].count("beyond") for each in ((0.95, 1.2, 1.0), (0.5, 1.5, 1.0), (-1.0, 1.0, 0.0))], [1, 2, 2])
+        self.assertEqual([bar(0.9, 1.1, 1.0, 0.1, start)[1].count("initial") for start in (1.05, 3.0)], [1, 0])
+        self.assertEqual(charts.interval_scale([(None, None, 2.0), (0.0, 9.0, 1.0)]), 1.0)
+        self.assertEqual(charts.interval_scale([]), 1.0)
+
+    def test_all_terms_of_an_objective_and_all_bounds_are_told(self):
+        study = {"positions": {"crank": [0, 1]}, "final": [{"signal": "a", "between": [1, 2]}],
+                 "objective": {"sum": [{"signal": "s", "reference": [1, 2.5]}, {"signal": "e", "reference": "${x}"}], "terminal": [{"signal": "t"}],
+                               "stroke": [{"signal": "d", "weight": -1, "after": 2, "before": 3}]},
+                 "constraints": [{"stroke": "o", "at_least": 0.5}, {"dwell": "p", "band": [0, 1], "at_least": 0.3}, {"expression": "${a+b}", "at_most": 1}]}
+        self.assertEqual([(term.signal, term.kind) for term in asked.objective_terms(study)],
+                         [("s", "sum over the postures of " + asked.SQUARE), ("e", "sum over the postures of " + asked.SQUARE),
+                          ("t", "in the last posture, " + asked.SQUARE),
+                          ("d", "weight \u00b7 (largest minus smallest signal \u2212 reference), after 2, before 3")])
+        self.assertEqual(asked.bounds(study), [("a in the last posture", "between [1, 2]"), ("stroke of o", "at least 0.5"),
+                                               ("dwell of p, band [0, 1]", "at least 0.3"), ("${a+b}", "at most 1")])
+        self.assertEqual(asked.numbers_asked(study), {"s": [1.0, 2.5]})
+        for key in ("integral", "sum", "terminal", *asked.MEASURES):
+            self.assertEqual(len(asked.objective_terms({"objective": {key: [{"signal": "s"}]}})), 1, key)
+            self.assertEqual(signals.used_signals({"constraints": [{key: "s"}]}), {"s"} if key in asked.MEASURES else set())
 
     def test_names_of_correlations_are_whole(self):
         name = "data[0].start.crank_joint"
@@ -82,6 +113,44 @@ class Parts(unittest.TestCase):
         scene = drawing.Scene([(robot, {"times": [0.0], "links": {"ground": [pose], "arm": [pose]}})])
         (ax, ay), (bx, by) = scene.place((1.0, 0.0, 0.0)), scene.place((0.5, 0.0, 1.0))
         self.assertEqual(scene.picture(0, "t").count(f'<path class="body stick" d="M{ax} {ay}L{bx} {by}"/>'), 2)
+
+    def test_links_without_shapes_have_the_sticks_that_rviz_shows(self):
+        """The same model and numbers as in the test of the viewers' sticks."""
+        with open(os.path.join(ROOT, "test/reading/urdf/stick_figure_test.cc"), encoding="utf-8") as file:
+            bare = re.search(r'kBare = R"\((.*?)\)";', file.read(), re.DOTALL)[1]
+        solids = geometry.Robot(bare).solids
+        box = {name: [[(min(p[k] for p in s.points), max(p[k] for p in s.points)) for k in range(3)] for s in solids[name]] for name in solids}
+        self.assertEqual([[s.kind for s in solids[name]] for name in ("ground", "cart", "rod", "bob", "tool")],
+                         [[], ["box"], ["cylinder", "sphere"], ["sphere", "cylinder", "sphere"], []])
+        self.assertEqual(box["cart"][0], 3 * [(-0.05, 0.05)])
+        for found, known in zip(box["rod"][0], ((0.0, 1.0), (-0.02, 0.02), (-0.02, 0.02))):
+            self.assertLess(max(abs(a - b) for a, b in zip(found, known)), 1e-12)
+        self.assertLess(max(abs(a - b) for a, b in zip(box["bob"][2][2], (-0.56, -0.44))), 1e-12, "a sphere at the centre of mass")
+        ends = '<predecessor link="ground"><origin xyz="3 0 0"/></predecessor><successor link="bob"><origin xyz="0 2 0"/></successor>'
+        closed = geometry.Robot(bare.replace("</robot>", f'<loop name="pin" type="revolute">{ends}</loop></robot>')).solids
+        self.assertEqual([s.kind for name in ("ground", "bob") for s in closed[name]], ["cylinder", "cylinder", "sphere"])
+        mesh = '<link name="rod"><visual><geometry><mesh filename="package://a/b.stl"/></geometry></visual>'
+        self.assertEqual([s.kind for s in geometry.Robot(bare.replace('<link name="rod">', mesh)).solids["rod"]], ["cylinder", "sphere"])
+
+    def test_a_pendulum_without_shapes_is_seen_from_its_side_with_a_true_scale(self):
+        robot = geometry.Robot("""<robot name="r"><link name="ground"/><link name="bob"><inertial><origin xyz="0 0 -1"/><mass value="1"/></inertial></link>
+            <joint name="j" type="continuous"><parent link="ground"/><child link="bob"/><axis xyz="0 1 0"/></joint></robot>""")
+        poses = [[0.0, 0.0, 0.0, math.cos(0.5 * a), 0.0, math.sin(0.5 * a), 0.0] for a in (0.3, -0.3)]
+        scene = drawing.Scene([(robot, {"times": [0.0, 1.0], "links": {"ground": poses, "bob": poses}})])
+        self.assertEqual(tuple(map(abs, scene.towards)), (0, 1, 0))
+        picture = scene.picture(0, "t")
+        self.assertEqual([picture.count(f'class="{kind} solid"') for kind in ("body", "ghost")], [3, 3])
+        self.assertIn(">500 mm<", picture)
+        bar = re.search(r'<path class="frame" d="M14 [0-9]+V[0-9]+H([0-9.]+)', picture)
+        self.assertAlmostEqual(float(bar[1]) - 14.0, 0.5 * scene.scale, delta=0.1)
+        self.assertGreater(scene.scale, 150.0, "it fills the picture")
+
+    def test_the_scale_of_a_small_mechanism_has_a_unit_that_fits(self):
+        for size, text in ((2.0, ">1 m<"), (2e-6, ">1 \u00b5m<"), (2e-9, ">1 nm<")):
+            robot = geometry.Robot(f"""<robot name="r"><link name="ground"/><link name="a"><visual><geometry><box size="{size} {size} {size}"/></geometry></visual></link>
+                <joint name="j" type="continuous"><parent link="ground"/><child link="a"/></joint></robot>""")
+            pose = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+            self.assertIn(text, drawing.Scene([(robot, {"times": [0.0], "links": {"a": [pose]}})]).picture(0, "t"))
 
     def test_a_fixed_body_is_whole_unless_the_mechanism_became_small(self):
         def scene(height):

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """The page of `codesign report`, of jobs that the program runs here and of files made here. Usage: report_test.py CODESIGN"""
+import contextlib
 import csv
 import html.parser
 import json
@@ -9,6 +10,7 @@ import os
 import re
 import resource
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -17,7 +19,9 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from codesign_report import numbers, words  # noqa: E402
+sys.path.insert(0, os.path.join(ROOT, "test"))
+from codesign_report import geometry, numbers, words  # noqa: E402
+from patience import PATIENCE  # noqa: E402
 
 PENDULUM = """<robot name="pendulum" xmlns:codesign="urn:mechanism_codesign">
 <codesign:parameter name="length" value="0.5" lower="0.3" upper="0.8" unit="m"/>
@@ -50,12 +54,15 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.open, self.faults, self.data, self.ids, self.links, self.tags, self.text = [], [], [], [], [], [], ""
+        self.seen = []  # the tags that are not folded away
         self.feed(text)
         self.close()
 
     def handle_starttag(self, tag, attrs):
         attributes = dict(attrs)
         self.tags.append((tag, attributes))
+        if "details" not in self.open:
+            self.seen.append(tag)
         if "id" in attributes:
             self.ids.append(attributes["id"])
         self.links += [attributes[key] for key in ("href", "src", "data", "action") if key in attributes]
@@ -290,6 +297,69 @@ class Report(unittest.TestCase):
                     file.write(",".join(f"{math.sin(0.1 * row * (k + 1)):.17g}" if k else str(row) for k in range(601)) + "\n")
         self.made_page("large")
 
+    def test_what_decides_is_seen_and_the_rest_is_folded(self):
+        """A robot of thirty joints, of which the objective reads one: its curve, and none of the others, is seen at once."""
+        folder = self.path("folded")
+        os.makedirs(folder)
+        names = [f"joint_{k}/{quantity}" for k in range(30) for quantity in ("position", "velocity")]
+        files = {"result.json": json.dumps({"objective": 1.0, "gradient": {"g1": 0.0}, "termination": "success", "evaluations": 1,
+                                            "warnings": [{"code": "a_code", "message": "a doubt"}]}),
+                 "details.json": json.dumps({"parameters": [{"name": f"g{k}", "initial": 1.0, "value": 2.0, "lower": 0.0, "upper": 3.0, "unit": "", "tuned": k < 2}
+                                                            for k in range(40)]}),
+                 "job_study.yaml": "duration: 1\nobjective: {terminal: [{signal: joint_7/position}]}\n",
+                 "tuned.csv": ",".join(["time", *names]) + "\n" + "".join(",".join([str(t), *("1.5" for _ in names)]) + "\n" for t in (0, 1))}
+        for name, text in files.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        text, page = self.made_page("folded")
+        self.assertEqual(page.seen.count("figure"), 1)
+        self.assertEqual([tag for tag, _ in page.tags].count("figure"), 60)
+        self.assertEqual(text.count("<details>"), page.seen.count("details"), "nothing is folded twice")
+        self.assertIn("38 parameters that were not tuned", page.text)
+        self.assertLess(page.seen.count("tr"), 12)
+        self.assertLess(text.index("a doubt"), text.index('aria-label="Tuned parameters"'), "doubts come first")
+
+    def test_links_without_shapes_are_the_sticks_of_viewers(self):
+        """In every shipped model: what `codesign urdf --sticks` gives rviz, apart from sticks to springs, of which rviz has none."""
+        models = [os.path.join(ROOT, "urdf", name) for name in sorted(os.listdir(os.path.join(ROOT, "urdf"))) if name.endswith(".urdf")]
+        compared = 0
+        for model in models:
+            plain, sticks = (run("urdf", model, *options) for options in ((), ("--sticks",)))
+            self.assertEqual(plain.returncode + sticks.returncode, 0, plain.stderr + sticks.stderr)
+            ours, theirs = geometry.Robot(plain.stdout), geometry.Robot(sticks.stdout)
+            springs = set(re.findall(r'link="([^"]*)"', "".join(re.findall(r"<codesign:spring_damper.*?</codesign:spring_damper>", plain.stdout, re.DOTALL))))
+            for name in set(ours.solids) - springs:
+                pairs = [[sorted(point for solid in robot.solids[name] for point in solid.points)] for robot in (ours, theirs)]
+                self.assertEqual(*map(len, pairs[0] + pairs[1]), f"{model}: {name}")
+                compared += any(solid.is_stick for solid in ours.solids[name])
+                for one, other in zip(pairs[0][0], pairs[1][0]):
+                    self.assertLess(math.dist(one, other), 1e-6, f"{model}: {name}")
+        self.assertGreaterEqual(compared, 10)
+
+    def test_a_study_of_postures(self):
+        """Its page speaks of postures, shows the path and where it should be, and nothing that is zero."""
+        case = [os.path.join(ROOT, folder, "four_bar_path" + end) for folder, end in (("urdf", ".urdf"), ("config", ".yaml"))]
+        done = run("optimize", *case, "--quiet", "--output", self.path("postures"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text, page = self.made_page("postures")
+        for words in ("18 postures, given by the position of crank_joint", "Minimize the sum of these terms", "sum over the postures of weight",
+                      "[0.5, 0.4, 0.3, 0.2,", "the path of pen", "the tuned postures as a table"):
+            self.assertIn(words, page.text)
+        for words in ("time [s]", "at [s]", "Runs of", "over the run", "energy balance"):
+            self.assertNotIn(words, text.split("result-json")[0], words)
+        self.assertEqual(text.count(">posture</text>"), 4, "position of two joints, and two coordinates of the pen")
+        pictures = re.findall(r'<g class="mechanism">.*?</g>', text, re.DOTALL)
+        for picture in pictures:
+            (path,) = re.findall(r'<path class="trace" d="([^"]*)"', picture)
+            self.assertEqual(len(re.findall("[ML]", path)), 18)
+            self.assertEqual(picture.count('class="target mark"'), 18)
+        (after,) = re.findall(r'<path class="trace" d="([^"]*)"', pictures[1])
+        wanted = re.findall(r'<path class="target mark" d="M([0-9.]+) ([0-9.]+)', pictures[1])
+        for (x, y), (wanted_x, wanted_y) in zip(re.findall(r"[ML]([0-9.]+) ([0-9.]+)", after), wanted):
+            self.assertLess(abs(float(x) - float(wanted_x) - 4.0) + abs(float(y) - float(wanted_y)), 8.0, "the tuned path passes the crosses")
+        self.assertIn("Zero throughout, and not drawn: crank_joint/velocity", page.text)
+        self.assertNotRegex(text, "<figcaption>mechanism/")
+
     def page_of_efforts(self, name, study):
         for suffix, text in ((".urdf", PENDULUM), (".yaml", study)):
             with open(self.path(name + suffix), "w", encoding="utf-8") as file:
@@ -352,14 +422,46 @@ class Report(unittest.TestCase):
             self.assertEqual(done.returncode, 2, output)
             self.assertIn(f"{output}: the page would replace this file of the job", done.stderr)
             self.assertEqual(read(output), before)
-        kept, part = self.path("kept"), self.path("linked.html.part")
-        with open(kept, "w", encoding="utf-8") as file:
-            file.write("kept")
-        os.symlink(kept, part)
-        for output in (self.path("job", "report.html"), self.path("job", "report.html"), self.path("linked.html")):
-            self.assertEqual(run("report", self.path("job"), "-o", output).returncode, 0, "a page replaces an earlier page")
-        self.assertEqual(read(kept), b"kept")
+        for _ in range(2):
+            self.assertEqual(run("report", self.path("job"), "-o", self.path("job", "report.html")).returncode, 0, "a page replaces an earlier page")
         os.remove(self.path("job", "report.html"))
+
+    def test_devices_and_links_stay_and_nothing_begun_remains(self):
+        """As root a device that was replaced is lost to the whole machine, so that all of it happens in a folder of its own."""
+        folder = self.path("outputs")
+        os.makedirs(folder)
+        fifo, link, leads_to, device, page = (os.path.join(folder, name) for name in ("fifo", "link", "leads_to", "device", "page.html"))
+        os.mkfifo(fifo)
+        reader = subprocess.Popen(["cat", fifo], stdout=subprocess.PIPE)
+        self.assertEqual(run("report", self.path("job"), "-o", fifo).returncode, 0)
+        self.assertIn(b"</html>", reader.communicate(timeout=PATIENCE)[0])
+        self.assertTrue(stat.S_ISFIFO(os.lstat(fifo).st_mode))
+        os.symlink(leads_to, link)
+        for before in (None, "of before"):
+            if before:
+                with open(leads_to, "w", encoding="utf-8") as file:
+                    file.write(before)
+                os.chmod(leads_to, 0o640)
+            self.assertEqual(run("report", self.path("job"), "-o", link).returncode, 0)
+            self.assertIn(b"</html>", read(leads_to))
+            self.assertTrue(os.path.islink(link))
+        self.assertEqual(stat.S_IMODE(os.stat(leads_to).st_mode), 0o640)
+        with contextlib.suppress(PermissionError):  # only root makes devices, and not in every container
+            os.mknod(device, 0o666 | stat.S_IFCHR, os.makedev(1, 3))  # as /dev/null
+            run("report", self.path("job"), "-o", device)
+            self.assertTrue(stat.S_ISCHR(os.lstat(device).st_mode))
+            os.remove(device)
+        self.assertIn("</html>", run("report", self.path("job"), "-o", "/dev/stdout").stdout)
+        done = run("report", self.path("job"), "-o", folder)
+        self.assertEqual((done.returncode, done.stderr), (1, f"codesign report: {folder}: cannot be written: Is a directory\n"))
+        # A disk that is full after 2000 bytes: the page of before stays, and no part of the new one.
+        with open(page, "w", encoding="utf-8") as file:
+            file.write("of before")
+        names = sorted(os.listdir(folder))
+        done = run("report", self.path("job"), "-o", page, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"codesign report: {page}: cannot be written: ", done.stderr)
+        self.assertEqual((read(page), sorted(os.listdir(folder))), (b"of before", names))
 
     def test_damaged_files_are_named(self):
         shutil.copytree(self.path("job"), self.path("damaged"))

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """watch follows the folder of a job without ROS, and its page gets every point once."""
+import contextlib
+import http.client
 import importlib.machinery
 import importlib.util
 import json
@@ -133,6 +135,28 @@ class PageTest(unittest.TestCase):
 
     def test_only_this_machine_can_read_it(self):
         self.assertEqual(self.server.server_address[0], "127.0.0.1")
+
+    def code(self, path, hosts, **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", self.server.server_address[1], timeout=PATIENCE)
+        with contextlib.closing(connection):
+            connection.putrequest("GET", path, skip_host=True)
+            for name, value in [*(("Host", host) for host in hosts), *((name.replace("_", "-"), value) for name, value in headers.items())]:
+                connection.putheader(name, value)
+            connection.endheaders()
+            return connection.getresponse().status
+
+    def test_pages_of_other_sites_are_refused(self):
+        """A site can give its own name the address of this machine, and then read what the page may read."""
+        port = self.server.server_address[1]
+        for path in ("/", "/points.json"):
+            for hosts in ([], ["evil.example"], [f"evil.example:{port}"], ["localhost", "localhost"], [f"localhost.evil.example:{port}"]):
+                self.assertEqual(self.code(path, hosts), 403, f"{path} {hosts}")
+            for host in (f"localhost:{port}", f"127.0.0.1:{port}", "LocalHost:9000"):
+                self.assertEqual(self.code(path, [host], Origin=f"http://{host}"), 200, host)
+        self.assertEqual(self.code("/points.json", ["localhost"], Origin="http://evil.example"), 403)
+        self.assertEqual(self.code("/points.json", ["localhost"], Sec_Fetch_Site="cross-site"), 403)
+        self.assertEqual(self.code("/", ["localhost"], Sec_Fetch_Site="cross-site"), 200, "a link to the page")
+        self.assertEqual(self.code("http://[", ["localhost"]), 400)
 
 
     def test_a_damaged_table_ends_it(self):

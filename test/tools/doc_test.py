@@ -77,6 +77,16 @@ class DocTest(unittest.TestCase):
             path, = re.findall(rf'href="([^"]+/{name})"', page)
             self.assertEqual((self.html / "gallery/toggle_press" / path).read_text(), (ROOT / "gallery/toggle_press" / name).read_text())
 
+    def test_the_first_page_has_a_picture_three_doors_and_the_gallery(self):
+        page = (self.html / "doc/README.html").read_text()
+        before = page[:page.index('id="tutorials"')]
+        doors, machines = (re.search(rf'<table class="{name}">.*?</table>', before, re.DOTALL)[0] for name in ("doors", "machines"))
+        self.assertEqual(re.findall("<b>(.*?)</b>", doors), ["A mechanism", "A robot", "A recording"])
+        named = {path.parent.name for path in (ROOT / "gallery").glob("*/study.yaml")}
+        self.assertEqual(set(re.findall(r'<img src="../gallery/(\w+)/picture.svg"', machines)), named)
+        self.assertEqual(set(re.findall(r'<a href="../gallery/(\w+)/README.html">', machines)), named)
+        self.assertIn("replay.png", before)
+
     def test_the_packages_are_those_of_the_set_up(self):
         listed = subprocess.run([ROOT / "tools/setup", "--list", "--core", "--doc"], capture_output=True, text=True, check=True).stdout.split()
         named = re.search(r'^PACKAGES = "(.*)"', (ROOT / "tools/doc").read_text(), re.MULTILINE).group(1).split()
@@ -107,6 +117,35 @@ class DocTest(unittest.TestCase):
         page.open((self.html / "search.html").as_uri() + "?q=stribeck")
         page.wait("document.querySelectorAll('#search-results li a').length > 0")
         self.assertEqual(page.errors, [])
+
+    @unittest.skipUnless(browser.PATH, NO_BROWSER)
+    def test_a_search_has_decisions_and_changes_last(self):
+        page = browser.Browser()
+        self.addCleanup(page.close)
+        links = "[...document.querySelectorAll('#search-results > ul > li')].map(e => e.querySelector('a').getAttribute('href'))"
+        for words in ("friction", "posture"):
+            page.open((self.html / "search.html").as_uri() + f"?q={words}")
+            # The results come one after the other; what says how many there are comes last.
+            page.wait("/found \\d+ page/.test(document.querySelector('#search-results').textContent)")
+            last = [bool(re.search("decisions/|CHANGELOG", link)) for link in page.run(links)]
+            self.assertIn(True, last)
+            self.assertEqual(last, sorted(last), words)
+        self.assertEqual(page.errors, [])
+
+    @unittest.skipUnless(browser.PATH, NO_BROWSER)
+    def test_sentences_of_wide_tables_are_legible_in_a_narrow_window(self):
+        """Each row is a block, whose cells have the names of their columns and the width of the window."""
+        page = browser.Browser(400)
+        self.addCleanup(page.close)
+        page.open((self.html / "doc/ros_api.html").as_uri())
+        narrow = "[...document.querySelectorAll('article table.docutils td')].filter(e => e.textContent.length > 60 && e.getBoundingClientRect().width < 200).map(e => e.textContent.slice(0, 40))"
+        self.assertEqual(page.run(narrow), [])
+        label = "(() => { const cell = [...document.querySelectorAll('td')].find(e => e.textContent.startsWith('frames per second of the run')); return [getComputedStyle(cell, '::before').content, cell.getBoundingClientRect().width]; })()"
+        content, width = page.run(label)
+        self.assertEqual(content, '"meaning: "')
+        self.assertGreater(width, 300)
+        page.resize(1280)
+        self.assertEqual(page.run(label)[0], "none")
 
 
 class RosdocTest(unittest.TestCase):
