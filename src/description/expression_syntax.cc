@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "description/expression.h"
@@ -36,7 +37,11 @@ class Parser {
 
   ParsedExpression run() {
     if (scanner_.token().kind == Kind::kEnd) throw std::invalid_argument("the expression is empty");
-    if (conditional() == Type::kTruth) scanner_.fail("a comparison is not a number", 0);
+    const Type type = conditional();
+    if (type == Type::kTruth && !scope_.is_condition)
+      scanner_.fail("a comparison is not a number", 0);
+    if (type == Type::kNumber && scope_.is_condition)
+      scanner_.fail("a number stands where a comparison is needed", 0);
     if (scanner_.token().kind != Kind::kEnd) unexpected();
     return finish();
   }
@@ -63,7 +68,7 @@ class Parser {
   Type conditional() {
     const Level level(this);
     const std::size_t begin = scanner_.token().at;
-    const Type type = comparison();
+    const Type type = disjunction();
     if (!scanner_.is("?")) return type;
     if (type != Type::kTruth)
       scanner_.fail("a number stands before '?' where a comparison is needed", begin);
@@ -76,6 +81,64 @@ class Parser {
     number(&Parser::conditional);
     steps_[to_end].index = branch_end();
     return Type::kNumber;
+  }
+
+  // Truth is 1 or 0, so that a product is `and`, 1 - x is `not x`, and `x or y` is the negation of
+  // both negated. All comparisons are evaluated: none hides another one.
+
+  Type disjunction() {
+    const std::size_t begin = scanner_.token().at;
+    const Type type = conjunction();
+    if (!scanner_.is_word("or")) return type;
+    need_truth(type, begin);
+    negate();
+    while (scanner_.is_word("or")) {
+      scanner_.next();
+      truth(&Parser::conjunction);
+      negate();
+      operate({Code::kMultiply, 0, 2, 0.0});
+    }
+    negate();
+    return Type::kTruth;
+  }
+
+  Type conjunction() {
+    const std::size_t begin = scanner_.token().at;
+    const Type type = negation();
+    if (!scanner_.is_word("and")) return type;
+    need_truth(type, begin);
+    while (scanner_.is_word("and")) {
+      scanner_.next();
+      truth(&Parser::negation);
+      operate({Code::kMultiply, 0, 2, 0.0});
+    }
+    return Type::kTruth;
+  }
+
+  Type negation() {
+    if (!scanner_.is_word("not")) return comparison();
+    const Level level(this);
+    scanner_.next();
+    truth(&Parser::negation);
+    negate();
+    return Type::kTruth;
+  }
+
+  /// Replaces the truth on the stack by 1 minus it.
+  void negate() {
+    operate({Code::kNegate, 0, 1, 0.0});
+    add({Code::kConstant, 0, 0, 1.0});
+    operate({Code::kAdd, 0, 2, 0.0});
+  }
+
+  void truth(Type (Parser::*rule)()) {
+    const std::size_t begin = scanner_.token().at;
+    need_truth((this->*rule)(), begin);
+  }
+
+  void need_truth(Type type, std::size_t begin) const {
+    if (type == Type::kNumber)
+      scanner_.fail("a number stands where a comparison is needed", begin);
   }
 
   Type comparison() {
@@ -368,8 +431,10 @@ std::string identifier_fault(const std::string& name) {
   if (name.empty()) return "the name is empty";
   if (!starts_identifier(name[0]) || !std::all_of(name.begin(), name.end(), continues_identifier))
     return "'" + name + "' is not an identifier (letters, digits and _, not starting with a digit)";
-  if (name == "pi" || find_expression_function(name) >= 0)
-    return "'" + name + "' is a function or constant of expressions; choose another name";
+  static const std::set<std::string> kReserved = {"pi", "and", "or", "not"};
+  if (kReserved.count(name) > 0 || find_expression_function(name) >= 0)
+    return "'" + name +
+           "' is a function, an operator or a constant of expressions; choose another name";
   return "";
 }
 

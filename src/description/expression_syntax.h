@@ -33,6 +33,10 @@ class ExpressionScanner {
   bool is(const char* symbol) const {
     return token_.kind == ExpressionToken::Kind::kSymbol && token_.text == symbol;
   }
+  /// Whether the token is one of the words and, or, not.
+  bool is_word(const char* word) const {
+    return token_.kind == ExpressionToken::Kind::kName && token_.text == word;
+  }
   /// Reads the next token. @throws std::invalid_argument if it is invalid.
   void next();
 
@@ -64,8 +68,8 @@ struct ParsedExpression {
   ExpressionSteps steps;          ///< variable k is parameter dependencies[k]
 };
 
-/// Parses an expression. Operators by ascending precedence: `sum < sum ? conditional :
-/// conditional`, `+ -`, `* /`, signs, `** ^` (right associative), then numbers, names, calls and
+/// Parses an expression. Operators by ascending precedence: `condition ? conditional :
+/// conditional`, `or`, `and`, `not`, comparisons of two sums, `+ -`, `* /`, signs, `** ^` (right associative), then numbers, names, calls and
 /// parentheses; doc/decisions/0040-expressions-parsed-by-ourselves.md.
 /// @throws std::invalid_argument with a sentence that names the error and its position.
 ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);

@@ -85,6 +85,7 @@ Status IdasIntegrator::start(const std::vector<double>& parameters) {
   message_.clear();
   restart_warnings_.clear();
   equations_.start();
+  if (Status status = begin_run(system_.study(), parameters); !status.ok()) return status;
   if (Status status = assemble(parameters); !status.ok()) return status;
   equations_.count_turns_from(initial_);
   equations_.pack(initial_, span_of(y_.get()), span_of(y_dot_.get()));
@@ -185,6 +186,7 @@ Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters)
   if (Status status = continuation_.cross(parameters, between, &assembly_, &equations(), &behind);
       !status.ok())
     return status;
+  if (Status status = go_on_run(system_.study(), parameters, between); !status.ok()) return status;
   state_ = behind;
   span_of(psi_.get())[0] = reached;
   equations_.start();

@@ -50,6 +50,9 @@ class ModeWatch {
   /// is zero, located to rounding, if one leaves its side within the attempt; cross() is then due.
   /// @returns false if such an attempt fails: the step is to be repeated with a smaller size.
   bool cut(RosenbrockStep<double>* step);
+  /// The guard at whose zero the last attempt was cut, -1 if none; and the mode behind it.
+  int guard() const { return guard_; }
+  const std::vector<bool>& next_mode() const { return next_mode_; }
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
   /// After an instant at which inputs jumped or the design changed: the mode is looked at.

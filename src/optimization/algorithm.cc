@@ -113,6 +113,12 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
     fault.allowed += ", or solver.gradient auto or direct";
     throw InputError(fault);
   }
+  if (has_moving_end(study)) {
+    fault.message =
+        "this algorithm takes sums of squares over one time for all designs, and the end of a run "
+        "depends on the design";
+    throw InputError(fault);
+  }
   for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
     for (const ObjectiveTerm& term : *terms)
       if (term.weight.is_constant() && term.weight.nominal() < 0.0)
