@@ -205,6 +205,13 @@ bool is_braced(const std::string& text) {
 
 }  // namespace
 
+SignalDescription end_time_signal(const SourceLocation& where) {
+  SignalFormula time;
+  time.steps.push_back({ExpressionStep::Code::kVariable, 0, 0, 0.0});
+  time.names.emplace_back(kEndTime);
+  return {kEndTime, {}, where, std::make_shared<const SignalFormula>(std::move(time))};
+}
+
 SignalDescription parse_condition(const std::string& text, const SourceLocation& where,
                                   const std::string& element) {
   if (!is_braced(trimmed(text)))

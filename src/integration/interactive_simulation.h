@@ -22,7 +22,11 @@ class InteractiveSimulation {
                         const std::vector<SignalDescription>& signals);
 
   const CommandInputs& inputs() const { return inputs_; }
+  /// Of the longest run [s].
   double duration() const { return inputs_.study.duration; }
+  /// As Simulation::end() and has_ended(), after start().
+  double end() const { return simulation_->end(); }
+  bool has_ended() const { return simulation_->has_ended(); }
   /// The names of frames; controllers have the names of the study.
   const FrameNames& names() const { return names_; }
   const std::vector<double>& parameters() const { return parameters_; }

@@ -53,6 +53,12 @@ class ModeWatch {
   /// The guard at whose zero the last attempt was cut, -1 if none; and the mode behind it.
   int guard() const { return guard_; }
   const std::vector<bool>& next_mode() const { return next_mode_; }
+  /// The rate of that guard along the motion in the mode that is held [per s]. @param at the end of
+  /// the step, with its z. @param rates of that state.
+  double end_rate(const State<double>& at, const State<double>& rates) {
+    along_->hold(mode_);
+    return guard_rate(guard_, at, rates);
+  }
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
   /// After an instant at which inputs jumped or the design changed: the mode is looked at.

@@ -171,8 +171,6 @@ const Statistics& Simulation::statistics() const { return implementation_->stati
 const std::vector<MethodChange>& Simulation::methods() const { return implementation_->methods(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
-namespace {
-
 // Where a run ends by its condition, only the run tells: it is computed once more for the samples.
 Status find_end(Simulation* simulation, double* end) {
   *end = std::min(*end, simulation->end());
@@ -181,8 +179,6 @@ Status find_end(Simulation* simulation, double* end) {
   if (simulation->has_ended()) *end = std::min(*end, simulation->time());
   return simulation->start();
 }
-
-}  // namespace
 
 Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer,
                 const std::atomic<bool>* cancel) {

@@ -102,8 +102,8 @@ void check_moving_end(const YamlValue& root, const Study& study) {
     if (has_band(watched))
       throw InputError({watched.where, watched.element,
                         "arrival and dwell have no derivative by an end that depends on the design",
-                        watched.signal.text, "end_time, stroke, maximum, minimum, peak; or a "
-                        "duration that is a number, without until"});
+                        watched.signal.text, "stroke, maximum, minimum, peak, of the end of a run end_time; or "
+                        "a duration that is a number, without until"});
 }
 
 }  // namespace codesign
