@@ -161,7 +161,8 @@ bool is_sum_of_squares(const Study& study) {
   const auto is_own_term = [](const WatchedSignal& watched) {
     return is_term(watched) && !is_largest_of_many(watched);
   };
-  return std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
+  return !has_moving_end(study) &&
+         std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
          std::none_of(study.terminal.begin(), study.terminal.end(), is_negative) &&
          std::none_of(study.watched.begin(), study.watched.end(), is_own_term);
 }
