@@ -73,9 +73,11 @@ class Simulation {
   /// longest one.
   double end() const;
   /// Whether the study's condition `until` has ended the run: it advances no more, and later
-  /// instants are sampled as its end. may_end(): whether the study has such a condition.
+  /// instants are sampled as its end.
   bool has_ended() const;
+  /// Whether the study has such a condition; whether the end of runs depends on their parameters.
   bool may_end() const;
+  bool has_moving_end() const;
 
   /// Makes start() and advance() end with kCancelled soon after `cancel` is set, from any thread;
   /// null makes them ignore it. The flag must outlive the simulation or the next call of obey().

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include "description/expression.h"
@@ -137,8 +136,7 @@ class Parser {
   }
 
   void need_truth(Type type, std::size_t begin) const {
-    if (type == Type::kNumber)
-      scanner_.fail("a number stands where a comparison is needed", begin);
+    if (type == Type::kNumber) scanner_.fail("a number stands where a comparison is needed", begin);
   }
 
   Type comparison() {
@@ -431,10 +429,10 @@ std::string identifier_fault(const std::string& name) {
   if (name.empty()) return "the name is empty";
   if (!starts_identifier(name[0]) || !std::all_of(name.begin(), name.end(), continues_identifier))
     return "'" + name + "' is not an identifier (letters, digits and _, not starting with a digit)";
-  static const std::set<std::string> kReserved = {"pi", "and", "or", "not"};
-  if (kReserved.count(name) > 0 || find_expression_function(name) >= 0)
-    return "'" + name +
-           "' is a function, an operator or a constant of expressions; choose another name";
+  if (name == "pi" || find_expression_function(name) >= 0)
+    return "'" + name + "' is a function or constant of expressions; choose another name";
+  if (name == "and" || name == "or" || name == "not")
+    return "'" + name + "' is an operator of expressions; choose another name";
   return "";
 }
 

@@ -69,8 +69,9 @@ struct ParsedExpression {
 };
 
 /// Parses an expression. Operators by ascending precedence: `condition ? conditional :
-/// conditional`, `or`, `and`, `not`, comparisons of two sums, `+ -`, `* /`, signs, `** ^` (right associative), then numbers, names, calls and
-/// parentheses; doc/decisions/0040-expressions-parsed-by-ourselves.md.
+/// conditional`, `or`, `and`, `not`, comparisons of two sums, `+ -`, `* /`, signs, `** ^` (right
+/// associative), then numbers, names, calls and parentheses;
+/// doc/decisions/0040-expressions-parsed-by-ourselves.md.
 /// @throws std::invalid_argument with a sentence that names the error and its position.
 ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope);
 

@@ -55,8 +55,8 @@ SignalDescription parse_signal(const std::string& text, const SourceLocation& wh
 SignalDescription parse_condition(const std::string& text, const SourceLocation& where,
                                   const std::string& element);
 
-/// The signal `end_time`, the time at which a run ends [s]: the time as a formula, whose value counts
-/// at the end.
+/// The signal `end_time`, the time at which a run ends [s]: the time as a formula, whose value
+/// counts at the end.
 inline constexpr const char* kEndTime = "end_time";
 SignalDescription end_time_signal(const SourceLocation& where);
 

@@ -146,8 +146,18 @@ Status RosenbrockIntegrator::change_mode(ModeChange* change) {
   has_jumped_ = true;
   step_.restart(change->behind);
   work_.start(change->behind, run_watch_.motion());
-  if (!system_.ends_run(mode_watch_.mode())) return {};
-  if (step_.state().t == 0.0) return begins_at_end(system_.study());
+  return look_for_end(change->behind);
+}
+
+// Accelerations and efforts jump with the mode, so that the condition of the end may hold at once.
+// At the start it counts a little behind it: a ball on the ground may be thrown.
+Status RosenbrockIntegrator::look_for_end(const State<double>& behind) {
+  if (!system_.until()) return {};
+  const bool is_start = behind.t == 0.0;
+  if (!system_.ends_run(is_start ? mode_watch_.mode()
+                                 : step_.equations().compiled().mode_of(behind)))
+    return {};
+  if (is_start) return begins_at_end(system_.study());
   end_run();
   return {};
 }

@@ -74,6 +74,9 @@ class RosenbrockIntegrator final : public Integrator {
   Status begin(const std::vector<double>& parameters);
   /// Changes the mode if that is due. @param change what happened.
   Status change_mode(ModeChange* change);
+  /// Ends the run if its condition holds behind a change of the mode.
+  /// @returns kInvalidDesign at the start.
+  Status look_for_end(const State<double>& behind);
   /// The events of sampled controllers.
   Status sample();
   /// Of an attempt that passes the error test of the motion: cuts it where the mode changes, and

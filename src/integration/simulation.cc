@@ -100,6 +100,7 @@ class Simulation::Implementation {
   double end() const { return integrator_->end(); }
   bool has_ended() const { return integrator_->is_ended(); }
   bool may_end() const { return system_->until() != nullptr; }
+  bool has_moving_end() const { return codesign::has_moving_end(system_->study()); }
 
   void obey(const std::atomic<bool>* cancel) { integrator_->obey(cancel); }
   const FrameNames& names() const { return observer_.names(); }
@@ -165,6 +166,7 @@ double Simulation::time() const { return implementation_->time(); }
 double Simulation::end() const { return implementation_->end(); }
 bool Simulation::has_ended() const { return implementation_->has_ended(); }
 bool Simulation::may_end() const { return implementation_->may_end(); }
+bool Simulation::has_moving_end() const { return implementation_->has_moving_end(); }
 void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(cancel); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
@@ -173,7 +175,7 @@ const Warnings& Simulation::warnings() const { return implementation_->warnings(
 
 // Where a run ends by its condition, only the run tells: it is computed once more for the samples.
 Status find_end(Simulation* simulation, double* end) {
-  *end = std::min(*end, simulation->end());
+  if (simulation->has_moving_end()) *end = std::min(*end, simulation->end());
   if (!simulation->may_end()) return {};
   if (Status status = simulation->advance(*end); !status.ok()) return status;
   if (simulation->has_ended()) *end = std::min(*end, simulation->time());

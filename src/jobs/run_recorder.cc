@@ -276,7 +276,7 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   for (std::size_t k = 0; k < shown.size(); ++k)
     record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
   // If the run ends early, the integrals would not cover the whole study.
-  if (record.status.ok() && postures == 0) 
+  if (record.status.ok() && postures == 0)
     add_energies(shown, watched, simulation.time(), &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());
   record.summary["poses"] = poses.json(simulation.names().links);

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
+#include <vector>
 
 #include "equations/equations.h"
 #include "integration/integrator.h"
+#include "integration/rosenbrock_step.h"
 
 namespace codesign {
 
@@ -14,7 +17,7 @@ namespace codesign {
 class EndMotion {
  public:
   /// @param system must outlive it.
-  explicit EndMotion(const CompiledSystem& system) : system_(system) {}
+  explicit EndMotion(const CompiledSystem& system) : system_(&system) {}
 
   /// Forgets the last end: until evaluate() the end does not move.
   void start() { time_.resize(0); }
@@ -23,7 +26,21 @@ class EndMotion {
   /// Assembly::solve_rates().
   Status evaluate(Integrator* integrator, const Eigen::VectorXd& time);
 
-  void set_time(const Eigen::VectorXd& time) { time_ = time; }
+  /// Says that the zero of a guard has ended the run. @param rate s_t + s_x f of it. @param time
+  /// tau'.
+  void set_guard(int guard, double rate, const Eigen::VectorXd& time) {
+    guard_ = guard;
+    guard_rate_ = rate;
+    time_ = time;
+  }
+  /// i tau' of a run in complex numbers. @param parameters complex ones. @param step has reached
+  /// the end.
+  std::complex<double> complex_time(const std::vector<std::complex<double>>& parameters,
+                                    RosenbrockStep<std::complex<double>>* step) const;
+  /// Adds what this end changes in a complex run. @param times of the watched numbers [s].
+  void add_change(const std::complex<double>& time, const Eigen::VectorXd& times,
+                  Equations<double>* equations, std::complex<double>* objective,
+                  VectorX<std::complex<double>>* watched);
 
   bool moves() const { return time_.size() > 0; }
   /// tau'; empty without a moving end.
@@ -39,13 +56,20 @@ class EndMotion {
  private:
   double rate_of(const SparseGradient<double>& gradient) const;
 
-  const CompiledSystem& system_;
+  const CompiledSystem* system_;
   Eigen::VectorXd time_;
+  int guard_ = -1;
+  double guard_rate_ = 0.0;
   double objective_rate_ = 0.0;
   State<double> state_, rates_;
   VectorX<double> residual_;
   SparseGradient<double> gradient_;
 };
+
+/// In complex numbers a guard is zero at the time t_e + i tau', theory (18g): i tau' at the end of
+/// a step. @param rate s_t + s_x f of the guard.
+std::complex<double> complex_guard_time(int guard, double rate,
+                                        RosenbrockStep<std::complex<double>>* step);
 
 /// The derivatives of duration_at() by the tuned parameters; zero without an expression.
 Eigen::VectorXd duration_gradient(const MotionStudy& study, const std::vector<double>& parameters);

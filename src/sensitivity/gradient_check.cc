@@ -15,6 +15,7 @@
 #include "math/differences.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
+#include "sensitivity/end_motion.h"
 #include "sensitivity/rosenbrock_gradient.h"
 #include "sensitivity/run_steps.h"
 #include "sensitivity/signal_watch.h"
@@ -27,15 +28,6 @@ using Complex = std::complex<double>;
 constexpr double kComplexStep = 1e-30;
 constexpr int kMostOfReference = 2000000;
 
-/// How the end of a run moves, theory (21g).
-struct TakenEnd {
-  double time = 0.0;        ///< of the end [s]
-  int guard = -1;           ///< whose zero has ended the run; -1: its duration
-  double guard_rate = 0.0;  ///< [per s]
-  double objective_rate = 0.0;
-  Eigen::VectorXd watched_rates;  ///< one per watched signal; empty: the end does not move
-};
-
 /// A step that a run took.
 struct TakenStep {
   double h;  ///< [s]
@@ -44,25 +36,10 @@ struct TakenStep {
   ModeChange change = {};  ///< before it; guard -1 if no guard determined its beginning
 };
 
-void take_end(const CompiledSystem& system, RosenbrockGradient* run, TakenEnd* end) {
-  *end = {};
-  end->time = run->time();
-  EndMotion& motion = run->end_motion();
-  if (!motion.moves()) return;
-  end->guard = run->integrator().end_guard();
-  end->guard_rate = run->end_guard_rate();
-  end->objective_rate = motion.objective_rate();
-  Equations<double> equations(system);
-  equations.set_design(run->integrator().step().equations().parameters());
-  end->watched_rates.resize(to_signed(system.watched().size()));
-  for (std::size_t k = 0; k < system.watched().size(); ++k)
-    end->watched_rates[to_signed(k)] = motion.watched_rate(k, &equations);
-}
-
 /// Records the steps of an integration.
 Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters,
                     Derivatives derivatives, const std::atomic<bool>* cancel,
-                    std::vector<TakenStep>* steps, TakenEnd* end) {
+                    std::vector<TakenStep>* steps, EndMotion* end) {
   RosenbrockGradient run(system);
   run.obey(cancel);
   Status status = run.start(parameters, derivatives);
@@ -75,7 +52,7 @@ Status record_steps(const CompiledSystem& system, const std::vector<double>& par
     const double h = run.time() > before ? run.step_size() : 0.0;
     if (status.ok()) steps->push_back({h, &run.tableau(), run.integrator().mode(), change});
   }
-  if (status.ok()) take_end(system, &run, end);
+  *end = run.end_motion();
   return status;
 }
 
@@ -132,37 +109,14 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
   }
 }
 
-/// Carries a complex run over an instant that a guard determines, theory (18g): in complex numbers
-/// the guard is zero at the time t_e + i tau'.
+/// Carries a complex run over an instant that a guard determines, theory (18g).
 void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step, State<Complex>* state) {
-  VectorX<Complex> guards, right;
-  step->equations().compiled().switches(*state, &guards, &right);
-  const Complex tau(0.0, -guards[change.guard].imag() / change.guard_rate);
+  const Complex tau = complex_guard_time(change.guard, change.guard_rate, step);
   const Eigen::Index n = state->v.size(), states = state->s.size();
   const VectorX<double> jump = change.before.z - change.behind.z;
   state->v += tau * jump.head(n).cast<Complex>();
   state->s += tau * jump.tail(states).cast<Complex>();
   step->add_psi(tau * (change.g_before - change.g));
-}
-
-/// Adds what a complex end t_e + i tau' changes. @param parameters complex ones.
-void replay_end(const CompiledSystem& system, const std::vector<Complex>& parameters,
-                const TakenEnd& end, const Eigen::VectorXd& times, RosenbrockStep<Complex>* step,
-                Replayed* run) {
-  if (end.watched_rates.size() == 0 && end.objective_rate == 0.0) return;
-  Complex tau = 0.0;
-  if (end.guard >= 0) {
-    VectorX<Complex> guards, right;
-    step->equations().compiled().switches(step->state(), &guards, &right);
-    tau = Complex(0.0, -guards[end.guard].imag() / end.guard_rate);
-  } else if (system.study().duration_of_design) {
-    tau = Complex(0.0, system.study().duration_of_design->value(parameters).imag());
-  }
-  run->objective += tau * end.objective_rate;
-  const WatchLayout layout(system.study());
-  for (std::size_t k = 0; k < layout.entries().size(); ++k)
-    for (int place = layout.entries()[k].first; place < layout.entries()[k].measure(); ++place)
-      if (times[place] >= end.time) run->watched[place] += tau * end.watched_rates[to_signed(k)];
 }
 
 /// Carries a complex run to the beginning of a step: over a change of the mode and over the events
@@ -184,8 +138,8 @@ void replay_jump(const TakenStep& taken, const std::vector<ControlEvent>& events
 /// The run with steps of the same sizes in complex arithmetic.
 /// @param extremes of the real run.
 Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters,
-                const std::vector<TakenStep>& steps, const TakenEnd& end,
-                const Extremes& extremes, RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
+                const std::vector<TakenStep>& steps, const Extremes& extremes, EndMotion* end,
+                RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
                 const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
   Replayed result;
@@ -200,11 +154,16 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   if (result.watched.size() > 0)
     replay_watched(system, extremes.times, integrator, &step, &result.watched);
   ControlClock clock(system.study());
+  Complex tau = 0.0;
+  bool ends_at_jump = false;
   for (const TakenStep& taken : steps) {
     if (is_set(cancel)) break;
+    ends_at_jump = taken.h == 0.0;
+    if (ends_at_jump && taken.change.guard >= 0)
+      tau = complex_guard_time(taken.change.guard, taken.change.guard_rate, &step);
     step.use(*taken.tableau);
     replay_jump(taken, clock.due(step.state().t), integrator, &step);
-    if (taken.h == 0.0) break;
+    if (ends_at_jump) break;
     step.attempt(taken.h);
     step.accept();
     step.track_turns();
@@ -212,7 +171,9 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
       replay_watched(system, extremes.times, integrator, &step, &result.watched);
   }
   result.objective = step.psi() + step.equations().terminal(step.state());
-  replay_end(system, parameters, end, extremes.times, &step, &result);
+  if (!ends_at_jump) tau = end->complex_time(parameters, &step);
+  end->add_change(tau, extremes.times, &integrator->equations(), &result.objective,
+                  &result.watched);
   replay_measures(system.study(), extremes, &result);
   return result;
 }
@@ -268,7 +229,7 @@ Status differentiate_steps(const CompiledSystem& system, const std::vector<doubl
                            Eigen::VectorXd* objective, Eigen::MatrixXd* watched) {
   RosenbrockIntegrator integrator(system);
   std::vector<TakenStep> steps;
-  TakenEnd end;
+  EndMotion end(system);
   objective->setZero(directions.cols());
   watched->setZero(directions.cols(), extremes.values.size());
   Status status = record_steps(system, parameters, derivatives, cancel, &steps, &end);
@@ -279,7 +240,7 @@ Status differentiate_steps(const CompiledSystem& system, const std::vector<doubl
     const std::vector<Complex> perturbed =
         moved(system.study(), parameters, directions.col(k), Complex(0.0, h));
     const Replayed run =
-        replay(system, perturbed, steps, end, extremes, &integrator, parameters, cancel);
+        replay(system, perturbed, steps, extremes, &end, &integrator, parameters, cancel);
     (*objective)[k] = run.objective.imag() / h;
     watched->row(k) = run.watched.imag().transpose() / h;
     if (is_set(cancel)) status = {StatusCode::kCancelled, 0.0, "cancelled"};

@@ -29,8 +29,8 @@ inline double direct_cost(int parameters) {
 constexpr double kAdjointCost = 4.0 + kFourLanes;
 
 /// An integration that can compute the gradient of psi; one implementation per method. start() may
-/// be called again. Where the end of a run depends on the design, results at Integrator::has_ended()
-/// are those of an end that moves, theory (21g). Not thread-safe.
+/// be called again. Where the end of a run depends on the design, results at
+/// Integrator::has_ended() are those of an end that moves, theory (21g). Not thread-safe.
 class GradientEngine {
  public:
   virtual ~GradientEngine() = default;

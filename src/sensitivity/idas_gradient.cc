@@ -216,7 +216,11 @@ void IdasTangent::residuals(ObjectivePart part, const State<double>& state,
 }
 
 IdasGradient::IdasGradient(const CompiledSystem& system)
-    : system_(system), integrator_(system), watch_(system), residuals_(system), end_motion_(system) {}
+    : system_(system),
+      integrator_(system),
+      watch_(system),
+      residuals_(system),
+      end_motion_(system) {}
 
 // The workspace of the sensitivities is allocated only when derivatives are requested.
 Status IdasGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
@@ -249,8 +253,7 @@ Status IdasGradient::start_watches(bool with_gradient) {
       integrator_.interpolate_sensitivities(state.t, &directions_);
       tangent_->watched(k, state, &integrator_.equations(), &directions_, gradient);
       if (end_motion_.moves() && state.t >= time())
-        *gradient +=
-            end_motion_.watched_rate(k, &integrator_.equations()) * end_motion_.time();
+        *gradient += end_motion_.watched_rate(k, &integrator_.equations()) * end_motion_.time();
     };
   return watch_.start(&integrator_, std::move(differentiate));
 }

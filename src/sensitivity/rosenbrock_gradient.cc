@@ -148,14 +148,13 @@ Status RosenbrockGradient::look_at_end() {
   if (Status status = end_.evaluate(&integrator_, time); !status.ok()) return status;
   const int guard = integrator_.end_guard();
   if (guard < 0) return {};
-  end_guard_rate_ = integrator_.end_guard_rate(end_.state(), end_.rates());
+  const double rate = integrator_.end_guard_rate(end_.state(), end_.rates());
   time.setZero(count());
   groups_->for_each([&](auto* group) {
     time.segment(group->range.first, group->range.count) =
-        group->step.guard_time(guard, end_guard_rate_, integrator_.state())
-            .head(group->range.count);
+        group->step.guard_time(guard, rate, integrator_.state()).head(group->range.count);
   });
-  end_.set_time(time);
+  end_.set_guard(guard, rate, time);
   return {};
 }
 

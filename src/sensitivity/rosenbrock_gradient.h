@@ -37,9 +37,7 @@ class RosenbrockGradient final : public GradientEngine {
   const RosenbrockTableau& tableau() const { return integrator_.step().tableau(); }
   const RosenbrockIntegrator& integrator() const override { return integrator_; }
   /// How the end of the run moves; after a run with gradient.
-  EndMotion& end_motion() { return end_; }
-  /// s_t + s_x f of the guard that has ended the run.
-  double end_guard_rate() const { return end_guard_rate_; }
+  const EndMotion& end_motion() const { return end_; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   void jacobian_root(Eigen::MatrixXd* root) override {
@@ -93,9 +91,8 @@ class RosenbrockGradient final : public GradientEngine {
   SignalWatch watch_;
   ResidualRows residuals_;
   EndMotion end_;
-  double end_guard_rate_ = 0.0;
   Eigen::VectorXd time_of_jump_;  ///< derivatives of the time of a jump that ends the run
-  const bool is_identity_;  ///< whether control_directions() are the parameters
+  const bool is_identity_;        ///< whether control_directions() are the parameters
   bool with_gradient_ = false, with_root_ = false;
 };
 

@@ -51,8 +51,8 @@ struct Files {
 // From rest to rest over 1 m with at most 1 N on 1 kg: pushed for 1 s, then braked for 1 s.
 TEST(MovingEnd, ASearchFindsTheMinimumTime) {
   const Files files(kMinimumTime);
-  const Outcome outcome =
-      run_words({"optimize", files.model, files.text, "--json", "--output", files.folder.path("job")});
+  const Outcome outcome = run_words(
+      {"optimize", files.model, files.text, "--json", "--output", files.folder.path("job")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   Json result = json_of(outcome);
   EXPECT_NEAR(result["parameters"]["T"].get<double>(), 2.0, 1e-6);
@@ -86,8 +86,7 @@ TEST(MovingEnd, ASimulationHasItsSamplesUpToTheEnd) {
 TEST(MovingEnd, DifferencesThroughOtherStepsAgree) {
   for (const char* study : {kMinimumTime, kBrake}) {
     const Files files(study);
-    const Outcome outcome =
-        run_words({"gradient", files.model, files.text, "--verify", "--json"});
+    const Outcome outcome = run_words({"gradient", files.model, files.text, "--verify", "--json"});
     ASSERT_EQ(outcome.code, kDone) << outcome.err;
     Json result = json_of(outcome);
     EXPECT_TRUE(result["warnings"].empty()) << result["warnings"];
@@ -105,7 +104,7 @@ TEST(MovingEnd, ARunThatBeginsAtItsEndIsRefused) {
 }
 
 TEST(MovingEnd, EffortsHaveNoRunThatEnds) {
-  const Files files(std::string(kBrake) + "motion: {slide: {position: \"${t}\"}}\n");
+  const Files files("duration: 2\nuntil: \"${t > 1}\"\nmotion: {slide: {position: \"${t}\"}}\n");
   const Outcome outcome = run_words({"efforts", files.model, files.text});
   EXPECT_EQ(outcome.code, kBadInput) << outcome.out;
   EXPECT_NE(outcome.err.find("without a run that would find its end"), std::string::npos)

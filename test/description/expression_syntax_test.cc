@@ -137,7 +137,7 @@ TEST(ExpressionSyntax, EndsWhateverItsSize) {
 TEST(ExpressionSyntax, SaysWhichNamesParametersCannotHave) {
   for (const char* name : {"crank_length", "Kp", "_a1", "i", "e"})
     EXPECT_EQ(identifier_fault(name), "") << name;
-  for (const char* name : {"", "2x", "a-b", "a b", "pi", "sin", "l\xC3\xA4nge"})
+  for (const char* name : {"", "2x", "a-b", "a b", "pi", "sin", "and", "or", "not", "l\xC3\xA4nge"})
     EXPECT_NE(identifier_fault(name), "") << name;
 }
 

@@ -51,7 +51,8 @@ struct EndCase {
 std::vector<EndCase> cases_of_durations() {
   return {
       // Bang-bang, beside the optimum: v = 2 ts - T at the end.
-      {"minimum time", R"(
+      {"minimum time",
+       R"(
 duration: "${T}"
 gravity: [0, 0, 0]
 loads: [{joint: run, effort: "${t < ts ? 1 : -1}"}]
@@ -67,7 +68,8 @@ final:
         {1, -0.3, {2.0, -1.0}},
         {2, 2.1, {0.0, 1.0}}}},
       // x = t, and a reference of the terminal term that moves.
-      {"Bolza", R"(
+      {"Bolza",
+       R"(
 duration: "${T}"
 gravity: [0, 0, 0]
 initial_state: {run: {velocity: 1.0}}
@@ -81,7 +83,8 @@ objective:
        {0.25 - 6.0 + 0.75},
        {}},
       // The acceleration k t at the end, and half of the duration.
-      {"an acceleration at the end", R"(
+      {"an acceleration at the end",
+       R"(
 duration: "${2*half}"
 gravity: [0, 0, 0]
 loads: [{joint: run, effort: "${k*t}"}]
@@ -97,7 +100,8 @@ std::vector<EndCase> cases_of_conditions() {
   const double g = 9.81, s = 5.0, phi = 0.6, range = s * s * std::sin(2 * phi) / g;
   const double v0 = 3.0, F = 4.0, d = v0 * v0 / (2 * F), reached = std::sqrt(2 * 0.8);
   return {
-      {"a throw that ends at the ground", R"(
+      {"a throw that ends at the ground",
+       R"(
 duration: 3.0
 until: "${rise/position < 0}"
 initial_state: {run: {velocity: "${s*cos(phi)}"}, rise: {velocity: "${s*sin(phi)}"}}
@@ -107,7 +111,8 @@ final: [{signal: end_time, at_most: 3}])",
        range * range,
        {2 * range * 2 * range / s, 2 * range * 2 * s * s * std::cos(2 * phi) / g},
        {{0, 2 * s * std::sin(phi) / g, {2 * std::sin(phi) / g, 2 * s * std::cos(phi) / g}}}},
-      {"a brake that ends at standstill", R"(
+      {"a brake that ends at standstill",
+       R"(
 duration: 5.0
 until: "${run/velocity <= 0}"
 gravity: [0, 0, 0]
@@ -120,7 +125,8 @@ final: [{signal: end_time, at_most: 3}])",
        {2 * d * d + v0 * v0 * v0 / (3 * F), -(2 * d * d + v0 * v0 * v0 / (3 * F)) / F},
        {{0, v0 / F, {v0 / F, -v0 / (F * F)}}}},
       // x = t: the integral of x^2 up to xs.
-      {"one of two conditions", R"(
+      {"one of two conditions",
+       R"(
 duration: 5.0
 until: "${run/position > xs and t > 0.3 or t > 4}"
 gravity: [0, 0, 0]
@@ -131,7 +137,8 @@ objective: {integral: [{signal: run/position}]})",
        {0.64},
        {}},
       // Behind a threshold the force is 0.5 N: v^2 = 1 + (xe - xs).
-      {"an end behind a jump", R"(
+      {"an end behind a jump",
+       R"(
 duration: 5.0
 until: "${run/position > 2}"
 gravity: [0, 0, 0]
@@ -142,8 +149,23 @@ objective: {terminal: [{signal: run/velocity}, {signal: end_time}]})",
        2.3 + std::pow(0.7 + 2 * (std::sqrt(2.3) - 1), 2),
        {-1.0 + 2 * (0.7 + 2 * (std::sqrt(2.3) - 1)) * (1 - 1 / std::sqrt(2.3))},
        {}},
+      // The acceleration jumps at ts, which ends the run.
+      {"an end by a jump",
+       R"(
+duration: 5.0
+until: "${run/acceleration > 0.2}"
+gravity: [0, 0, 0]
+initial_state: {run: {velocity: 1.0}}
+loads: [{joint: run, effort: "${t > ts ? 0.5 : 0}"}]
+parameters: {ts: {initial: 0.8, lower: 0.5, upper: 3}}
+objective: {integral: [{signal: run/position}], terminal: [{signal: run/position}]}
+final: [{signal: run/position, at_most: 3}])",
+       0.512 / 3 + 0.64,
+       {0.64 + 1.6},
+       {{0, 0.8, {1.0}}}},
       // A peak at the end, where v = sqrt(2 xs).
-      {"a peak at the end", R"(
+      {"a peak at the end",
+       R"(
 duration: 5.0
 until: "${run/position >= xs}"
 gravity: [0, 0, 0]
@@ -161,8 +183,8 @@ class EndMotionTest : public ::testing::TestWithParam<const char*> {
   static std::shared_ptr<const CompiledSystem> system_of_case(const EndCase& test,
                                                               const std::string& solver) {
     const RobotDescription robot = read_urdf({"thrown.urdf", kThrown});
-    return make_system(
-        robot, read_study({"study.yaml", "solver: " + solver + test.study + "\n"}, robot));
+    return make_system(robot,
+                       read_study({"study.yaml", "solver: " + solver + test.study + "\n"}, robot));
   }
 
   static void expect_near(const Eigen::VectorXd& gradient, const std::vector<double>& expected,
@@ -266,8 +288,9 @@ TEST_F(EndMotionTest, ARunThatIsRepeatedForMoreParameters) {
 
 TEST_F(EndMotionTest, AConditionThatIsNotReachedIsAWarning) {
   EndCase test = cases_of_conditions()[2];
-  const std::string study = std::string(test.study).replace(
-      std::string(test.study).find("duration: 5.0"), 13, "duration: 0.6");
+  const std::string study =
+      std::string(test.study)
+          .replace(std::string(test.study).find("duration: 5.0"), 13, "duration: 0.6");
   test.study = study.c_str();
   const auto system = system_of_case(test, "{}");
   const Evaluation run = evaluator_of(system).evaluate_design(system->parameters(), true);
@@ -281,8 +304,10 @@ TEST_F(EndMotionTest, AConditionThatIsNotReachedIsAWarning) {
 
 TEST_F(EndMotionTest, AConditionThatHoldsAtTheStartIsRefused) {
   EndCase test = cases_of_conditions()[2];
-  const std::string study = std::string(test.study).replace(
-      std::string(test.study).find("run/position > xs and t > 0.3"), 29, "run/position < xs");
+  const std::string study =
+      std::string(test.study)
+          .replace(std::string(test.study).find("run/position > xs and t > 0.3"), 29,
+                   "run/position < xs");
   test.study = study.c_str();
   const auto system = system_of_case(test, "{}");
   const Evaluation run = evaluator_of(system).evaluate_design(system->parameters(), true);

@@ -93,16 +93,19 @@ void read_until(const YamlValue& root, const RobotDescription& robot, const Para
 void check_moving_end(const YamlValue& root, const Study& study) {
   if (!has_moving_end(study)) return;
   if (study.until && study.solver.integrator == IntegratorKind::kIdas)
-    root.at("solver").at("integrator").fail("idas does not find the end that `until` asks for",
-                                            "rosenbrock");
+    root.at("solver")
+        .at("integrator")
+        .fail("idas does not find the end that `until` asks for", "rosenbrock");
   if (study.until && study.solver.gradient == GradientMethod::kAdjoint)
-    root.at("solver").at("gradient").fail(
-        "the adjoint does not go back over an end that `until` determines", "auto, direct");
+    root.at("solver")
+        .at("gradient")
+        .fail("the adjoint does not go back over an end that `until` determines", "auto, direct");
   for (const WatchedSignal& watched : study.watched)
     if (has_band(watched))
       throw InputError({watched.where, watched.element,
                         "arrival and dwell have no derivative by an end that depends on the design",
-                        watched.signal.text, "stroke, maximum, minimum, peak, of the end of a run end_time; or "
+                        watched.signal.text,
+                        "stroke, maximum, minimum, peak, of the end of a run end_time; or "
                         "a duration that is a number, without until"});
 }
 

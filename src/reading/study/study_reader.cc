@@ -115,11 +115,12 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({}, {"duration",    "until",       "gravity",    "initial_state", "controllers", "loads",
-                         "motion",      "parameters", "objective",     "path",        "final",
-                         "constraints", "limits",     "solver",        "optimizer",   "runs",
-                         "uncertain",   "robust",     "multistart",    "engine",      "identify",
-                         "excite",      "hardware",   "positions",     "hold",        "efforts"});
+  root.require_keys(
+      {},
+      {"duration",   "until",     "gravity",   "initial_state", "controllers", "loads",  "motion",
+       "parameters", "objective", "path",      "final",         "constraints", "limits", "solver",
+       "optimizer",  "runs",      "uncertain", "robust",        "multistart",  "engine", "identify",
+       "excite",     "hardware",  "positions", "hold",          "efforts"});
   require_purpose_of_excite(root);
   refuse_motion_of_excitation(root);
   const TrajectoryLoader trajectories = trajectories_of(loader, files);
