@@ -174,8 +174,9 @@ SignalTerm term_of(const std::string& signal) {
   return term;
 }
 
+/// @throws std::invalid_argument with what is wrong.
 SignalDescription parse_formula(const std::string& text, const SourceLocation& where,
-                                const std::string& element, bool is_condition) {
+                                bool is_condition) {
   SignalDescription signal{text, {}, where, nullptr};
   SignalFormula formula;
   std::vector<std::string>& names = formula.names;
@@ -185,14 +186,9 @@ SignalDescription parse_formula(const std::string& text, const SourceLocation& w
     return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const std::string inside = trimmed(text);
-  try {
-    formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
-                                     {find, [&names] { return names; }, signal_end, is_condition})
-                        .steps;
-  } catch (const std::invalid_argument& error) {
-    throw InputError(
-        {where, element, error.what(), text, is_condition ? kFormOfCondition : kFormOfSignal});
-  }
+  formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
+                                   {find, [&names] { return names; }, signal_end, is_condition})
+                      .steps;
   for (const std::string& name : names)
     if (name.find('/') != std::string::npos) signal.terms.push_back(term_of(name));
   signal.formula = std::make_shared<const SignalFormula>(std::move(formula));
@@ -216,7 +212,12 @@ SignalDescription parse_condition(const std::string& text, const SourceLocation&
                                   const std::string& element) {
   if (!is_braced(trimmed(text)))
     throw InputError({where, element, "no expression", text, kFormOfCondition});
-  SignalDescription condition = parse_formula(text, where, element, true);
+  SignalDescription condition;
+  try {
+    condition = parse_formula(text, where, true);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({where, element, error.what(), text, kFormOfCondition});
+  }
   const std::vector<std::string>& names = condition.formula->names;
   const auto varies = [](const std::string& name) {
     return name == "t" || name.find('/') != std::string::npos;
@@ -229,7 +230,11 @@ SignalDescription parse_condition(const std::string& text, const SourceLocation&
 
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
                                const std::string& element) {
-  if (is_braced(trimmed(text))) return parse_formula(text, where, element, false);
+  try {
+    if (is_braced(trimmed(text))) return parse_formula(text, where, false);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({where, element, error.what(), text, kFormOfSignal});
+  }
   return {text, SignalParser(text, where, element).parse(), where, nullptr};
 }
 

@@ -178,6 +178,7 @@ Status IdasIntegrator::jump() {
 }
 
 Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) {
+  if (Status status = check_end(system_.study(), parameters); !status.ok()) return status;
   const bool between = time < state_.t;
   State<double> behind;
   double reached = 0.0;
@@ -186,7 +187,7 @@ Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters)
   if (Status status = continuation_.cross(parameters, between, &assembly_, &equations(), &behind);
       !status.ok())
     return status;
-  if (Status status = go_on_run(system_.study(), parameters, between); !status.ok()) return status;
+  go_on_run(system_.study(), parameters, between);
   state_ = behind;
   span_of(psi_.get())[0] = reached;
   equations_.start();

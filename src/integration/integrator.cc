@@ -16,25 +16,27 @@ void Integrator::obey(const std::atomic<bool>* cancel) {
   assembly().obey(cancel);
 }
 
-Status Integrator::begin_run(const MotionStudy& study, const std::vector<double>& parameters) {
-  is_ended_ = false;
-  end_ = duration_at(study, parameters);
+Status Integrator::check_end(const MotionStudy& study, const std::vector<double>& parameters) {
+  if (!study.duration_of_design) return {};
+  const double end = duration_at(study, parameters);
   // Rounding alone may lead beyond the bounds.
   constexpr double kRounding = 1e-12;
-  if (end_ > 0.0 && end_ <= study.duration * (1.0 + kRounding)) return {};
+  if (end > 0.0 && end <= study.duration * (1.0 + kRounding)) return {};
   return {StatusCode::kInvalidDesign, 0.0,
-          "duration: " + readable(end_) + " s, which must be above 0 s and at most " +
+          "duration: " + readable(end) + " s, which must be above 0 s and at most " +
               readable(study.duration) + " s, as the bounds of its parameters allow"};
 }
 
-Status Integrator::go_on_run(const MotionStudy& study, const std::vector<double>& parameters,
-                             bool between) {
-  const bool was_ended = is_ended_;
-  const double end_before = end_;
-  const Status status = begin_run(study, parameters);
-  if (!status.ok()) end_ = end_before;
-  is_ended_ = was_ended && !(status.ok() && between);
-  return status;
+Status Integrator::begin_run(const MotionStudy& study, const std::vector<double>& parameters) {
+  is_ended_ = false;
+  end_ = duration_at(study, parameters);
+  return check_end(study, parameters);
+}
+
+void Integrator::go_on_run(const MotionStudy& study, const std::vector<double>& parameters,
+                           bool between) {
+  end_ = duration_at(study, parameters);
+  is_ended_ = is_ended_ && !between;
 }
 
 Warnings Integrator::end_warnings(const MotionStudy& study) const {

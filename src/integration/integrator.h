@@ -72,11 +72,13 @@ class Integrator {
 
  protected:
   bool cancelled() const { return is_set(cancel_); }
-  /// Sets end(). @returns kInvalidDesign for a duration that no run can have.
+  /// kInvalidDesign for a duration that no run can have.
+  static Status check_end(const MotionStudy& study, const std::vector<double>& parameters);
+  /// Sets end(). @returns check_end().
   Status begin_run(const MotionStudy& study, const std::vector<double>& parameters);
   /// The same while a run goes on with other parameters. @param between whether it goes on from
   /// before the end of the last step, so that the end found there counts no more.
-  Status go_on_run(const MotionStudy& study, const std::vector<double>& parameters, bool between);
+  void go_on_run(const MotionStudy& study, const std::vector<double>& parameters, bool between);
   void end_run() { is_ended_ = true; }
   /// `until_not_reached`, where a run has gone on to its duration.
   Warnings end_warnings(const MotionStudy& study) const;

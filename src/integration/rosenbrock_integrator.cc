@@ -177,6 +177,7 @@ Status RosenbrockIntegrator::sample() {
 }
 
 Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& parameters) {
+  if (Status status = check_end(system_.study(), parameters); !status.ok()) return status;
   const bool between = time < step_.state().t,
              changes = parameters != step_.equations().parameters();
   State<double>& behind = behind_jump_;
@@ -187,7 +188,7 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
           continuation_.cross(parameters, between, &assembly_, &step_.equations(), &behind);
       !status.ok())
     return status;
-  if (Status status = go_on_run(system_.study(), parameters, between); !status.ok()) return status;
+  go_on_run(system_.study(), parameters, between);
   step_.start(behind, reached);
   mode_watch_.restart(&step_.equations());
   if (changes) step_.choose_pivots(proposal_);
