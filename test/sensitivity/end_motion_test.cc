@@ -124,6 +124,18 @@ final: [{signal: end_time, at_most: 3}])",
        d * d + v0 * v0 * v0 / (3 * F),
        {2 * d * d + v0 * v0 * v0 / (3 * F), -(2 * d * d + v0 * v0 * v0 / (3 * F)) / F},
        {{0, v0 / F, {v0 / F, -v0 / (F * F)}}}},
+      // The load decides by the same sign as the condition.
+      {"a brake of dry friction", R"(
+duration: 5.0
+until: "${run/velocity <= 0}"
+gravity: [0, 0, 0]
+initial_state: {run: {velocity: 3.0}}
+loads: [{joint: run, effort: "${-F*sign(run/velocity)}"}]
+parameters: {F: {initial: 4, lower: 1, upper: 9}}
+objective: {terminal: [{signal: run/position}]})",
+       d * d,
+       {-2 * d * d / F},
+       {}},
       // x = t: the integral of x^2 up to xs.
       {"one of two conditions",
        R"(
