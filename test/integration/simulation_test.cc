@@ -140,7 +140,7 @@ TEST(Simulation, ItsParametersMayEndIt) {
               }).ok());
   EXPECT_EQ(simulation.end(), 0.9);
   EXPECT_EQ(simulation.time(), 0.9);
-  EXPECT_EQ(times.back(), 0.9);
+  EXPECT_DOUBLE_EQ(times.back(), 0.9);
   EXPECT_NEAR(times[5], 0.5, 1e-15);
   EXPECT_NEAR(simulation.objective(), objective_of_swing(0.9), 1e-6 * objective_of_swing(0.9));
   for (const double duration : {0.0, -1.0, 2.1}) {
