@@ -72,8 +72,8 @@ class Simulation {
   /// Where a run with these parameters ends [s], after start(): its duration, or with `until` the
   /// longest one.
   double end() const;
-  /// Whether the study's condition `until` has ended the run: it advances no more, and later
-  /// instants are sampled as its end.
+  /// Whether the study's condition `until` has ended the run, at time(), which may lie behind the
+  /// instant of the last advance(): it advances no more, and later instants are sampled as its end.
   bool has_ended() const;
   /// Whether the study has such a condition; whether the end of runs depends on their parameters.
   bool may_end() const;

@@ -306,6 +306,7 @@ TEST(InteractiveSimulation, ACommandMayMoveTheEnd) {
   EXPECT_FALSE(run.has_ended());
   const double begin = 0.09;
   ASSERT_LT(hinge_at(&run, begin).position, 0.2);
+  EXPECT_FALSE(run.has_ended()) << "a step has found the end, the run has not come there yet";
   run.set_effort(0, -50.0);
   ASSERT_TRUE(run.apply(begin).ok());
   EXPECT_FALSE(run.has_ended());
