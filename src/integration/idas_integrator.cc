@@ -95,6 +95,7 @@ Status IdasIntegrator::start(const std::vector<double>& parameters) {
   restart_solver();
   watch_.start(equations(), initial_);
   run_watch_.start(equations(), initial_);
+  run_watch_.end_at(end());
   singularity_.start(watch_singularities_, initial_);
   work_ = 0.0;
   pace_.start(initial_.t);
@@ -193,6 +194,7 @@ Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters)
   equations_.start();
   equations_.count_turns_from(state_);
   run_watch_.go_on(equations(), state_);
+  run_watch_.end_at(end());
   drift_size_ = 0.0;
   has_stepped_ = false;
   return begin_anew([] { return true; });

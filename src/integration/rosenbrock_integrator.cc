@@ -83,6 +83,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations(), initial_);
+  run_watch_.end_at(end());
   work_.start(initial_, run_watch_.motion());
   singularity_.start(watch_singularities_, initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
@@ -193,6 +194,7 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
   mode_watch_.restart(&step_.equations());
   if (changes) step_.choose_pivots(proposal_);
   run_watch_.go_on(step_.equations(), behind);
+  run_watch_.end_at(end());
   work_.start(behind, run_watch_.motion());
   return {};
 }
@@ -279,7 +281,10 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
 }
 
 Status RosenbrockIntegrator::look() {
-  if (mode_watch_.guard() >= 0 && system_.ends_run(mode_watch_.next_mode())) end_run();
+  if (mode_watch_.guard() >= 0 && system_.ends_run(mode_watch_.next_mode())) {
+    end_run();
+    run_watch_.end_at(step_.state().t);
+  }
   ++statistics_.steps;
   if (step_.tableau().is_explicit()) ++statistics_.explicit_steps;
   chooses_ = true;
