@@ -278,8 +278,7 @@ Status RunWatch::check(const State<double>& state, double drift, double work,
     return {StatusCode::kConstraintDrift, state.t,
             drift_sentence(drift, state.t) + ". " + advice(options_)};
   unbalanced_steps_ = reach_ * error > energy_limit_.failure * scale_ ? unbalanced_steps_ + 1 : 0;
-  if (unbalanced_steps_ > kPatience ||
-      (unbalanced_steps_ > 0 && state.t >= end_))
+  if (unbalanced_steps_ > kPatience || (unbalanced_steps_ > 0 && state.t >= end_))
     return {StatusCode::kEnergyError, state.t,
             energy_sentence(reach_ * error / scale_, state.t) + ". " + advice(options_)};
   ++balanced_steps_;
