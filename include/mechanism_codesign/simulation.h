@@ -69,6 +69,15 @@ class Simulation {
   double objective();
   /// The end of the last step [s].
   double time() const;
+  /// Where a run with these parameters ends [s], after start(): its duration, or with `until` the
+  /// longest one.
+  double end() const;
+  /// Whether the study's condition `until` has ended the run, at time(), which may lie behind the
+  /// instant of the last advance(): it advances no more, and later instants are sampled as its end.
+  bool has_ended() const;
+  /// Whether the study has such a condition; whether the end of runs depends on their parameters.
+  bool may_end() const;
+  bool has_moving_end() const;
 
   /// Makes start() and advance() end with kCancelled soon after `cancel` is set, from any thread;
   /// null makes them ignore it. The flag must outlive the simulation or the next call of obey().
@@ -95,8 +104,9 @@ class Simulation {
 /// Called for each sample of a run; returning false ends the run with kCancelled.
 using FrameObserver = std::function<bool(const Frame&)>;
 
-/// Runs a simulation from t = 0 to `duration` [s] and hands `count` samples at equal distances,
-/// both ends included, to the observer.
+/// Runs a simulation from t = 0 to `duration` [s], or to its own end if that is earlier, and hands
+/// `count` samples at equal distances, both ends included, to the observer. A study with `until` is
+/// run twice: first to its end.
 /// @param cancel the run ends with kCancelled soon after this is set, from any thread; null: never.
 /// @returns kNonFinite at the first sample with a number that is not finite; that sample is not
 /// handed to the observer.

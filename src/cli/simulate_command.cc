@@ -25,8 +25,8 @@ void summarize(const RunSummary& run, const Problem& problem, std::ostream& err)
     for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
     return;
   }
-  const double duration = study_of(problem).duration, setup_seconds = problem.setup_seconds();
-  err << "simulated " << readable(duration) << " s in " << run.statistics.steps << " steps ("
+  const double setup_seconds = problem.setup_seconds();
+  err << "simulated " << readable(run.end) << " s in " << run.statistics.steps << " steps ("
       << run.statistics.rejected_steps << " rejected), " << readable(run.statistics.cpu_seconds)
       << " s of processor time, set-up " << readable(setup_seconds) << " s" << std::endl;
   err << "energy error " << readable(run.statistics.energy_error, 3)
@@ -59,6 +59,7 @@ void add_objective(const Problem& problem, bool as_searched, const std::optional
 void add_run(const Problem& problem, const RunSummary& run, const Json& counts, Json series,
              Json* object) {
   (*object)["parameters"] = parameters_json(problem, problem.parameters());
+  if (study_of(problem).postures == 0) (*object)["end_time"] = run.end;
   add_statistics(run.statistics, object);
   Json methods = Json::array();
   for (const MethodChange& change : run.methods)

@@ -101,6 +101,8 @@ std::shared_ptr<const ResolvedFormula> resolve_formula(const SignalDescription& 
     ResolvedFormula::Variable& variable = formula.variables.emplace_back();
     if (name.find('/') != std::string::npos) {
       variable.term = terms++;
+    } else if (signal.text == kEndTime) {
+      continue;
     } else if (std::find(names.begin(), names.end(), name) != names.end()) {
       variable.parameter = std::make_shared<const Expression>(name, names);
     } else if (name != "t") {

@@ -96,6 +96,8 @@ struct ExpressionScope {
   /// Where a signal ends that begins at a byte of the text; that byte itself if none does. A signal
   /// is then a name to find(). Empty: there are no signals.
   std::function<std::size_t(const std::string& text, std::size_t at)> signal_end{};
+  /// The text is a condition, 1 where it holds and 0 elsewhere; else it is a number.
+  bool is_condition = false;
 };
 
 /// Numbers for the parameters that one expression uses, or that stand on its stack: the expressions

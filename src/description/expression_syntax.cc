@@ -9,13 +9,9 @@
 #include "description/formula.h"
 #include "math/arrays.h"
 #include "text/nearest_name.h"
-#include "text/number_text.h"
 
 namespace codesign {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 using Code = ExpressionStep::Code;
 using Kind = ExpressionToken::Kind;
@@ -36,7 +32,11 @@ class Parser {
 
   ParsedExpression run() {
     if (scanner_.token().kind == Kind::kEnd) throw std::invalid_argument("the expression is empty");
-    if (conditional() == Type::kTruth) scanner_.fail("a comparison is not a number", 0);
+    const Type type = conditional();
+    if (type == Type::kTruth && !scope_.is_condition)
+      scanner_.fail("a comparison is not a number", 0);
+    if (type == Type::kNumber && scope_.is_condition)
+      scanner_.fail("a number stands where a comparison is needed", 0);
     if (scanner_.token().kind != Kind::kEnd) unexpected();
     return finish();
   }
@@ -63,7 +63,7 @@ class Parser {
   Type conditional() {
     const Level level(this);
     const std::size_t begin = scanner_.token().at;
-    const Type type = comparison();
+    const Type type = disjunction();
     if (!scanner_.is("?")) return type;
     if (type != Type::kTruth)
       scanner_.fail("a number stands before '?' where a comparison is needed", begin);
@@ -76,6 +76,63 @@ class Parser {
     number(&Parser::conditional);
     steps_[to_end].index = branch_end();
     return Type::kNumber;
+  }
+
+  // Truth is 1 or 0, so that a product is `and`, 1 - x is `not x`, and `x or y` is the negation of
+  // both negated. All comparisons are evaluated: none hides another one.
+
+  Type disjunction() {
+    const std::size_t begin = scanner_.token().at;
+    const Type type = conjunction();
+    if (!scanner_.is_word("or")) return type;
+    need_truth(type, begin);
+    negate();
+    while (scanner_.is_word("or")) {
+      scanner_.next();
+      truth(&Parser::conjunction);
+      negate();
+      operate({Code::kMultiply, 0, 2, 0.0});
+    }
+    negate();
+    return Type::kTruth;
+  }
+
+  Type conjunction() {
+    const std::size_t begin = scanner_.token().at;
+    const Type type = negation();
+    if (!scanner_.is_word("and")) return type;
+    need_truth(type, begin);
+    while (scanner_.is_word("and")) {
+      scanner_.next();
+      truth(&Parser::negation);
+      operate({Code::kMultiply, 0, 2, 0.0});
+    }
+    return Type::kTruth;
+  }
+
+  Type negation() {
+    if (!scanner_.is_word("not")) return comparison();
+    const Level level(this);
+    scanner_.next();
+    truth(&Parser::negation);
+    negate();
+    return Type::kTruth;
+  }
+
+  /// Replaces the truth on the stack by 1 minus it.
+  void negate() {
+    operate({Code::kNegate, 0, 1, 0.0});
+    add({Code::kConstant, 0, 0, 1.0});
+    operate({Code::kAdd, 0, 2, 0.0});
+  }
+
+  void truth(Type (Parser::*rule)()) {
+    const std::size_t begin = scanner_.token().at;
+    need_truth((this->*rule)(), begin);
+  }
+
+  void need_truth(Type type, std::size_t begin) const {
+    if (type == Type::kNumber) scanner_.fail("a number stands where a comparison is needed", begin);
   }
 
   Type comparison() {
@@ -290,76 +347,6 @@ class Parser {
 
 }  // namespace
 
-bool starts_identifier(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool continues_identifier(char c) { return starts_identifier(c) || is_digit(c); }
-
-void ExpressionScanner::fail(const std::string& what, std::size_t at) const {
-  constexpr std::size_t kWhole = 120, kBefore = 30, kShown = 60;
-  const std::size_t first = text_.size() <= kWhole || at < kBefore ? 0 : at - kBefore;
-  const std::size_t count = text_.size() <= kWhole ? text_.size() : kShown;
-  const std::string shown = (first > 0 ? "..." : "") + text_.substr(first, count) +
-                            (first + count < text_.size() ? "..." : "");
-  throw std::invalid_argument(what + " at position " + std::to_string(at + 1) + " of '" + shown +
-                              "'");
-}
-
-void ExpressionScanner::next() {
-  while (is_space(peek())) ++at_;
-  token_ = {ExpressionToken::Kind::kEnd, "", 0.0, at_};
-  if (at_ >= text_.size()) return;
-  if (starts_identifier(peek())) {
-    while (continues_identifier(peek())) ++at_;
-    if (scope_.signal_end) at_ = std::max(at_, scope_.signal_end(text_, token_.at));
-    token_.kind = ExpressionToken::Kind::kName;
-    token_.text = text_.substr(token_.at, at_ - token_.at);
-  } else if (is_digit(peek()) || peek() == '.') {
-    read_number();
-  } else {
-    read_symbol();
-  }
-}
-
-void ExpressionScanner::read_number() {
-  const auto digits = [this] {
-    while (is_digit(peek())) ++at_;
-  };
-  digits();
-  if (peek() == '.') ++at_;
-  digits();
-  const std::size_t sign = peek(1) == '+' || peek(1) == '-' ? 1 : 0;
-  if ((peek() == 'e' || peek() == 'E') && is_digit(peek(1 + sign))) {
-    at_ += 1 + sign;
-    digits();
-  }
-  token_.kind = ExpressionToken::Kind::kNumber;
-  token_.text = text_.substr(token_.at, at_ - token_.at);
-  if (continues_identifier(peek()) || peek() == '.' || token_.text == ".")
-    fail("malformed number", token_.at);
-  const std::optional<double> number = parse_number(token_.text);
-  if (!number) fail("number too large or too small for floating point", token_.at);
-  token_.number = *number;
-}
-
-void ExpressionScanner::read_symbol() {
-  static const std::string kAllowed = "+-*/^()<>=!?:,";
-  const char c = peek();
-  // Show all bytes of a UTF-8 character.
-  std::size_t length = 1;
-  while (static_cast<unsigned char>(c) >= 0x80 &&
-         (static_cast<unsigned char>(peek(length)) & 0xC0) == 0x80)
-    ++length;
-  if (kAllowed.find(c) == std::string::npos)
-    fail("unexpected character '" + text_.substr(at_, length) + "'", at_);
-  const bool compares = (c == '=' || c == '!' || c == '<' || c == '>') && peek(1) == '=';
-  if ((c == '=' || c == '!') && !compares)
-    fail(std::string("unexpected '") + c + "' (comparisons are == != < <= > >=)", at_);
-  at_ += compares || (c == '*' && peek(1) == '*') ? 2 : 1;
-  token_.kind = ExpressionToken::Kind::kSymbol;
-  token_.text = text_.substr(token_.at, at_ - token_.at);
-}
-
 ParsedExpression parse_expression(const std::string& text, const ExpressionScope& scope) {
   return Parser(text, scope).run();
 }
@@ -370,6 +357,8 @@ std::string identifier_fault(const std::string& name) {
     return "'" + name + "' is not an identifier (letters, digits and _, not starting with a digit)";
   if (name == "pi" || find_expression_function(name) >= 0)
     return "'" + name + "' is a function or constant of expressions; choose another name";
+  if (name == "and" || name == "or" || name == "not")
+    return "'" + name + "' is an operator of expressions; choose another name";
   return "";
 }
 

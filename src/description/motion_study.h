@@ -121,7 +121,13 @@ struct MotionStudy {
   MotionStudy& operator=(MotionStudy&&) noexcept;
   ~MotionStudy();
 
-  double duration = 0.0;  ///< [s]; of a study with postures: the number of its last one
+  /// [s]; of a study with postures: the number of its last one; of runs whose end depends on the
+  /// design, the longest one that is possible.
+  double duration = 0.0;
+  /// The duration of a run by its parameters [s], theory (21g); null: `duration`.
+  std::shared_ptr<const Expression> duration_of_design;
+  /// The condition at which a run ends before its duration, theory (21g); null: none.
+  std::shared_ptr<const SignalDescription> until;
   /// [s] Over which the energy of a run is balanced, theory (17a); 0: the whole run. A run that
   /// goes on beyond the study's duration balances over that duration, again and again.
   double balance_time = 0.0;
@@ -158,6 +164,11 @@ struct MotionStudy {
 
 /// Whether the objective has a term: an integral, a terminal one or a peak.
 bool has_objective(const MotionStudy& study);
+
+/// Whether the end of a run depends on its design.
+bool has_moving_end(const MotionStudy& study);
+/// The duration of a run with these parameters [s], all named ones; the longest one with `until`.
+double duration_at(const MotionStudy& study, const std::vector<double>& parameters);
 
 /// Whether the study gives the motion of this joint.
 bool has_given_motion(const MotionStudy& study, const std::string& joint);

@@ -17,6 +17,10 @@ constexpr const char* kFormOfSignal =
     "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, sums and "
     "differences of them, and expressions of them, ${...}";
 
+constexpr const char* kFormOfCondition =
+    "a comparison of signals, parameters and the time t, ${axis/position > 0.3}, or several joined "
+    "by and, or and not";
+
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
   if (first == std::string::npos) return "";
@@ -170,8 +174,9 @@ SignalTerm term_of(const std::string& signal) {
   return term;
 }
 
+/// @throws std::invalid_argument with what is wrong.
 SignalDescription parse_formula(const std::string& text, const SourceLocation& where,
-                                const std::string& element) {
+                                bool is_condition) {
   SignalDescription signal{text, {}, where, nullptr};
   SignalFormula formula;
   std::vector<std::string>& names = formula.names;
@@ -181,26 +186,55 @@ SignalDescription parse_formula(const std::string& text, const SourceLocation& w
     return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const std::string inside = trimmed(text);
-  try {
-    formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
-                                     {find, [&names] { return names; }, signal_end})
-                        .steps;
-  } catch (const std::invalid_argument& error) {
-    throw InputError({where, element, error.what(), text, kFormOfSignal});
-  }
+  formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
+                                   {find, [&names] { return names; }, signal_end, is_condition})
+                      .steps;
   for (const std::string& name : names)
     if (name.find('/') != std::string::npos) signal.terms.push_back(term_of(name));
   signal.formula = std::make_shared<const SignalFormula>(std::move(formula));
   return signal;
 }
 
+bool is_braced(const std::string& text) {
+  return text.size() > 3 && text.compare(0, 2, "${") == 0 && text.back() == '}';
+}
+
 }  // namespace
+
+SignalDescription end_time_signal(const SourceLocation& where) {
+  SignalFormula time;
+  time.steps.push_back({ExpressionStep::Code::kVariable, 0, 0, 0.0});
+  time.names.emplace_back(kEndTime);
+  return {kEndTime, {}, where, std::make_shared<const SignalFormula>(std::move(time))};
+}
+
+SignalDescription parse_condition(const std::string& text, const SourceLocation& where,
+                                  const std::string& element) {
+  if (!is_braced(trimmed(text)))
+    throw InputError({where, element, "no expression", text, kFormOfCondition});
+  SignalDescription condition;
+  try {
+    condition = parse_formula(text, where, true);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({where, element, error.what(), text, kFormOfCondition});
+  }
+  const std::vector<std::string>& names = condition.formula->names;
+  const auto varies = [](const std::string& name) {
+    return name == "t" || name.find('/') != std::string::npos;
+  };
+  if (std::none_of(names.begin(), names.end(), varies))
+    throw InputError({where, element, "neither a signal nor the time stands in the condition", text,
+                      kFormOfCondition});
+  return condition;
+}
 
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
                                const std::string& element) {
-  const std::string inside = trimmed(text);
-  if (inside.size() > 2 && inside.compare(0, 2, "${") == 0 && inside.back() == '}')
-    return parse_formula(text, where, element);
+  try {
+    if (is_braced(trimmed(text))) return parse_formula(text, where, false);
+  } catch (const std::invalid_argument& error) {
+    throw InputError({where, element, error.what(), text, kFormOfSignal});
+  }
   return {text, SignalParser(text, where, element).parse(), where, nullptr};
 }
 

@@ -49,6 +49,17 @@ struct SignalDescription {
 SignalDescription parse_signal(const std::string& text, const SourceLocation& where,
                                const std::string& element);
 
+/// Parses `${...}`, a comparison of signals, parameters and the time or several ones joined by and,
+/// or and not: a formula that is 1 where it holds and else 0.
+/// @throws InputError if the text is no condition, or one of parameters alone.
+SignalDescription parse_condition(const std::string& text, const SourceLocation& where,
+                                  const std::string& element);
+
+/// The signal `end_time`, the time at which a run ends [s]: the time as a formula, whose value
+/// counts at the end.
+inline constexpr const char* kEndTime = "end_time";
+SignalDescription end_time_signal(const SourceLocation& where);
+
 /// A signal whose extreme values within an interval of time count: in a constraint (`path:`,
 /// `final:`) or in the objective (`objective.peak`); theory (21a).
 struct WatchedSignal {

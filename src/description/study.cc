@@ -18,6 +18,12 @@ Study& Study::operator=(const Study&) = default;
 Study& Study::operator=(Study&&) noexcept = default;
 Study::~Study() = default;
 
+bool has_moving_end(const MotionStudy& study) { return study.duration_of_design || study.until; }
+
+double duration_at(const MotionStudy& study, const std::vector<double>& parameters) {
+  return study.duration_of_design ? study.duration_of_design->value(parameters) : study.duration;
+}
+
 bool has_given_motion(const MotionStudy& study, const std::string& joint) {
   return std::any_of(study.motion.begin(), study.motion.end(),
                      [&](const GivenMotion& motion) { return motion.joint == joint; });

@@ -52,6 +52,13 @@ bool CompiledSystem::begins_explicitly() const {
 
 bool CompiledSystem::has_switches() const { return !equation_code()->mode().empty(); }
 
+bool CompiledSystem::ends_run(const std::vector<bool>& mode) const {
+  if (!until()) return false;
+  for (std::size_t k = 0; const EquationCode* code = equation_code(k); ++k)
+    if (code->mode() == mode) return code->ends_run();
+  return record_variant({}, EquationPart::kMotion, mode)->ends_run();
+}
+
 const EquationCode* CompiledSystem::equation_code(std::size_t k, EquationPart part) const {
   return variants_[to_index(part)]->at(k, *this, part);
 }

@@ -43,6 +43,8 @@ class CompiledSystem final : public System {
   bool has_rates_apart() const;
   /// Whether the residual has switches, is_below(): then steps end where they change.
   bool has_switches() const;
+  /// Whether the condition of Study::until holds in a mode of the residual.
+  bool ends_run(const std::vector<bool>& mode) const;
   /// Whether a run begins with the explicit pair. With `method: auto` it does so unless there is
   /// dry friction, which is stiff wherever it sticks: a run that began explicitly would find this
   /// out in some fifty steps, and have made the programs of both methods.

@@ -67,6 +67,7 @@ EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
     if (!begun)
       begun = std::make_unique<ResidualRecording>(system, std::move(outcomes), std::move(mode));
     recording_ = &begun->recording;
+    ends_run_ = begun->ends_run;
     record_motion(part, begun.get());
     values_.recording = std::move(*std::exchange(recording_, nullptr));
   }

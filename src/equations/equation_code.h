@@ -134,6 +134,8 @@ class EquationCode {
   /// The outcomes of the residual's switches in turn, of which a run holds one set in each step;
   /// the same sequence in every part that begins with the residual, empty in the others.
   const std::vector<bool>& mode() const { return mode_; }
+  /// Whether the condition of Study::until holds in this mode.
+  bool ends_run() const { return ends_run_; }
 
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[to_index(function)]; }
@@ -170,6 +172,7 @@ class EquationCode {
       functions_;  ///< per EquationFunction; empty for those of the other part
   std::vector<Recording::Guard> design_guards_;
   std::vector<bool> outcomes_, mode_;
+  bool ends_run_ = false;
   MassFactor mass_factor_;
 
   mutable std::once_flag differentiated_;

@@ -63,6 +63,8 @@ class Formulas {
   void residuals(ObjectivePart part, const State<T>& state, VectorX<T>* residuals);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
   T watched(std::size_t k, const State<T>& state);
+  /// The condition of Study::until at a state: 1 where it holds, else 0; 0 without one.
+  T until(const State<T>& state);
   /// The value of a signal at a state, in SI units.
   T signal(const Signal& signal, const State<T>& state);
 

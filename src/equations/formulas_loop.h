@@ -125,6 +125,14 @@ T Formulas<T>::watched(std::size_t k, const State<T>& state) {
 }
 
 template <class T>
+T Formulas<T>::until(const State<T>& state) {
+  const Signal* const until = view_.system.until();
+  if (!until) return T(0.0);
+  load(state);
+  return formula_value(view_, *until);
+}
+
+template <class T>
 T Formulas<T>::signal(const Signal& signal, const State<T>& state) {
   load(state);
   return signal_value(view_, signal);

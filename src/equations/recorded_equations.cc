@@ -200,6 +200,8 @@ ResidualRecording::ResidualRecording(const System& system, std::vector<bool> out
                          &recording)),
       of_design(recording.decisions().size()) {
   recording.record_switches(true);
+  // First, so that its comparisons are switches also where a law decides the same thing.
+  ends_run = equations.formulas.until(equations.state).is(1.0);
   equations.record_residual();
   recording.record_switches(false);
 }

@@ -43,6 +43,7 @@ struct ResidualRecording {
 
   Recording recording;
   RecordedEquations equations;
+  bool ends_run = false;      ///< whether the condition of Study::until holds
   std::size_t of_design = 0;  ///< decisions that were made before the residual's
 };
 

@@ -115,6 +115,7 @@ CommandInputs::CommandInputs(const CompiledSystem& of, const CommandOptions& opt
       study.solver.maximum_step = study.duration;
     if (factor > 1.0) study.balance_time = study.duration;
     study.duration = *options.duration;
+    study.duration_of_design.reset();
   }
   // Commands make steps that the study did not count: one that ends at the command, and a short one
   // that begins there.

@@ -85,6 +85,7 @@ Status IdasIntegrator::start(const std::vector<double>& parameters) {
   message_.clear();
   restart_warnings_.clear();
   equations_.start();
+  if (Status status = begin_run(system_.study(), parameters); !status.ok()) return status;
   if (Status status = assemble(parameters); !status.ok()) return status;
   equations_.count_turns_from(initial_);
   equations_.pack(initial_, span_of(y_.get()), span_of(y_dot_.get()));
@@ -94,6 +95,7 @@ Status IdasIntegrator::start(const std::vector<double>& parameters) {
   restart_solver();
   watch_.start(equations(), initial_);
   run_watch_.start(equations(), initial_);
+  run_watch_.end_at(end());
   singularity_.start(watch_singularities_, initial_);
   work_ = 0.0;
   pace_.start(initial_.t);
@@ -177,6 +179,7 @@ Status IdasIntegrator::jump() {
 }
 
 Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters) {
+  if (Status status = check_end(system_.study(), parameters); !status.ok()) return status;
   const bool between = time < state_.t;
   State<double> behind;
   double reached = 0.0;
@@ -185,11 +188,13 @@ Status IdasIntegrator::go_on(double time, const std::vector<double>& parameters)
   if (Status status = continuation_.cross(parameters, between, &assembly_, &equations(), &behind);
       !status.ok())
     return status;
+  go_on_run(system_.study(), parameters, between);
   state_ = behind;
   span_of(psi_.get())[0] = reached;
   equations_.start();
   equations_.count_turns_from(state_);
   run_watch_.go_on(equations(), state_);
+  run_watch_.end_at(end());
   drift_size_ = 0.0;
   has_stepped_ = false;
   return begin_anew([] { return true; });

@@ -7,12 +7,45 @@
 #include "integration/posture_sequence.h"
 #include "integration/rosenbrock_integrator.h"
 #include "mechanism/loop_plane.h"
+#include "text/number_text.h"
 
 namespace codesign {
 
 void Integrator::obey(const std::atomic<bool>* cancel) {
   cancel_ = cancel;
   assembly().obey(cancel);
+}
+
+Status Integrator::check_end(const MotionStudy& study, const std::vector<double>& parameters) {
+  if (!study.duration_of_design) return {};
+  const double end = duration_at(study, parameters);
+  // Rounding alone may lead beyond the bounds.
+  constexpr double kRounding = 1e-12;
+  if (end > 0.0 && end <= study.duration * (1.0 + kRounding)) return {};
+  return {StatusCode::kInvalidDesign, 0.0,
+          "duration: " + readable(end) + " s, which must be above 0 s and at most " +
+              readable(study.duration) + " s, as the bounds of its parameters allow"};
+}
+
+Status Integrator::begin_run(const MotionStudy& study, const std::vector<double>& parameters) {
+  is_ended_ = false;
+  end_ = duration_at(study, parameters);
+  return check_end(study, parameters);
+}
+
+void Integrator::go_on_run(const MotionStudy& study, const std::vector<double>& parameters,
+                           bool between) {
+  end_ = duration_at(study, parameters);
+  is_ended_ = is_ended_ && !between;
+}
+
+Warnings Integrator::end_warnings(const MotionStudy& study) const {
+  if (!study.until || is_ended_ || state().t < end_) return {};
+  return {warn("until_not_reached",
+               {study.until->where, "until",
+                "the condition did not become true within the duration, " + readable(end_) +
+                    " s, where the run ended",
+                study.until->text, "a longer duration, or a condition that the motion meets"})};
 }
 
 std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {

@@ -48,6 +48,13 @@ class Integrator {
   /// The time derivative of the dense output: the parts q, v and s of `rates` [per s].
   virtual void interpolate_rates(double time, State<double>* rates) = 0;
 
+  /// Where a run of this design ends at the latest [s], doc/theory.md (21g); after start().
+  double end() const { return end_; }
+  /// Whether the last step ends where the run does. Commanded runs go on beyond end().
+  bool has_ended() const { return is_ended_ || state().t >= end_; }
+  /// Whether the condition of Study::until has ended the run; it cannot go on.
+  bool is_ended() const { return is_ended_; }
+
   virtual Equations<double>& equations() = 0;
   virtual Assembly& assembly() = 0;
   /// Whether runs look for singular positions that they pass, doc/theory.md (17b), to report in
@@ -65,11 +72,23 @@ class Integrator {
 
  protected:
   bool cancelled() const { return is_set(cancel_); }
+  /// kInvalidDesign for a duration that no run can have.
+  static Status check_end(const MotionStudy& study, const std::vector<double>& parameters);
+  /// Sets end(). @returns check_end().
+  Status begin_run(const MotionStudy& study, const std::vector<double>& parameters);
+  /// The same while a run goes on with other parameters. @param between whether it goes on from
+  /// before the end of the last step, so that the end found there counts no more.
+  void go_on_run(const MotionStudy& study, const std::vector<double>& parameters, bool between);
+  void end_run() { is_ended_ = true; }
+  /// `until_not_reached`, where a run has gone on to its duration.
+  Warnings end_warnings(const MotionStudy& study) const;
   void begin_methods(const char* method) { methods_.assign(1, {0.0, method}); }
   void change_method(double time, const char* method) { methods_.push_back({time, method}); }
 
  private:
   std::vector<MethodChange> methods_;
+  double end_ = 0.0;
+  bool is_ended_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
 };
 

@@ -22,7 +22,13 @@ class InteractiveSimulation {
                         const std::vector<SignalDescription>& signals);
 
   const CommandInputs& inputs() const { return inputs_; }
+  /// Of the longest run [s].
   double duration() const { return inputs_.study.duration; }
+  /// As Simulation::end(), after start().
+  double end() const { return simulation_->end(); }
+  /// Whether the last advance() has reached the end of a run that ends by itself. A step may have
+  /// found it before; a command until then can still move it.
+  bool has_ended() const { return simulation_->has_ended() && now_ >= simulation_->time(); }
   /// The names of frames; controllers have the names of the study.
   const FrameNames& names() const { return names_; }
   const std::vector<double>& parameters() const { return parameters_; }

@@ -234,7 +234,7 @@ Status ModeWatch::count_return(double t) {
 // At a kink the rates are continuous, and no sensitivity jumps. Where a guard is only touched, its
 // instant has no derivative.
 bool ModeWatch::has_jump(const ModeChange& change) const {
-  constexpr double kSame = 1e-10, kTouched = 1e-6;
+  constexpr double kSame = 1e-10;
   const double size = std::max(change.before.z.lpNorm<Eigen::Infinity>(),
                                change.behind.z.lpNorm<Eigen::Infinity>()),
                jump = (change.before.z - change.behind.z).lpNorm<Eigen::Infinity>(),
@@ -242,7 +242,7 @@ bool ModeWatch::has_jump(const ModeChange& change) const {
   if (jump <= kSame * size &&
       of_g <= kSame * std::max(std::abs(change.g_before), std::abs(change.g)))
     return false;
-  return std::abs(change.guard_rate) > kTouched * guard_pace_;
+  return !is_touched(change.guard_rate);
 }
 
 Status ModeWatch::cross(const State<double>& state, Assembly* assembly,

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,17 @@ class ModeWatch {
   /// is zero, located to rounding, if one leaves its side within the attempt; cross() is then due.
   /// @returns false if such an attempt fails: the step is to be repeated with a smaller size.
   bool cut(RosenbrockStep<double>* step);
+  /// The guard at whose zero the last attempt was cut, -1 if none; and the mode behind it.
+  int guard() const { return guard_; }
+  const std::vector<bool>& next_mode() const { return next_mode_; }
+  /// The rate of that guard along the motion in the mode that is held [per s]; 0 where the guard is
+  /// only touched, so that its instant has no derivative. @param at the end of the step, with its
+  /// z. @param rates of that state.
+  double end_rate(const State<double>& at, const State<double>& rates) {
+    along_->hold(mode_);
+    const double rate = guard_rate(guard_, at, rates);
+    return is_touched(rate) ? 0.0 : rate;
+  }
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
   /// After an instant at which inputs jumped or the design changed: the mode is looked at.
@@ -65,6 +77,7 @@ class ModeWatch {
  private:
   /// What of a guard counts as zero, relative to its largest value and to the sizes of x and y.
   static constexpr double kRounding = 1e-10, kCancelled = 1e-13;
+  static constexpr double kTouched = 1e-6;  ///< share of its pace below which a guard is touched
   static constexpr int kPoints = 5;  ///< at which guards are evaluated after the start of a step
 
   struct Crossing {
@@ -84,6 +97,7 @@ class ModeWatch {
   double locate(const Crossing& crossing, RosenbrockStep<double>* step);
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
+  bool is_touched(double rate) const { return !(std::abs(rate) > kTouched * guard_pace_); }
   Status count_return(double t);
   bool has_jump(const ModeChange& change) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);

@@ -15,6 +15,7 @@ Status PostureSequence::start(const std::vector<double>& parameters) {
   warnings_.clear();
   psi_ = 0.0;
   begin_methods("postures");
+  if (Status status = begin_run(system_.study(), parameters); !status.ok()) return status;
   Status status = repeatable_start_.start(
       system_, parameters,
       [this](const std::vector<double>& design) {

@@ -27,6 +27,13 @@ double psi_error(const RosenbrockStep<double>& step, const SolverOptions& option
   return std::abs(estimate) / (options.absolute_tolerance + options.relative_tolerance * size);
 }
 
+/// The condition that is to end a run holds where it begins.
+Status begins_at_end(const MotionStudy& study) {
+  const InputError error({study.until->where, "until", "the condition is true at the start",
+                          study.until->text, "a condition that becomes true during the motion"});
+  return {StatusCode::kInvalidDesign, 0.0, error.what()};
+}
+
 }  // namespace
 
 RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
@@ -48,6 +55,7 @@ RosenbrockIntegrator::RosenbrockIntegrator(const CompiledSystem& system)
       continuation_(system) {}
 
 Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
+  if (Status status = begin_run(system_.study(), parameters); !status.ok()) return status;
   return repeatable_start_.start(
       system_, parameters, [this](const std::vector<double>& design) { return begin(design); },
       [this] {
@@ -75,6 +83,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   step_.start(initial_);
   watch_.start(step_.equations(), initial_);
   run_watch_.start(step_.equations(), initial_);
+  run_watch_.end_at(end());
   work_.start(initial_, run_watch_.motion());
   singularity_.start(watch_singularities_, initial_);
   proposal_ = options_.initial_step > 0.0 ? options_.initial_step : first_step();
@@ -86,6 +95,7 @@ Warnings RosenbrockIntegrator::warnings() const {
   Warnings all = assembly_.warnings();
   append(run_watch_.warnings(statistics_), &all);
   append(singularity_.warnings(), &all);
+  append(end_warnings(system_.study()), &all);
   return all;
 }
 
@@ -137,6 +147,19 @@ Status RosenbrockIntegrator::change_mode(ModeChange* change) {
   has_jumped_ = true;
   step_.restart(change->behind);
   work_.start(change->behind, run_watch_.motion());
+  return look_for_end(change->behind);
+}
+
+// Accelerations and efforts jump with the mode, so that the condition of the end may hold at once.
+// At the start it counts a little behind it: a ball on the ground may be thrown.
+Status RosenbrockIntegrator::look_for_end(const State<double>& behind) {
+  if (!system_.until()) return {};
+  const bool is_start = behind.t == 0.0;
+  if (!system_.ends_run(is_start ? mode_watch_.mode()
+                                 : step_.equations().compiled().mode_of(behind)))
+    return {};
+  if (is_start) return begins_at_end(system_.study());
+  end_run();
   return {};
 }
 
@@ -155,6 +178,7 @@ Status RosenbrockIntegrator::sample() {
 }
 
 Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& parameters) {
+  if (Status status = check_end(system_.study(), parameters); !status.ok()) return status;
   const bool between = time < step_.state().t,
              changes = parameters != step_.equations().parameters();
   State<double>& behind = behind_jump_;
@@ -165,10 +189,12 @@ Status RosenbrockIntegrator::go_on(double time, const std::vector<double>& param
           continuation_.cross(parameters, between, &assembly_, &step_.equations(), &behind);
       !status.ok())
     return status;
+  go_on_run(system_.study(), parameters, between);
   step_.start(behind, reached);
   mode_watch_.restart(&step_.equations());
   if (changes) step_.choose_pivots(proposal_);
   run_watch_.go_on(step_.equations(), behind);
+  run_watch_.end_at(end());
   work_.start(behind, run_watch_.motion());
   return {};
 }
@@ -197,7 +223,7 @@ double RosenbrockIntegrator::further_error(const BeforeAccept& before_accept) {
 }
 
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
-  if (Status status = jump(); !status.ok()) return status;
+  if (Status status = jump(); !status.ok() || is_ended()) return status;
   choose_method();
   const double t = step_.state().t;
   const double smallest = smallest_step(t, system_.study().duration);
@@ -255,6 +281,10 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
 }
 
 Status RosenbrockIntegrator::look() {
+  if (mode_watch_.guard() >= 0 && system_.ends_run(mode_watch_.next_mode())) {
+    end_run();
+    run_watch_.end_at(step_.state().t);
+  }
   ++statistics_.steps;
   if (step_.tableau().is_explicit()) ++statistics_.explicit_steps;
   chooses_ = true;

@@ -55,6 +55,11 @@ class RosenbrockIntegrator final : public Integrator {
   /// The first change of the mode in the last jump(); its `guard` is -1 if a step did not end there
   /// because of a guard.
   const ModeChange& mode_change() const { return mode_change_; }
+  /// The guard that has ended the run, -1 if none; and its rate at the end.
+  int end_guard() const { return is_ended() ? mode_watch_.guard() : -1; }
+  double end_guard_rate(const State<double>& at, const State<double>& rates) {
+    return mode_watch_.end_rate(at, rates);
+  }
   /// The mode that the equations hold now; empty without switches.
   const std::vector<bool>& mode() const { return mode_watch_.mode(); }
   /// The events of the last jump(), none if there was nothing to do, and the state before them.
@@ -69,6 +74,9 @@ class RosenbrockIntegrator final : public Integrator {
   Status begin(const std::vector<double>& parameters);
   /// Changes the mode if that is due. @param change what happened.
   Status change_mode(ModeChange* change);
+  /// Ends the run if its condition holds behind a change of the mode.
+  /// @returns kInvalidDesign at the start.
+  Status look_for_end(const State<double>& behind);
   /// The events of sampled controllers.
   Status sample();
   /// Of an attempt that passes the error test of the motion: cuts it where the mode changes, and

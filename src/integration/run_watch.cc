@@ -195,6 +195,7 @@ void RunWatch::start(const Equations<double>& equations, const State<double>& in
   smallest_scale_ = smallest_scale(equations.constants(), initial);
   worst_drift_time_ = closed_error_time_ = initial.t;
   closed_error_ = scale_ = 0.0;
+  end_ = system_.study().duration;
   begin_balance(initial, motion_.energy(initial.q, initial.v));
 }
 
@@ -277,8 +278,7 @@ Status RunWatch::check(const State<double>& state, double drift, double work,
     return {StatusCode::kConstraintDrift, state.t,
             drift_sentence(drift, state.t) + ". " + advice(options_)};
   unbalanced_steps_ = reach_ * error > energy_limit_.failure * scale_ ? unbalanced_steps_ + 1 : 0;
-  if (unbalanced_steps_ > kPatience ||
-      (unbalanced_steps_ > 0 && state.t >= system_.study().duration))
+  if (unbalanced_steps_ > kPatience || (unbalanced_steps_ > 0 && state.t >= end_))
     return {StatusCode::kEnergyError, state.t,
             energy_sentence(reach_ * error / scale_, state.t) + ". " + advice(options_)};
   ++balanced_steps_;

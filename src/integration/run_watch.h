@@ -113,6 +113,9 @@ class RunWatch {
   /// removes does not count as an error. The balance of what came before is closed, unless it is so
   /// short that it could not fail.
   void go_on(const Equations<double>& equations, const State<double>& state);
+  /// Says where the run ends [s], in place of the study's duration. An energy error there fails at
+  /// once.
+  void end_at(double time) { end_ = time; }
   const BodyMotion& motion() const { return motion_; }
 
   /// The drift d of (17a) [-]: the largest projection correction of a coordinate or velocity over
@@ -143,6 +146,7 @@ class RunWatch {
   const SolverOptions& options_;
   const RunLimit drift_limit_, energy_limit_;
   BodyMotion motion_;
+  double end_ = 0.0;                                     ///< of the run [s]
   double balance_begin_ = 0.0;                           ///< [s]
   int balanced_steps_ = 0;                               ///< since then
   double smallest_scale_ = 0.0;                          ///< [J]

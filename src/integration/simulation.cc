@@ -50,7 +50,7 @@ class Simulation::Implementation {
   // at the end is not interpolated. Beyond the duration the end is set one duration ahead.
   Status advance(double time) {
     const CpuTimer timer;
-    const double duration = system_->study().duration;
+    const double duration = integrator_->end();
     Status status;
     while (status.ok() && is_before(time)) {
       const double now = integrator_->state().t;
@@ -81,6 +81,7 @@ class Simulation::Implementation {
   // solved for again from these.
   void sample(double time, Frame* frame) {
     double psi = 0.0;
+    if (integrator_->is_ended()) time = std::min(time, integrator_->state().t);
     integrator_->interpolate(time, &sample_, &psi);
     if (integrator_->state().t > 0.0)
       integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
@@ -96,6 +97,10 @@ class Simulation::Implementation {
     return integrator_->psi() + integrator_->equations().terminal(sample_);
   }
   double time() const { return integrator_->state().t; }
+  double end() const { return integrator_->end(); }
+  bool has_ended() const { return integrator_->is_ended(); }
+  bool may_end() const { return system_->until() != nullptr; }
+  bool has_moving_end() const { return codesign::has_moving_end(system_->study()); }
 
   void obey(const std::atomic<bool>* cancel) { integrator_->obey(cancel); }
   const FrameNames& names() const { return observer_.names(); }
@@ -106,7 +111,8 @@ class Simulation::Implementation {
  private:
   /// Rounding may leave the end of a step, or an instant of a controller, a last bit before `time`.
   bool is_before(double time) const {
-    return time - integrator_->state().t > 1e-12 * std::max(time, 1e-3 * system_->study().duration);
+    return !integrator_->is_ended() &&
+           time - integrator_->state().t > 1e-12 * std::max(time, 1e-3 * system_->study().duration);
   }
   void keep_statistics(const CpuTimer& timer) {
     const double cpu = statistics_.cpu_seconds + timer.seconds();
@@ -157,19 +163,34 @@ Status Simulation::go_on(double time, const std::vector<double>& parameters) {
 void Simulation::sample(double time, Frame* frame) { implementation_->sample(time, frame); }
 double Simulation::objective() { return implementation_->objective(); }
 double Simulation::time() const { return implementation_->time(); }
+double Simulation::end() const { return implementation_->end(); }
+bool Simulation::has_ended() const { return implementation_->has_ended(); }
+bool Simulation::may_end() const { return implementation_->may_end(); }
+bool Simulation::has_moving_end() const { return implementation_->has_moving_end(); }
 void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(cancel); }
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
 const std::vector<MethodChange>& Simulation::methods() const { return implementation_->methods(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
+// Where a run ends by its condition, only the run tells: it is computed once more for the samples.
+Status find_end(Simulation* simulation, double* end) {
+  if (simulation->has_moving_end()) *end = std::min(*end, simulation->end());
+  if (!simulation->may_end()) return {};
+  if (Status status = simulation->advance(*end); !status.ok()) return status;
+  if (simulation->has_ended()) *end = std::min(*end, simulation->time());
+  return simulation->start();
+}
+
 Status simulate(Simulation* simulation, double duration, int count, const FrameObserver& observer,
                 const std::atomic<bool>* cancel) {
   Frame frame;
   simulation->obey(cancel);
   Status status = simulation->start();
+  double end = duration;
+  if (status.ok()) status = find_end(simulation, &end);
   for (int k = 0; status.ok() && k < count; ++k) {
-    const double time = count > 1 ? duration * k / (count - 1) : 0.0;
+    const double time = count > 1 ? end * k / (count - 1) : 0.0;
     status = simulation->advance(time);
     if (!status.ok()) break;
     simulation->sample(time, &frame);

@@ -17,4 +17,8 @@ Simulation simulation_of(std::shared_ptr<const CompiledSystem> system,
                          const std::vector<double>& parameters,
                          const std::vector<SignalDescription>& signals = {});
 
+/// Finds where a run ends that has just started, and starts it again if it had to be computed for
+/// that. @param end [s]: not beyond this; then where it ends.
+Status find_end(Simulation* simulation, double* end);
+
 }  // namespace codesign

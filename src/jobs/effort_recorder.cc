@@ -83,7 +83,12 @@ class MotionNeeds {
 EffortSummary record_motion(const Problem& problem, const std::vector<double>& parameters,
                             const std::vector<SignalDescription>& signals, int samples,
                             const RowSink& sink, const std::atomic<bool>* cancel) {
-  const double duration = study_of(problem).duration;
+  if (const auto& until = study_of(problem).until)
+    throw InputError(
+        {until->where, "until",
+         "efforts follow a motion that is given, without a run that would find its end",
+         until->text, "a study without until"});
+  const double duration = duration_at(study_of(problem), parameters);
   const SetpointMotion motion(study_of(problem), parameters);
   DrivenReplay replay = replay_of(problem, motion, parameters, signals);
   LimitOptions enforced = study_of(problem).limits;

@@ -222,6 +222,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   const int postures = study_of(problem).postures;
   summary.status = codesign::simulate(&simulation, study_of(problem).duration,
                                       postures > 0 ? postures : samples, observer, cancel);
+  summary.end = simulation.time();
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
   summary.warnings = simulation.warnings();
@@ -229,7 +230,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   const Study& study = study_of(problem);
   const bool has_term = std::any_of(study.watched.begin(), study.watched.end(), is_term);
   if (summary.status.ok() && has_objective(study) && !has_term &&
-      simulation.time() == study.duration)
+      simulation.time() >= (simulation.has_ended() ? 0.0 : simulation.end()))
     summary.objective = simulation.objective();
   summary.crossings = watch.crossings();
   return summary;
@@ -275,7 +276,8 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   for (std::size_t k = 0; k < shown.size(); ++k)
     record.summary["signals"].push_back(signal_json(shown[k], watched[k]));
   // If the run ends early, the integrals would not cover the whole study.
-  if (record.status.ok() && postures == 0) add_energies(shown, watched, duration, &record.summary);
+  if (record.status.ok() && postures == 0)
+    add_energies(shown, watched, simulation.time(), &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());
   record.summary["poses"] = poses.json(simulation.names().links);
   return record;

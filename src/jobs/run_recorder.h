@@ -91,6 +91,7 @@ struct RunSummary {
   Warnings warnings;                     ///< Simulation::warnings()
   /// The study's objective; empty if the study has none or a peak, or if the run does not end at
   /// the study's duration.
+  double end = 0.0;  ///< of the run [s]
   std::optional<double> objective;
 };
 

@@ -113,6 +113,12 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
     fault.allowed += ", or solver.gradient auto or direct";
     throw InputError(fault);
   }
+  if (has_moving_end(study)) {
+    fault.message =
+        "this algorithm takes sums of squares over one time for all designs, and the end of a run "
+        "depends on the design";
+    throw InputError(fault);
+  }
   for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
     for (const ObjectiveTerm& term : *terms)
       if (term.weight.is_constant() && term.weight.nominal() < 0.0)
@@ -155,7 +161,8 @@ bool is_sum_of_squares(const Study& study) {
   const auto is_own_term = [](const WatchedSignal& watched) {
     return is_term(watched) && !is_largest_of_many(watched);
   };
-  return std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
+  return !has_moving_end(study) &&
+         std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
          std::none_of(study.terminal.begin(), study.terminal.end(), is_negative) &&
          std::none_of(study.watched.begin(), study.watched.end(), is_own_term);
 }

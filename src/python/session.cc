@@ -33,7 +33,7 @@ void require_squares(const Study& study) {
                     "residuals belong to a sum of squares, which this objective is not",
                     "",
                     "integral, terminal and sum terms with weights of at least 0, no peaks and "
-                    "measures, and robust.measure mean"});
+                    "measures, robust.measure mean, and an end of runs that no parameter moves"});
 }
 
 void use_adjoint(MotionStudy* study) { study->solver.gradient = GradientMethod::kAdjoint; }

@@ -20,7 +20,7 @@ AdjointGradient::Backward::Backward(const CompiledSystem& system, const Rosenbro
 }
 
 AdjointGradient::AdjointGradient(const CompiledSystem& system, int most_points)
-    : system_(system), most_points_(most_points), integrator_(system) {
+    : system_(system), most_points_(most_points), integrator_(system), end_(system) {
   judge_ = [this](RosenbrockStep<double>* step) { return control_->attempt(step); };
 }
 
@@ -172,6 +172,11 @@ void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
   }
   back_->adjoint.add_gradient(*gradient);
   add_boundaries(gradient);
+  if (!has_moving_end(system_.study()) || !integrator_.has_ended()) return;
+  const Status status = end_.evaluate(
+      &integrator_, duration_gradient(system_.study(), integrator_.equations().parameters()));
+  *gradient += (status.ok() ? end_.objective_rate() : std::numeric_limits<double>::quiet_NaN()) *
+               end_.time();
 }
 
 }  // namespace codesign

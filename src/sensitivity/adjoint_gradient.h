@@ -9,6 +9,7 @@
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/adjoint_step.h"
 #include "sensitivity/control_directions.h"
+#include "sensitivity/end_motion.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
 #include "sensitivity/step_path.h"
@@ -26,7 +27,7 @@ class AdjointGradient final : public GradientEngine {
 
   Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
-  double time() const override { return integrator_.state().t; }
+  const Integrator& integrator() const override { return integrator_; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   /// Empty: an evaluation that needs the root uses the direct method.
@@ -71,6 +72,7 @@ class AdjointGradient final : public GradientEngine {
   std::optional<Backward> back_;
   std::unique_ptr<ControlTangent> control_;  ///< of runs with gradient
   RosenbrockIntegrator::BeforeAccept judge_;
+  EndMotion end_;
   const Extremes none_;
   bool with_gradient_ = false;
   const std::atomic<bool>* cancel_ = nullptr;

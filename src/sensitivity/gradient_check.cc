@@ -15,6 +15,7 @@
 #include "math/differences.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
+#include "sensitivity/end_motion.h"
 #include "sensitivity/rosenbrock_gradient.h"
 #include "sensitivity/run_steps.h"
 #include "sensitivity/signal_watch.h"
@@ -38,18 +39,20 @@ struct TakenStep {
 /// Records the steps of an integration.
 Status record_steps(const CompiledSystem& system, const std::vector<double>& parameters,
                     Derivatives derivatives, const std::atomic<bool>* cancel,
-                    std::vector<TakenStep>* steps) {
+                    std::vector<TakenStep>* steps, EndMotion* end) {
   RosenbrockGradient run(system);
   run.obey(cancel);
   Status status = run.start(parameters, derivatives);
-  while (status.ok() && run.time() < system.study().duration) {
+  while (status.ok() && !run.integrator().has_ended()) {
+    const double before = run.time();
     ModeChange change;
     status = run.jump();
     if (status.ok() && run.integrator().has_jumped()) change = run.integrator().mode_change();
-    if (status.ok()) status = run.advance(system.study().duration);
-    if (status.ok())
-      steps->push_back({run.step_size(), &run.tableau(), run.integrator().mode(), change});
+    if (status.ok()) status = run.advance(run.integrator().end());
+    const double h = run.time() > before ? run.step_size() : 0.0;
+    if (status.ok()) steps->push_back({h, &run.tableau(), run.integrator().mode(), change});
   }
+  *end = run.end_motion();
   return status;
 }
 
@@ -106,12 +109,9 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
   }
 }
 
-/// Carries a complex run over an instant that a guard determines, theory (18g): in complex numbers
-/// the guard is zero at the time t_e + i tau'.
+/// Carries a complex run over an instant that a guard determines, theory (18g).
 void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step, State<Complex>* state) {
-  VectorX<Complex> guards, right;
-  step->equations().compiled().switches(*state, &guards, &right);
-  const Complex tau(0.0, -guards[change.guard].imag() / change.guard_rate);
+  const Complex tau = complex_guard_time(change.guard, change.guard_rate, step);
   const Eigen::Index n = state->v.size(), states = state->s.size();
   const VectorX<double> jump = change.before.z - change.behind.z;
   state->v += tau * jump.head(n).cast<Complex>();
@@ -138,7 +138,7 @@ void replay_jump(const TakenStep& taken, const std::vector<ControlEvent>& events
 /// The run with steps of the same sizes in complex arithmetic.
 /// @param extremes of the real run.
 Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters,
-                const std::vector<TakenStep>& steps, const Extremes& extremes,
+                const std::vector<TakenStep>& steps, const Extremes& extremes, EndMotion* end,
                 RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
                 const std::atomic<bool>* cancel) {
   RosenbrockStep<Complex> step(system, integrator->step().tableau());
@@ -154,10 +154,16 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
   if (result.watched.size() > 0)
     replay_watched(system, extremes.times, integrator, &step, &result.watched);
   ControlClock clock(system.study());
+  Complex tau = 0.0;
+  bool ends_at_jump = false;
   for (const TakenStep& taken : steps) {
     if (is_set(cancel)) break;
+    ends_at_jump = taken.h == 0.0;
+    if (ends_at_jump && taken.change.guard >= 0)
+      tau = complex_guard_time(taken.change.guard, taken.change.guard_rate, &step);
     step.use(*taken.tableau);
     replay_jump(taken, clock.due(step.state().t), integrator, &step);
+    if (ends_at_jump) break;
     step.attempt(taken.h);
     step.accept();
     step.track_turns();
@@ -165,6 +171,9 @@ Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parame
       replay_watched(system, extremes.times, integrator, &step, &result.watched);
   }
   result.objective = step.psi() + step.equations().terminal(step.state());
+  if (!ends_at_jump) tau = end->complex_time(parameters, &step);
+  end->add_change(tau, extremes.times, &integrator->equations(), &result.objective,
+                  &result.watched);
   replay_measures(system.study(), extremes, &result);
   return result;
 }
@@ -220,9 +229,10 @@ Status differentiate_steps(const CompiledSystem& system, const std::vector<doubl
                            Eigen::VectorXd* objective, Eigen::MatrixXd* watched) {
   RosenbrockIntegrator integrator(system);
   std::vector<TakenStep> steps;
+  EndMotion end(system);
   objective->setZero(directions.cols());
   watched->setZero(directions.cols(), extremes.values.size());
-  Status status = record_steps(system, parameters, derivatives, cancel, &steps);
+  Status status = record_steps(system, parameters, derivatives, cancel, &steps, &end);
   for (Eigen::Index k = 0; status.ok() && k < directions.cols(); ++k) {
     const double h = step_along(system.study(), parameters, directions.col(k), [](double value) {
       return kComplexStep * std::max(1.0, std::abs(value));
@@ -230,7 +240,7 @@ Status differentiate_steps(const CompiledSystem& system, const std::vector<doubl
     const std::vector<Complex> perturbed =
         moved(system.study(), parameters, directions.col(k), Complex(0.0, h));
     const Replayed run =
-        replay(system, perturbed, steps, extremes, &integrator, parameters, cancel);
+        replay(system, perturbed, steps, extremes, &end, &integrator, parameters, cancel);
     (*objective)[k] = run.objective.imag() / h;
     watched->row(k) = run.watched.imag().transpose() / h;
     if (is_set(cancel)) status = {StatusCode::kCancelled, 0.0, "cancelled"};

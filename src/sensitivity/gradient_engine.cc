@@ -139,10 +139,9 @@ class Evaluator::Implementation {
   Status run(GradientEngine* engine, const std::vector<double>& parameters, Derivatives derivatives,
              const std::atomic<bool>* cancel) const {
     Status status = engine->start(parameters, derivatives);
-    const double duration = system_->study().duration;
-    while (status.ok() && engine->time() < duration) {
+    while (status.ok() && !engine->integrator().has_ended()) {
       if (is_set(cancel)) return {StatusCode::kCancelled, engine->time(), "cancelled"};
-      status = engine->advance(duration);
+      status = engine->advance(engine->integrator().end());
     }
     return status;
   }

@@ -29,7 +29,8 @@ inline double direct_cost(int parameters) {
 constexpr double kAdjointCost = 4.0 + kFourLanes;
 
 /// An integration that can compute the gradient of psi; one implementation per method. start() may
-/// be called again. Not thread-safe.
+/// be called again. Where the end of a run depends on the design, results at
+/// Integrator::has_ended() are those of an end that moves, theory (21g). Not thread-safe.
 class GradientEngine {
  public:
   virtual ~GradientEngine() = default;
@@ -43,8 +44,10 @@ class GradientEngine {
   /// with derivatives.
   virtual Status advance(double limit) = 0;
 
+  /// The integrator of the run.
+  virtual const Integrator& integrator() const = 0;
   /// Time reached [s].
-  virtual double time() const = 0;
+  double time() const { return integrator().state().t; }
   /// psi of a study that ends at time(): the integral so far plus the terminal terms, doc/theory.md
   /// (21).
   virtual double objective() = 0;

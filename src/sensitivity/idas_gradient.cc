@@ -216,7 +216,11 @@ void IdasTangent::residuals(ObjectivePart part, const State<double>& state,
 }
 
 IdasGradient::IdasGradient(const CompiledSystem& system)
-    : system_(system), integrator_(system), watch_(system), residuals_(system) {}
+    : system_(system),
+      integrator_(system),
+      watch_(system),
+      residuals_(system),
+      end_motion_(system) {}
 
 // The workspace of the sensitivities is allocated only when derivatives are requested.
 Status IdasGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
@@ -225,6 +229,7 @@ Status IdasGradient::start(const std::vector<double>& parameters, Derivatives de
   if (with_gradient && !tangent_) tangent_ = std::make_unique<IdasTangent>(system_);
   integrator_.carry(with_gradient ? tangent_.get() : nullptr);
   integrator_.watch_singularities(with_gradient);
+  end_motion_.start();
   const Status status = integrator_.start(parameters);
   return status.ok() ? start_watches(with_gradient) : status;
 }
@@ -247,12 +252,17 @@ Status IdasGradient::start_watches(bool with_gradient) {
                            Eigen::VectorXd* gradient) {
       integrator_.interpolate_sensitivities(state.t, &directions_);
       tangent_->watched(k, state, &integrator_.equations(), &directions_, gradient);
+      if (end_motion_.moves() && state.t >= time())
+        *gradient += end_motion_.watched_rate(k, &integrator_.equations()) * end_motion_.time();
     };
   return watch_.start(&integrator_, std::move(differentiate));
 }
 
 Status IdasGradient::advance(double limit) {
   Status status = integrator_.advance(limit);
+  if (status.ok() && has_moving_end(system_.study()) && integrator_.has_ended())
+    status = end_motion_.evaluate(
+        &integrator_, duration_gradient(system_.study(), integrator_.equations().parameters()));
   if (status.ok() && with_root_) residuals_.look();
   if (status.ok() && !watch_.is_empty()) status = watch_.look();
   return status;
@@ -281,6 +291,7 @@ void IdasGradient::gradient(Eigen::VectorXd* gradient) {
   take_directions();
   tangent_->terminal(consistent_state(), &integrator_.equations(), &directions_, gradient);
   for (int k = 0; k < tangent_->count(); ++k) (*gradient)[k] += integrator_.psi_sensitivity(k);
+  if (end_motion_.moves()) *gradient += end_motion_.objective_rate() * end_motion_.time();
 }
 
 }  // namespace codesign

@@ -8,6 +8,7 @@
 #include "assembly/assembly.h"
 #include "equations/iteration_matrix.h"
 #include "integration/idas_integrator.h"
+#include "sensitivity/end_motion.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
 #include "sensitivity/residual_rows.h"
@@ -102,7 +103,7 @@ class IdasGradient final : public GradientEngine {
 
   Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
-  double time() const override { return integrator_.state().t; }
+  const Integrator& integrator() const override { return integrator_; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   void jacobian_root(Eigen::MatrixXd* root) override;
@@ -126,6 +127,7 @@ class IdasGradient final : public GradientEngine {
   std::vector<State<double>> directions_;
   SignalWatch watch_;
   ResidualRows residuals_;
+  EndMotion end_motion_;
   bool with_root_ = false;
 };
 

@@ -20,7 +20,7 @@ class PostureGradient final : public GradientEngine {
 
   Status start(const std::vector<double>& parameters, Derivatives derivatives) override;
   Status advance(double limit) override;
-  double time() const override { return sequence_.state().t; }
+  const Integrator& integrator() const override { return sequence_; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   void jacobian_root(Eigen::MatrixXd* root) override { residuals_.finish(sequence_.state(), root); }

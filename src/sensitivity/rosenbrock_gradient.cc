@@ -25,6 +25,7 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
       most_lanes_(most_lanes > 0 ? most_lanes : lanes_in_memory(system)),
       watch_(system),
       residuals_(system),
+      end_(system),
       is_identity_(control_directions(system).isIdentity()) {
   const double tolerance = sensitivity_tolerance(system.study().solver);
   stages_ = [this, tolerance](RosenbrockStep<double>* step) {
@@ -46,6 +47,7 @@ bool RosenbrockGradient::judges_parameters() const {
 Status RosenbrockGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
   with_gradient_ = derivatives != Derivatives::kNone;
   with_root_ = derivatives == Derivatives::kGaussNewton;
+  end_.start();
   integrator_.watch_singularities(with_gradient_);
   Status status = integrator_.start(parameters);
   if (with_gradient_ && judges_parameters())
@@ -96,6 +98,8 @@ void RosenbrockGradient::differentiate(std::size_t watched, const State<double>&
                                          integrator_.assembly());
     gradient->segment(group->range.first, group->range.count) = all.head(group->range.count);
   });
+  if (end_.moves() && state.t >= time())
+    *gradient += end_.watched_rate(watched, &integrator_.equations()) * end_.time();
 }
 
 void RosenbrockGradient::carry(int first, const std::vector<double>& parameters) {
@@ -118,9 +122,40 @@ void RosenbrockGradient::carry(int first, const std::vector<double>& parameters)
 Status RosenbrockGradient::jump() {
   Status status = integrator_.jump();
   if (!status.ok() || !integrator_.has_jumped() || !with_gradient_) return status;
+  if (integrator_.is_ended()) look_at_jump();
   groups_->for_each([this](auto* group) { group->step.jump(&integrator_); });
   if (control_) control_->jump(&integrator_);
   return status;
+}
+
+// A jump may make the condition true that ends the run. Its instant moves with its guard.
+void RosenbrockGradient::look_at_jump() {
+  time_of_jump_.setZero(count());
+  const ModeChange& change = integrator_.mode_change();
+  if (change.guard < 0) return;
+  groups_->for_each([&](auto* group) {
+    time_of_jump_.segment(group->range.first, group->range.count) =
+        group->step.guard_time(change.guard, change.guard_rate, change.end)
+            .head(group->range.count);
+  });
+}
+
+Status RosenbrockGradient::look_at_end() {
+  if (!has_moving_end(system_.study()) || !integrator_.has_ended()) return {};
+  Eigen::VectorXd time = time_of_jump_;
+  if (!integrator_.is_ended())
+    time = duration_gradient(system_.study(), integrator_.equations().parameters());
+  if (Status status = end_.evaluate(&integrator_, time); !status.ok()) return status;
+  const int guard = integrator_.end_guard();
+  if (guard < 0) return {};
+  const double rate = integrator_.end_guard_rate(end_.state(), end_.rates());
+  time.setZero(count());
+  groups_->for_each([&](auto* group) {
+    time.segment(group->range.first, group->range.count) =
+        group->step.guard_time(guard, rate, integrator_.state()).head(group->range.count);
+  });
+  end_.set_guard(guard, rate, time);
+  return {};
 }
 
 void RosenbrockGradient::accept() {
@@ -129,12 +164,17 @@ void RosenbrockGradient::accept() {
 }
 
 Status RosenbrockGradient::advance(double limit) {
+  const double before = time();
   if (with_gradient_)
     if (Status status = jump(); !status.ok()) return status;
   Status status = with_gradient_ ? integrator_.advance(limit, stages_) : integrator_.advance(limit);
-  if (status.ok() && with_gradient_) accept();
+  if (!status.ok()) return status;
+  // A jump at the beginning of the step may have ended the run.
+  const bool has_stepped = time() > before;
+  if (with_gradient_ && has_stepped) accept();
+  if (with_gradient_) status = look_at_end();
   if (status.ok() && with_root_) residuals_.look();
-  if (status.ok() && !watch_.is_empty()) status = watch_.look();
+  if (status.ok() && !watch_.is_empty()) status = has_stepped ? watch_.look() : watch_.end();
   return status;
 }
 
@@ -152,7 +192,7 @@ void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
     if (!integrator_.start(parameters).ok()) return;
     carry(first, parameters);
     while (time() < end)
-      if (!advance(system_.study().duration).ok()) return;
+      if (!advance(integrator_.end()).ok()) return;
     collect(gradient);
   }
 }
@@ -160,7 +200,10 @@ void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
 void RosenbrockGradient::collect(Eigen::VectorXd* gradient) {
   groups_->for_each([&](auto* group) {
     const auto total = (group->step.psi() + group->step.terminal(integrator_.state())).eval();
-    gradient->segment(group->range.first, group->range.count) = total.head(group->range.count);
+    auto part = gradient->segment(group->range.first, group->range.count);
+    part = total.head(group->range.count);
+    if (end_.moves())
+      part += end_.objective_rate() * end_.time().segment(group->range.first, group->range.count);
   });
 }
 

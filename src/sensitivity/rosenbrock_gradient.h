@@ -7,6 +7,7 @@
 
 #include "integration/rosenbrock_integrator.h"
 #include "sensitivity/control_directions.h"
+#include "sensitivity/end_motion.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
 #include "sensitivity/residual_rows.h"
@@ -34,9 +35,9 @@ class RosenbrockGradient final : public GradientEngine {
   double step_size() const { return integrator_.step().step_size(); }
   /// Its method.
   const RosenbrockTableau& tableau() const { return integrator_.step().tableau(); }
-  /// The integrator of the run.
-  const RosenbrockIntegrator& integrator() const { return integrator_; }
-  double time() const override { return integrator_.state().t; }
+  const RosenbrockIntegrator& integrator() const override { return integrator_; }
+  /// How the end of the run moves; after a run with gradient.
+  const EndMotion& end_motion() const { return end_; }
   double objective() override;
   void gradient(Eigen::VectorXd* gradient) override;
   void jacobian_root(Eigen::MatrixXd* root) override {
@@ -70,6 +71,9 @@ class RosenbrockGradient final : public GradientEngine {
   /// Starts the tangents of the parameters from `first` on.
   void carry(int first, const std::vector<double>& parameters);
   void accept();
+  /// Finds out how the end of the run moves, if it has ended.
+  Status look_at_end();
+  void look_at_jump();
   void collect(Eigen::VectorXd* gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates,
                      Eigen::VectorXd* gradient);
@@ -86,7 +90,9 @@ class RosenbrockGradient final : public GradientEngine {
   RosenbrockIntegrator::BeforeAccept stages_;
   SignalWatch watch_;
   ResidualRows residuals_;
-  const bool is_identity_;  ///< whether control_directions() are the parameters
+  EndMotion end_;
+  Eigen::VectorXd time_of_jump_;  ///< derivatives of the time of a jump that ends the run
+  const bool is_identity_;        ///< whether control_directions() are the parameters
   bool with_gradient_ = false, with_root_ = false;
 };
 

@@ -116,6 +116,14 @@ Status SignalWatch::look() {
   ends_at_jump_ = !clock_.due(to).empty();
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
   time_ = to;
+  return integrator_->has_ended() ? end() : status_;
+}
+
+// Instants and windows that the run does not reach have the values at its end.
+Status SignalWatch::end() {
+  for (std::size_t k = 0; k < curves_.size(); ++k)
+    while (status_.ok() && curves_[k].next < layout_.entries()[k].instants.size())
+      reach_instant(k, integrator_->state().t);
   return status_;
 }
 

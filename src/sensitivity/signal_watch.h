@@ -61,6 +61,9 @@ class SignalWatch {
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Searches the last step of the integrator.
   Status look();
+  /// Takes the end of the run for all instants that it has not reached; look() does so if the run
+  /// has ended.
+  Status end();
   /// The numbers so far. At the end of the study all of them are set.
   const Extremes& extremes() const { return extremes_; }
 

@@ -58,6 +58,13 @@ void TangentStep<N>::take_up(const State<double>& at, const State<Lanes<N>>& lan
 }
 
 template <int N>
+Eigen::Matrix<double, N, 1> TangentStep<N>::guard_time(int guard, double rate,
+                                                       const State<double>& end) {
+  equations_.equations().compiled().switches(equations_.lanes(end, y_), &guards_, &right_);
+  return guards_[guard].directions() * (-1.0 / rate);
+}
+
+template <int N>
 void TangentStep<N>::cross(const ModeChange& change) {
   equations_.equations().compiled().switches(equations_.lanes(change.end, y_), &guards_, &right_);
   const Vector tau = guards_[change.guard].v * (-1.0 / change.guard_rate);

@@ -103,6 +103,10 @@ class TangentStep {
   /// -s'/(s_t + s_x f-) they grow by (f- - f+) tau'. jump() with the mode after it follows.
   void cross(const ModeChange& change);
 
+  /// tau' of theory (18g): the derivatives of the time at which a guard is zero, at the end of the
+  /// last step. @param rate s_t + s_x f of the guard.
+  Eigen::Matrix<double, N, 1> guard_time(int guard, double rate, const State<double>& end);
+
   /// What both of these do for the last jump of an integrator.
   void jump(RosenbrockIntegrator* integrator);
 

@@ -177,6 +177,7 @@ void System::resolve_objective() {
   resolve(study().terminal, &terminal_);
   for (const WatchedSignal& watched : study().watched)
     watched_.push_back(resolve_named(watched.signal));
+  if (study().until) until_ = resolve_named(*study().until);
 }
 
 Signal System::resolve_named(const SignalDescription& signal) {
@@ -191,6 +192,7 @@ void System::resolve_controllers() {
   for (const std::vector<ResolvedTerm>* terms : {&integral_, &terminal_})
     for (const ResolvedTerm& term : *terms) observed.push_back(term.signal);
   observed.insert(observed.end(), watched_.begin(), watched_.end());
+  if (until_) observed.push_back(*until_);
   controllers_ =
       codesign::resolve_controllers(study(), robot_, topology_, observed, &layout_.states);
   for (const Controller& controller : controllers_) {
@@ -216,6 +218,7 @@ void System::check_signals() const {
   check(terminal_, study().terminal);
   for (std::size_t k = 0; k < watched_.size(); ++k)
     check_readable(watched_[k], study().watched[k].signal);
+  if (until_) check_readable(*until_, *study().until);
 }
 
 bool System::begins_controllers() const {

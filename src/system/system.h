@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "control/controller.h"
@@ -146,6 +147,8 @@ class System {
   const std::vector<ResolvedTerm>& terminal() const { return terminal_; }
   /// The signals of Study::watched, theory (21a).
   const std::vector<Signal>& watched() const { return watched_; }
+  /// The condition of Study::until, 1 where it holds; null without one.
+  const Signal* until() const { return until_ ? &*until_ : nullptr; }
 
   /// Redundant constraints, theory (23): how they are treated, the places of the unknowns, and
   /// epsilon [1/kg] (zero without redundancy).
@@ -216,6 +219,7 @@ class System {
   std::vector<std::vector<bool>> has_coordinate_;  ///< per pair and chain element
   std::vector<ResolvedTerm> integral_, terminal_;
   std::vector<Signal> watched_;
+  std::optional<Signal> until_;
 };
 
 }  // namespace codesign

@@ -89,6 +89,33 @@ TEST(ExpressionSyntax, RefusesWhatLooksLikeSomethingElse) {
       << "a line break is white space like any other";
 }
 
+// not before and before or, as in Python; x = 0.7, y = -1.3.
+TEST(ExpressionSyntax, JoinsComparisons) {
+  const auto holds = [](const std::string& text) {
+    return Expression(text + " ? 1 : 0", kSyntaxNames).value(kSyntaxAt) == 1.0;
+  };
+  EXPECT_TRUE(holds("x > 0 and y < 0"));
+  EXPECT_FALSE(holds("x > 0 and y > 0"));
+  EXPECT_FALSE(holds("x < 0 and y < 0"));
+  EXPECT_TRUE(holds("x > 0 or y > 0"));
+  EXPECT_TRUE(holds("x < 0 or y < 0"));
+  EXPECT_FALSE(holds("x < 0 or y > 0"));
+  EXPECT_TRUE(holds("x < 0 or y > 0 or i == 2"));
+  EXPECT_TRUE(holds("not x < 0"));
+  EXPECT_FALSE(holds("not not x < 0"));
+  EXPECT_TRUE(holds("x > 0 or y < 0 and x < 0"));
+  EXPECT_FALSE(holds("(x > 0 or y < 0) and x < 0"));
+  EXPECT_TRUE(holds("not x < 0 and not y > 0"));
+  EXPECT_TRUE(holds("not (x > 0 and y > 0)"));
+  EXPECT_EQ(Expression("2*(1 < 2 and 2 < 3 ? x : y)", kSyntaxNames).value(kSyntaxAt), 1.4);
+  expect_complaint("x and y > 0 ? 1 : 2", "where a comparison is needed at position 1");
+  expect_complaint("x > 0 and y ? 1 : 2", "where a comparison is needed at position 11");
+  expect_complaint("x > 0 or y ? 1 : 2", "where a comparison is needed at position 10");
+  expect_complaint("not x ? 1 : 2", "where a comparison is needed at position 5");
+  expect_complaint("x > 0 and y > 0", "a comparison is not a number");
+  expect_complaint("2*(x > 0 or y > 0)", "a comparison stands where a number is needed");
+}
+
 TEST(ExpressionSyntax, EndsWhateverItsSize) {
   expect_complaint(std::string(500000, '(') + "1", "nested too deeply");
   expect_complaint("1" + std::string(500000, '^'), "a number is missing");
@@ -110,7 +137,7 @@ TEST(ExpressionSyntax, EndsWhateverItsSize) {
 TEST(ExpressionSyntax, SaysWhichNamesParametersCannotHave) {
   for (const char* name : {"crank_length", "Kp", "_a1", "i", "e"})
     EXPECT_EQ(identifier_fault(name), "") << name;
-  for (const char* name : {"", "2x", "a-b", "a b", "pi", "sin", "l\xC3\xA4nge"})
+  for (const char* name : {"", "2x", "a-b", "a b", "pi", "sin", "and", "or", "not", "l\xC3\xA4nge"})
     EXPECT_NE(identifier_fault(name), "") << name;
 }
 

@@ -31,5 +31,16 @@ TEST(CompiledSystem, IsTheSystemWithItsPatterns) {
   EXPECT_GT(system->patterns().rate.nonzeros(), system->layout().columns());
 }
 
+TEST(CompiledSystem, KnowsTheModesThatEndARun) {
+  const std::string study = "duration: 1.0\n";
+  EXPECT_FALSE(compile(pendulum(), study)->ends_run({}));
+  const auto system =
+      compile(pendulum(), study + "until: \"${hinge/position > 0.2 and not t <= 0.5}\"\n");
+  ASSERT_TRUE(system->has_switches());
+  for (const bool is_turned : {false, true})
+    for (const bool is_late : {false, true})
+      EXPECT_EQ(system->ends_run({is_turned, is_late}), is_turned && is_late);
+}
+
 }  // namespace
 }  // namespace codesign

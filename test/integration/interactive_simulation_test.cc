@@ -294,6 +294,45 @@ TEST(InteractiveSimulation, HoursInMotionEndNothing) {
   }
 }
 
+// The step that finds the end may have begun before a command that changes it.
+TEST(InteractiveSimulation, ACommandMayMoveTheEnd) {
+  const auto system = bar_at("{position: 0.0, velocity: 2.0}", kByRosenbrock,
+                             "until: \"${hinge/position > 0.2}\"\n");
+  InteractiveSimulation run(*system, {}, {});
+  ASSERT_TRUE(run.start(system->parameters()).ok());
+  EXPECT_NEAR(hinge_at(&run, 0.5).position, 0.2, 1e-9);
+  EXPECT_TRUE(run.has_ended());
+  ASSERT_TRUE(run.start(system->parameters()).ok());
+  EXPECT_FALSE(run.has_ended());
+  const double begin = 0.09;
+  ASSERT_LT(hinge_at(&run, begin).position, 0.2);
+  EXPECT_FALSE(run.has_ended()) << "a step has found the end, the run has not come there yet";
+  run.set_effort(0, -50.0);
+  ASSERT_TRUE(run.apply(begin).ok());
+  EXPECT_FALSE(run.has_ended());
+  EXPECT_LT(hinge_at(&run, 0.12).position, 0.2);
+  EXPECT_FALSE(run.has_ended());
+}
+
+TEST(InteractiveSimulation, AChangeMayMoveTheEnd) {
+  const auto system = compile(
+      pendulum(), "duration: \"${T}\"\nparameters: {T: {initial: 0.7, lower: 0.5, upper: 2.0}}\n");
+  InteractiveSimulation run(*system, {}, {});
+  EXPECT_EQ(run.duration(), 2.0);
+  ASSERT_TRUE(run.start({0.8}).ok());
+  EXPECT_EQ(run.end(), 0.8);
+  ASSERT_TRUE(run.advance(0.3).ok());
+  ASSERT_TRUE(run.change(0.3, {0.6}).ok());
+  EXPECT_EQ(run.end(), 0.6);
+  EXPECT_EQ(run.change(0.3, {2.5}).code, StatusCode::kInvalidDesign);
+  EXPECT_EQ(run.end(), 0.6);
+  CommandOptions options;
+  options.duration = 10.0;
+  InteractiveSimulation longer(*system, options, {});
+  ASSERT_TRUE(longer.start({0.8}).ok());
+  EXPECT_EQ(longer.end(), 10.0);
+}
+
 // A failure has the time of the run, and comes when the run has come there.
 TEST(InteractiveSimulation, NoStepReachesFarBeyondTheTimeOfTheRun) {
   const auto system = bar_at("{position: 0.0}", kByRosenbrock);

@@ -201,6 +201,14 @@ TEST_F(WatchedPendulum, EnergyFromNowhereAtTheEndFailsAtOnce) {
   EXPECT_EQ(watch_.check(state_, 0.0, 0.0, &statistics_).code, StatusCode::kEnergyError);
 }
 
+TEST_F(WatchedPendulum, EnergyFromNowhereAtAnEndOfItsOwnFailsAtOnce) {
+  state_.v *= 1.5;
+  state_.t = 0.6;
+  EXPECT_TRUE(watch_.check(state_, 0.0, 0.0, &statistics_).ok());
+  watch_.end_at(0.6);
+  EXPECT_EQ(watch_.check(state_, 0.0, 0.0, &statistics_).code, StatusCode::kEnergyError);
+}
+
 // 0.007 of the energy are lost before a change and as much behind it, together more than the limit.
 TEST_F(WatchedPendulum, ABalanceEndsAtAChangeOnceItCouldHaveFailed) {
   const auto lose = [&](double part, int steps) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -84,6 +85,70 @@ TEST(Simulation, RunsOnBeyondTheDuration) {
     ASSERT_TRUE(simulation.advance(time).ok());
     simulation.sample(time, &frame);
     EXPECT_NEAR(frame.joints[0].position, 1e-4 * std::cos(kFrequency * time), 1e-10);
+  }
+}
+
+std::shared_ptr<const CompiledSystem> swing_that_ends(const std::string& end) {
+  return system_of(pendulum(),
+                   end +
+                       "initial_state: {hinge: {position: 1.0e-4}}\nobjective: {integral: "
+                       "[{signal: hinge/position}], terminal: [{signal: hinge/velocity}]}\n" +
+                       kTight);
+}
+
+/// The objective of the small swing at the time t.
+double objective_of_swing(double t) {
+  const double speed = 1e-4 * kFrequency * std::sin(kFrequency * t);
+  return 1e-8 * (0.5 * t + std::sin(2.0 * kFrequency * t) / (4.0 * kFrequency)) + speed * speed;
+}
+
+TEST(Simulation, AConditionEndsIt) {
+  Simulation simulation =
+      simulation_of(swing_that_ends("duration: 2.0\nuntil: \"${hinge/position < 0.5e-4}\"\n"), {});
+  const double end = std::acos(0.5) / kFrequency;
+  Frame frame;
+  ASSERT_TRUE(simulation.start().ok());
+  EXPECT_FALSE(simulation.has_ended());
+  EXPECT_EQ(simulation.end(), 2.0);
+  for (const double time : {0.1, 1.0, 3.0}) {
+    ASSERT_TRUE(simulation.advance(time).ok());
+    simulation.sample(time, &frame);
+    EXPECT_NEAR(frame.time, std::min(time, end), 1e-8);
+    EXPECT_NEAR(frame.joints[0].position, 1e-4 * std::cos(kFrequency * std::min(time, end)), 1e-11);
+  }
+  EXPECT_TRUE(simulation.has_ended());
+  EXPECT_NEAR(simulation.time(), end, 1e-8);
+  EXPECT_NEAR(simulation.objective(), objective_of_swing(end), 1e-6 * objective_of_swing(end));
+  std::vector<double> times;
+  ASSERT_TRUE(simulate(&simulation, 2.0, 11, [&times](const Frame& at) {
+                times.push_back(at.time);
+                return true;
+              }).ok());
+  ASSERT_EQ(times.size(), 11U);
+  EXPECT_NEAR(times[5], end / 2.0, 1e-8);
+  EXPECT_NEAR(times[10], end, 1e-8);
+}
+
+TEST(Simulation, ItsParametersMayEndIt) {
+  const auto system = swing_that_ends(
+      "duration: \"${T}\"\nparameters: {T: {initial: 0.7, lower: 0.5, upper: 2.0}}\n");
+  Simulation simulation = simulation_of(system, {0.9});
+  std::vector<double> times;
+  ASSERT_TRUE(simulate(&simulation, 2.0, 10, [&times](const Frame& at) {
+                times.push_back(at.time);
+                return true;
+              }).ok());
+  EXPECT_EQ(simulation.end(), 0.9);
+  EXPECT_EQ(simulation.time(), 0.9);
+  EXPECT_DOUBLE_EQ(times.back(), 0.9);
+  EXPECT_NEAR(times[5], 0.5, 1e-15);
+  EXPECT_NEAR(simulation.objective(), objective_of_swing(0.9), 1e-6 * objective_of_swing(0.9));
+  for (const double duration : {0.0, -1.0, 2.1}) {
+    Simulation impossible = simulation_of(system, {duration});
+    const Status status = impossible.start();
+    EXPECT_EQ(status.code, StatusCode::kInvalidDesign);
+    EXPECT_NE(status.cause.find("must be above 0 s and at most 2 s"), std::string::npos)
+        << status.cause;
   }
 }
 

@@ -57,6 +57,17 @@ void read_constraints(const YamlValue& study_value, Study* study);
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
                         const ParameterTable& table, Study* study);
 
+/// Reads `duration:` and `until:`, the end of a run. Study::parameters must have been read, and for
+/// read_until() Study::controllers.
+/// @throws InputError for a duration that is not positive or that bounds of parameters do not keep
+/// above 0 and finite, for what is no condition, and in a study that identifies or excites.
+void read_duration(const YamlValue& root, const ParameterTable& table, Study* study);
+void read_until(const YamlValue& root, const RobotDescription& robot, const ParameterTable& table,
+                Study* study);
+/// Refuses what runs whose end depends on the design cannot have, after all else has been read.
+/// @throws InputError
+void check_moving_end(const YamlValue& root, const Study& study);
+
 /// The number of postures of `positions:`, or 0 without it. @throws InputError for a study that has
 /// blocks of a motion, too.
 int count_postures(const YamlValue& study_value);

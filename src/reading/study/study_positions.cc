@@ -105,7 +105,8 @@ void hold_joints(const YamlValue& hold, const YamlValue& positions, Study* study
 int count_postures(const YamlValue& study_value) {
   const auto positions = study_value.find("positions");
   if (!positions) return 0;
-  for (const char* key : {"duration", "controllers", "motion", "identify", "excite", "hardware"})
+  for (const char* key :
+       {"duration", "until", "controllers", "motion", "identify", "excite", "hardware"})
     if (const auto other = study_value.find(key))
       other->fail("a study with positions has postures in place of a motion",
                   "either positions or " + std::string(key));

@@ -26,16 +26,6 @@ void refuse_motion_of_excitation(const YamlValue& root) {
                  "no motion in a study that excites");
 }
 
-/// A study that only identifies has no run of its own that could have a duration.
-double read_duration(const YamlValue& root) {
-  const auto identify = root.find("identify");
-  if (identify && !root.find("duration")) return segment_of(*identify);
-  const YamlValue value = root.at("duration");
-  const double duration = value.number();
-  if (duration <= 0.0) value.fail("the duration must be positive", "more than 0 s");
-  return duration;
-}
-
 std::array<double, 3> read_gravity(const YamlValue& value) {
   const std::vector<YamlValue> items = value.items();
   if (items.size() != 3)
@@ -78,7 +68,6 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   Study study;
   study.file = file;
   study.postures = count_postures(root);
-  study.duration = study.postures > 0 ? study.postures - 1.0 : read_duration(root);
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
   declare_coefficients(root, &study);
@@ -90,12 +79,17 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   }
   read_constraints(root, &study);
   const ParameterTable table(study.parameters);
+  if (study.postures > 0)
+    study.duration = study.postures - 1.0;
+  else
+    read_duration(root, table, &study);
   read_initial_state(root, robot, table, &study);
   read_positions(root, robot, table, &study);
   read_controllers(root, robot, table, loader, &study);
   read_hardware(root, table, &study);
   read_motion(root, robot, table, loader, &study);
   read_loads(root, robot, table, loader, &study);
+  read_until(root, robot, table, &study);
   read_objective(root, robot, table, loader, &study);
   read_watched(root, robot, table, loader, &study);
   study.excursions = find_excursions(study);
@@ -111,6 +105,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   if (const auto optimizer = root.find("optimizer"))
     study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint(root, study);
+  check_moving_end(root, study);
   refuse_integrator_of_postures(root, study);
   return study;
 }
@@ -120,11 +115,12 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
 Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
-  root.require_keys({}, {"duration",    "gravity",    "initial_state", "controllers", "loads",
-                         "motion",      "parameters", "objective",     "path",        "final",
-                         "constraints", "limits",     "solver",        "optimizer",   "runs",
-                         "uncertain",   "robust",     "multistart",    "engine",      "identify",
-                         "excite",      "hardware",   "positions",     "hold",        "efforts"});
+  root.require_keys(
+      {},
+      {"duration",   "until",     "gravity",   "initial_state", "controllers", "loads",  "motion",
+       "parameters", "objective", "path",      "final",         "constraints", "limits", "solver",
+       "optimizer",  "runs",      "uncertain", "robust",        "multistart",  "engine", "identify",
+       "excite",     "hardware",  "positions", "hold",          "efforts"});
   require_purpose_of_excite(root);
   refuse_motion_of_excitation(root);
   const TrajectoryLoader trajectories = trajectories_of(loader, files);

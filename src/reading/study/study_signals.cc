@@ -11,9 +11,17 @@
 namespace codesign {
 namespace {
 
+constexpr const char* kPlacesOfEndTime =
+    "end_time in objective.terminal, objective.maximum, final, and constraints with maximum";
+
 /// A signal whose names exist; an expression may contain parameters of the table.
 SignalDescription read_signal_of(const YamlValue& value, const RobotDescription& robot,
-                                 const ParameterTable& table, const Study& study) {
+                                 const ParameterTable& table, const Study& study, bool at_end) {
+  if (value.text() == kEndTime) {
+    if (!at_end || study.postures > 0)
+      value.fail("the end of a run is known at its end only", kPlacesOfEndTime);
+    return end_time_signal(value.where());
+  }
   SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
   check_signal(signal, robot, study.controllers, value.path());
   use_parameters(signal, table);
@@ -22,11 +30,11 @@ SignalDescription read_signal_of(const YamlValue& value, const RobotDescription&
 
 ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot,
                         const ParameterTable& table, const TrajectoryLoader& loader,
-                        const Study& study) {
+                        const Study& study, bool at_end) {
   value.require_keys({"signal"}, {"reference", "weight"});
   ObjectiveTerm term;
   term.where = value.where();
-  term.signal = read_signal_of(value.at("signal"), robot, table, study);
+  term.signal = read_signal_of(value.at("signal"), robot, table, study, at_end);
   if (const auto reference = value.find("reference"))
     term.reference = read_target(*reference, table, loader, study);
   if (const auto weight = value.find("weight")) term.weight = read_quantity(*weight, table);
@@ -39,7 +47,7 @@ std::vector<ObjectiveTerm> read_terms(const YamlValue& objective, const std::str
   std::vector<ObjectiveTerm> terms;
   if (const auto list = objective.find(key))
     for (const YamlValue& item : list->items())
-      terms.push_back(read_term(item, robot, table, loader, study));
+      terms.push_back(read_term(item, robot, table, loader, study, key == "terminal"));
   return terms;
 }
 
@@ -113,7 +121,8 @@ struct Reader {
     watched.role = role;
     watched.where = value.where();
     watched.element = value.path();
-    watched.signal = read_signal_of(value.at(key), robot, table, study);
+    const bool at_end = role != Role::kPath && role != Role::kPeak;
+    watched.signal = read_signal_of(value.at(key), robot, table, study, at_end);
     if (const auto reference = value.find("reference"))
       watched.reference = read_target(*reference, table, loader, study);
     if (role == Role::kFinal) {
@@ -186,6 +195,8 @@ struct Reader {
     if (with_band) optional.emplace_back("band");
     WatchedSignal watched = read_signal(value, key, role, std::move(optional));
     watched.measure = measure_of(measure);
+    if (watched.signal.text == kEndTime && watched.measure != WatchedSignal::Measure::kMaximum)
+      value.at(key).fail("the end of a run is one number", kPlacesOfEndTime);
     if (with_band) read_band(value, &watched);
     return watched;
   }

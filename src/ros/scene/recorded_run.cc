@@ -56,10 +56,11 @@ RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system,
   Simulation simulation = simulation_of(system, parameters, signals_of(system->whole_study()));
   run.names = simulation.names();
   run.link_parents = link_parents(system->robot());
-  const double duration = system->whole_study().duration;
-  const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
+  double duration = system->whole_study().duration;
   const auto stopped = [&stop] { return stop && stop(); };
   run.status = simulation.start();
+  if (run.status.ok()) run.status = find_end(&simulation, &duration);
+  const auto count = std::max<std::int64_t>(std::llround(duration * rate), 1);
   for (std::int64_t k = 0; run.status.ok() && k <= count; ++k) {
     const auto instant = [&](std::int64_t index) {
       return duration * static_cast<double>(index) / static_cast<double>(count);

@@ -103,9 +103,8 @@ Status SimulationNode::run_once() {
 Status SimulationNode::run_frames() {
   simulation_->obey(control_.leaving());
   Status status = simulation_->start(simulation_->parameters());
-  const double duration = simulation_->duration();
   const auto instant = [&](std::int64_t k) {
-    return std::min(static_cast<double>(k) / options_.rate, duration);
+    return std::min(static_cast<double>(k) / options_.rate, simulation_->end());
   };
   if (status.ok()) {
     simulation_->sample(0.0, &frame_);
@@ -113,17 +112,19 @@ Status SimulationNode::run_frames() {
   }
   factor_.start(ros::WallTime::now());
   for (std::int64_t k = 0; status.ok(); ++k) {
-    const double time = instant(k);
+    double time = instant(k);
     if (k > 0) status = simulation_->advance(time);
     if (!status.ok()) break;
     simulation_->sample(time, &frame_);
+    // A run that ends by itself has its last frame at its end.
+    time = frame_.time;
     if (!clock_.wait(time, [this] { return leaving_run(); })) break;
     inbox_->await_answer(clock_.stamp(time));
     show_frame(true);
     note_limits();
     control_.note_frame(time);
     tell_progress(simulation_->statistics());
-    if (time >= duration) break;
+    if (time >= simulation_->end() || simulation_->has_ended()) break;
     status = serve();
     if (leaving_run()) break;
   }

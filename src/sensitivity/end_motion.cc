@@ -1,0 +1,84 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sensitivity/end_motion.h"
+
+#include "assembly/assembly.h"
+#include "equations/compiled_system.h"
+#include "integration/watch_layout.h"
+#include "math/arrays.h"
+
+namespace codesign {
+
+Status EndMotion::evaluate(Integrator* integrator, const Eigen::VectorXd& time) {
+  Equations<double>& equations = integrator->equations();
+  const Layout& layout = system_->layout();
+  state_ = integrator->state();
+  if (Status status = integrator->assembly().solve_rates(&equations, &state_); !status.ok())
+    return status;
+  rates_.resize(layout);
+  rates_.q = state_.v;
+  rates_.v = state_.z.head(layout.n);
+  rates_.s = state_.z.tail(layout.states);
+  integrator->assembly().differentiate_rates(state_, &equations, &rates_);
+  equations.residual(state_, &residual_, &objective_rate_);
+  if (!system_->terminal().empty()) {
+    equations.terminal_gradient(state_, &gradient_);
+    objective_rate_ += rate_of(gradient_);
+  }
+  time_ = time;
+  guard_ = -1;
+  return {};
+}
+
+double EndMotion::watched_rate(std::size_t k, Equations<double>* equations) {
+  equations->watched_gradient(k, state_, &gradient_);
+  return rate_of(gradient_);
+}
+
+double EndMotion::rate_of(const SparseGradient<double>& gradient) const {
+  const int n = system_->layout().n;
+  double rate = gradient.time;
+  for (const auto& e : gradient.position)
+    rate += e.value * (e.column < n ? rates_.q[e.column] : rates_.s[e.column - n]);
+  for (const auto& e : gradient.velocity) rate += e.value * rates_.v[e.column];
+  for (const auto& e : gradient.rate) rate += e.value * rates_.z[e.column];
+  return rate;
+}
+
+std::complex<double> complex_guard_time(int guard, double rate,
+                                        RosenbrockStep<std::complex<double>>* step) {
+  VectorX<std::complex<double>> guards, right;
+  step->equations().compiled().switches(step->state(), &guards, &right);
+  return {0.0, -guards[guard].imag() / rate};
+}
+
+std::complex<double> EndMotion::complex_time(const std::vector<std::complex<double>>& parameters,
+                                             RosenbrockStep<std::complex<double>>* step) const {
+  if (!moves()) return 0.0;
+  if (guard_ >= 0) return complex_guard_time(guard_, guard_rate_, step);
+  const Expression* const duration = system_->study().duration_of_design.get();
+  return {0.0, duration ? duration->value(parameters).imag() : 0.0};
+}
+
+void EndMotion::add_change(const std::complex<double>& time, const Eigen::VectorXd& times,
+                           Equations<double>* equations, std::complex<double>* objective,
+                           VectorX<std::complex<double>>* watched) {
+  if (!moves()) return;
+  *objective += time * objective_rate_;
+  const WatchLayout layout(system_->study());
+  for (std::size_t k = 0; k < layout.entries().size(); ++k) {
+    const WatchLayout::Entry& entry = layout.entries()[k];
+    const std::complex<double> change = time * watched_rate(k, equations);
+    for (int place = entry.first; place < entry.measure(); ++place)
+      if (times[place] >= state_.t) (*watched)[place] += change;
+  }
+}
+
+Eigen::VectorXd duration_gradient(const MotionStudy& study, const std::vector<double>& parameters) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(to_signed(study.tuned.size()));
+  if (study.duration_of_design)
+    for (std::size_t k = 0; k < study.tuned.size(); ++k)
+      gradient[to_signed(k)] = study.duration_of_design->derivative(study.tuned[k], parameters);
+  return gradient;
+}
+
+}  // namespace codesign
