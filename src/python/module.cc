@@ -18,6 +18,7 @@
 #include "python/conversions.h"
 #include "python/interruption.h"
 #include "python/jobs.h"
+#include "python/python_lock.h"
 #include "python/session.h"
 #include "reading/urdf/urdf_reader.h"
 
@@ -36,7 +37,7 @@ std::unique_ptr<Session> open(const py::tuple& model, const py::object& study,
   if (!study.is_none()) inputs.study = to_source(study.cast<py::tuple>());
   if (!design.is_none()) inputs.design = read_design(to_source(design.cast<py::tuple>()));
   inputs.settings = to_settings(settings);
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return std::make_unique<Session>(load(inputs));
 }
 
