@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -49,6 +49,17 @@ def _source(value: Source, name: str) -> Tuple[str, Optional[str]]:
     return path, None
 
 
+def _absolute(source: Optional[Tuple[str, Optional[str]]]) -> Optional[Tuple[str, Optional[str]]]:
+    return (os.path.abspath(source[0]), None) if source and source[1] is None else source
+
+
+def _rebuilt(kind: Type["Problem"], made_of: Tuple[Any, ...]) -> "Problem":
+    """A problem from what another one was made of, which has told the warnings."""
+    problem = kind.__new__(kind)
+    problem._open(made_of)  # pylint: disable=protected-access
+    return problem
+
+
 class Problem:
     """A mechanism and a study, read and compiled: `codesign ... MODEL [STUDY]` as an object.
 
@@ -66,11 +77,12 @@ class Problem:
         Path of a result.json whose design counts before `set`, as `--result`.
 
     Raises InputError with file and line. Long calls release Python's lock, and Ctrl-C ends them; a
-    problem may be used by several threads, side by side.
+    problem may be used by several threads, side by side. Pickled or copied it is read and compiled
+    again from its files, which must be there unchanged, and texts: once in each process.
 
     In all methods, keyword arguments are values of parameters by name, within their bounds [SI
     units]; the others keep their start values. `rho` is an array of the p tuned parameters in the
-    order of `names`, shape (p,), which need not lie within bounds.
+    order of `names`, shape (p,), which need not lie within bounds; it may also be given by its name.
 
     names: of the tuned parameters, the order of rho and of every gradient.
     """
@@ -79,14 +91,22 @@ class Problem:
                  set: Optional[Mapping[str, float]] = None, result: Optional[Source] = None):  # pylint: disable=redefined-builtin
         if isinstance(overlays, (str, os.PathLike)):
             overlays = [overlays]
-        self._core = _core.Session(
-            _source(model, "model text"), None if study is None else _source(study, "study text"),
-            [_source(overlay, f"text of overlay {k}") for k, overlay in enumerate(overlays, 1)], dict(set or {}),
-            None if result is None else _source(result, "result text"))
-        self.names: List[str] = self._core.names
-        self._last: Tuple[Any, Any] = (None, None)
+        self._open((_source(model, "model text"), None if study is None else _source(study, "study text"),
+                    [_source(overlay, f"text of overlay {k}") for k, overlay in enumerate(overlays, 1)], dict(set or {}),
+                    None if result is None else _source(result, "result text")))
         for warning in self.warnings:
             warnings.warn(warning, stacklevel=2)
+
+    def _open(self, made_of: Tuple[Any, ...]) -> None:
+        self._made_of = made_of
+        self._core = _core.open(*made_of)
+        self.names: List[str] = self._core.names
+        self._last: Tuple[Any, Any] = (None, None)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        model, study, overlays, values, result = self._made_of
+        # Another process may work in another folder.
+        return _rebuilt, (type(self), (_absolute(model), _absolute(study), [_absolute(each) for each in overlays], values, _absolute(result)))
 
     @property
     def parameters(self) -> List[Parameter]:

@@ -10,6 +10,7 @@
 
 #include "description/ensemble.h"
 #include "mechanism_codesign/gradient.h"
+#include "mechanism_codesign/warning.h"
 #include "sensitivity/run_steps.h"
 
 namespace codesign {
@@ -42,6 +43,8 @@ class EvaluationEngine {
                                            const std::atomic<bool>* cancel) = 0;
   /// Number of evaluations that can run at the same time.
   virtual int workers() const = 0;
+  /// Of the workers themselves.
+  virtual Warnings warnings() const { return {}; }
 };
 
 class Dispatcher;
@@ -95,6 +98,7 @@ class RememberingEngine final : public EvaluationEngine {
   std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks,
                                    const std::atomic<bool>* cancel) override;
   int workers() const override { return engine_->workers(); }
+  Warnings warnings() const override { return engine_->warnings(); }
 
  private:
   void note(const EvaluationTask& task, const Evaluation& evaluation) const;

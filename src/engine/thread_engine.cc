@@ -4,12 +4,27 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "math/arrays.h"
 
 namespace codesign {
+namespace {
+
+/// Starts `count` threads that run `loop`, or as many of them as the system makes.
+template <class Loop>
+void start_threads(std::size_t count, const Loop& loop, std::vector<std::thread>* threads) {
+  threads->reserve(count);
+  try {
+    while (threads->size() < count) threads->emplace_back(loop);
+  } catch (const std::system_error&) {  // a limit of processes or of memory
+  }
+}
+
+}  // namespace
 
 void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   const std::size_t most = std::min(count, to_index(std::max(1, threads)));
@@ -36,7 +51,8 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
     }
   };
   std::vector<std::thread> pool;
-  for (std::size_t k = 0; k < most; ++k) pool.emplace_back(loop);
+  start_threads(most, loop, &pool);
+  if (pool.size() < most) loop();
   for (std::thread& thread : pool) thread.join();
   if (error) std::rethrow_exception(error);
 }
@@ -47,9 +63,20 @@ int worker_threads(const EngineOptions& engine) {
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-ThreadEngine::ThreadEngine(int workers) {
-  threads_.reserve(to_index(workers));
-  for (int k = 0; k < workers; ++k) threads_.emplace_back([this] { work(); });
+ThreadEngine::ThreadEngine(int workers) : wanted_(workers) {
+  start_threads(
+      to_index(workers), [this] { work(); }, &threads_);
+}
+
+Warnings ThreadEngine::warnings() const {
+  if (workers() == wanted_) return {};
+  return {
+      {"fewer_workers",
+       "the system makes no more threads than " + std::to_string(threads_.size()) + " of the " +
+           std::to_string(wanted_) +
+           " wanted, so that the work takes longer, with the same results; `engine: {workers: " +
+           std::to_string(workers()) + "}` asks for no more",
+       {}}};
 }
 
 ThreadEngine::~ThreadEngine() {
@@ -65,6 +92,7 @@ std::vector<Evaluation> ThreadEngine::evaluate(const std::vector<EvaluationTask>
                                                const std::atomic<bool>* cancel) {
   if (tasks.empty()) return {};
   Batch batch{tasks, cancel, std::vector<Evaluation>(tasks.size()), 0, 0, nullptr};
+  if (threads_.empty()) return alone_.evaluate(tasks, cancel);
   std::unique_lock<std::mutex> lock(mutex_);
   batches_.push_back(&batch);
   has_work_.notify_all();

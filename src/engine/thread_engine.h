@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -69,8 +70,9 @@ class SerialEngine final : public EvaluationEngine {
 
 /// Calls work(k) for k = 0 to count - 1, at most `threads` calls at the same time; the calls begin
 /// in the order of k. Meant for work that mostly waits for an engine. With one thread, all calls
-/// are made in the thread of the caller. If a call throws, no further call begins, and the
-/// exception is thrown again after the running calls have ended.
+/// are made in the thread of the caller, which also helps if the system makes fewer threads. If a
+/// call throws, no further call begins, and the exception is thrown again after the running calls
+/// have ended.
 void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 /// Number of threads of this process that the options of an engine request, at least one. With kMpi
@@ -88,7 +90,10 @@ class ThreadEngine final : public EvaluationEngine {
   /// An exception of a task is thrown again here after the other tasks of the call have ended.
   std::vector<Evaluation> evaluate(const std::vector<EvaluationTask>& tasks,
                                    const std::atomic<bool>* cancel) override;
-  int workers() const override { return static_cast<int>(threads_.size()); }
+  int workers() const override { return std::max(1, static_cast<int>(threads_.size())); }
+  /// `fewer_workers` if the system has made fewer threads than were asked for. Without any, the
+  /// thread of the caller computes.
+  Warnings warnings() const override;
 
  private:
   /// The tasks of one call of evaluate(), which waits until `done` equals their number.
@@ -105,6 +110,8 @@ class ThreadEngine final : public EvaluationEngine {
   std::condition_variable has_work_, is_done_;
   std::deque<Batch*> batches_;  // batches with tasks that no worker has taken yet
   bool ends_ = false;
+  int wanted_ = 0;
+  SerialEngine alone_;
   std::vector<std::thread> threads_;
 };
 

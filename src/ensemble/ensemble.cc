@@ -88,6 +88,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
   EnsembleEvaluation result;
   if (scenarios_.size() == 1) {
     result.total = std::move(members.front());
+    add_new_codes(engine_->warnings(), &result.total.warnings);
     if (!result.total.status.ok()) return result;
     result.values = Eigen::VectorXd::Constant(1, result.total.objective);
     result.by_value = Eigen::VectorXd::Ones(1);
@@ -99,6 +100,7 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
     result.total.statistics += member.statistics;
     add_new_codes(member.warnings, &result.total.warnings);
   }
+  add_new_codes(engine_->warnings(), &result.total.warnings);
   if (!collect(members, with_gradient, &result)) return result;
   for (Evaluation& member : members)
     if (member.extremes.values.size() > 0) result.extremes.push_back(std::move(member.extremes));

@@ -172,8 +172,10 @@ std::vector<std::string> default_signals(const RobotDescription& robot,
     signals.push_back(joint.name + "/position");
     signals.push_back(joint.name + "/velocity");
   }
-  for (const JointDescription& joint : robot.joints) {
-    if (!has_friction(joint)) continue;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const JointDescription& joint = robot.joints[i];
+    // Without dynamics of its own, as a tool's frame has none, a joint has no friction to read.
+    if (!has_friction(joint) || pairs[i] < 0) continue;
     signals.push_back(joint.name + "/friction");
     if (has_normal_force(joint)) signals.push_back(joint.name + "/normal_force");
     signals.push_back(joint.name + "/sliding_velocity");

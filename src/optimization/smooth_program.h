@@ -40,6 +40,7 @@ class SmoothProgram {
   struct Value {
     double value = 0.0;
     Eigen::VectorXd by_rho, by_slack;
+    Value operator-() const { return {-value, -by_rho, -by_slack}; }
   };
   Value objective(const Eigen::VectorXd& slack) const;
   /// Left sides c <= 0 and c = 0.

@@ -13,7 +13,7 @@ Tell Told::tell() {
 }
 
 bool Told::call(const std::string& line, const Json& fields) {
-  const py::gil_scoped_acquire acquire;
+  const Locked locked;
   try {
     progress_(line, to_python(fields));
     return true;

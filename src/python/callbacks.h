@@ -6,6 +6,7 @@
 #include "python/conversions.h"
 #include "python/interruption.h"
 #include "python/jobs.h"
+#include "python/python_lock.h"
 
 namespace codesign::python {
 
@@ -34,7 +35,7 @@ auto job(pybind11::handle progress, pybind11::handle cancel, const Work& work) {
   Interruption interruption;
   Told told(progress, &interruption);
   auto result = [&] {
-    const pybind11::gil_scoped_release release;
+    const Unlocked unlocked;
     const EventWatch watch(cancel, &interruption);
     return work(told.tell(), interruption.flag());
   }();

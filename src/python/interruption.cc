@@ -104,7 +104,7 @@ void EventWatch::watch(py::handle event, Interruption* interruption) {
   while (!is_over_) {
     lock.unlock();
     {
-      const py::gil_scoped_acquire acquire;
+      const Locked locked;
       try {
         const int is_set = PyObject_IsTrue(event.attr("is_set")().ptr());
         if (is_set < 0) throw py::error_already_set();

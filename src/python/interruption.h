@@ -9,6 +9,8 @@
 #include <optional>
 #include <thread>
 
+#include "python/python_lock.h"
+
 namespace codesign::python {
 
 /// Ends a computation early, which runs without Python's lock: while an object of this class exists
@@ -65,7 +67,7 @@ template <class Work>
 auto interruptible(const Work& work) {
   Interruption interruption;
   auto result = [&] {
-    const pybind11::gil_scoped_release release;
+    const Unlocked unlocked;
     return work(interruption.flag());
   }();
   interruption.check();

@@ -4,6 +4,8 @@
 // python/mechanism_codesign/.
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
+
 #include "description/study.h"
 #include "jobs/job_files.h"
 #include "jobs/json_records.h"
@@ -18,6 +20,7 @@
 #include "python/conversions.h"
 #include "python/interruption.h"
 #include "python/jobs.h"
+#include "python/python_lock.h"
 #include "python/session.h"
 #include "reading/urdf/urdf_reader.h"
 
@@ -36,8 +39,20 @@ std::unique_ptr<Session> open(const py::tuple& model, const py::object& study,
   if (!study.is_none()) inputs.study = to_source(study.cast<py::tuple>());
   if (!design.is_none()) inputs.design = read_design(to_source(design.cast<py::tuple>()));
   inputs.settings = to_settings(settings);
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return std::make_unique<Session>(load(inputs));
+}
+
+/// A class whose objects only the library makes: one that Python makes by `__new__` would have
+/// nothing inside.
+template <class T>
+py::class_<T> made_here(py::module_* module, const char* name) {
+  py::class_<T> type(*module, name);
+  const py::cpp_function refuse([name](const py::args&, const py::kwargs&) {
+    throw py::type_error(std::string(name) + " is made by the library alone");
+  });
+  type.attr("__new__") = py::module_::import("builtins").attr("staticmethod")(refuse);
+  return type;
 }
 
 /// [(name, value, lower, upper, unit, tuned)]
@@ -61,9 +76,20 @@ py::list joints(const Session& session) {
   return to_list(names);
 }
 
+/// @param rho also taken as a keyword, unless a parameter has this name.
 std::vector<double> design_of(const Session& session, const py::object& rho,
                               const py::dict& settings) {
-  return session.design(rho.is_none() ? std::nullopt : std::optional(to_numbers(rho, "rho")),
+  constexpr const char* kRho = "rho";
+  const std::vector<Parameter>& all = session.problem().all_parameters();
+  const bool is_keyword =
+      rho.is_none() && settings.contains(kRho) &&
+      std::none_of(all.begin(), all.end(), [](const Parameter& each) { return each.name == kRho; });
+  if (is_keyword) {
+    py::dict others = settings.attr("copy")();
+    const py::object given = others.attr("pop")(kRho);
+    return design_of(session, given, others);
+  }
+  return session.design(rho.is_none() ? std::nullopt : std::optional(to_numbers(rho, kRho)),
                         to_settings(settings));
 }
 
@@ -186,7 +212,7 @@ void require_written(const std::vector<Failure>& failures, const std::string& fo
 }
 
 void add_jobs(py::module_* module) {
-  py::class_<Optimized>(*module, "Optimized")
+  made_here<Optimized>(module, "Optimized")
       .def_property_readonly("record", &record_of<Optimized>)
       .def_property_readonly(
           "status", [](const Optimized& of) { return to_python(to_json(of.result.status)); })
@@ -215,7 +241,7 @@ void add_jobs(py::module_* module) {
                         }),
                         folder);
       });
-  py::class_<Identified>(*module, "Identified")
+  made_here<Identified>(module, "Identified")
       .def_property_readonly("record", &record_of<Identified>)
       .def_property_readonly(
           "status", [](const Identified& of) { return to_python(to_json(of.result.status)); })
@@ -240,9 +266,9 @@ void add_jobs(py::module_* module) {
 }
 
 void add_session(py::module_* module) {
-  py::class_<RunNotes>(*module, "RunNotes").def("record", &RunNotes::record);
-  py::class_<Session>(*module, "Session")
-      .def(py::init(&open))
+  made_here<RunNotes>(module, "RunNotes").def("record", &RunNotes::record);
+  module->def("open", &open);
+  made_here<Session>(module, "Session")
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("joints", &joints)
       .def_property_readonly("names",

@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <atomic>
 #include <memory>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "engine/thread_engine.h"
+#include "ensemble/ensemble_fixture.h"
 
 namespace codesign {
 namespace {
@@ -32,6 +34,48 @@ TEST(SideBySide, ThreadsWaitForEachOther) {
     while (arrived < 3) std::this_thread::yield();
   });
   EXPECT_EQ(arrived, 3) << "calls that need each other all run at the same time";
+}
+
+/// While it lives no thread can be made: its stack would be larger than the memory.
+class NoMoreThreads {
+ public:
+  NoMoreThreads() {
+    pthread_getattr_default_np(&before_);
+    pthread_attr_t huge = before_;
+    pthread_attr_setstacksize(&huge, std::size_t{1} << 46U);
+    pthread_setattr_default_np(&huge);
+  }
+  ~NoMoreThreads() { pthread_setattr_default_np(&before_); }
+  NoMoreThreads(const NoMoreThreads&) = delete;
+  NoMoreThreads& operator=(const NoMoreThreads&) = delete;
+
+ private:
+  pthread_attr_t before_;
+};
+
+TEST(SideBySide, WithoutFurtherThreadsTheCallerWorks) {
+  std::vector<int> calls(10);
+  const NoMoreThreads none;
+  side_by_side(calls.size(), 4, [&calls](std::size_t k) { ++calls[k]; });
+  EXPECT_EQ(calls, std::vector<int>(10, 1));
+}
+
+TEST(ThreadEngine, WithoutFurtherThreadsTheCallerWorksAndAWarningTells) {
+  const NoMoreThreads none;
+  ThreadEngine engine(4);
+  EXPECT_EQ(engine.workers(), 1);
+  ASSERT_EQ(engine.warnings().size(), 1U);
+  EXPECT_EQ(engine.warnings().front().code, "fewer_workers");
+  const Problem problem = block("");
+  const std::vector<EvaluationTask> tasks = {
+      {system_of(problem), problem.parameters(Eigen::Vector2d(10.0, 3.0)), gradient_if(true)}};
+  const Evaluation evaluation = engine.evaluate(tasks, nullptr).front();
+  ASSERT_TRUE(evaluation.status.ok());
+  EXPECT_EQ(evaluation.gradient, SerialEngine().evaluate(tasks, nullptr).front().gradient);
+}
+
+TEST(ThreadEngine, WithItsThreadsItWarnsOfNothing) {
+  EXPECT_TRUE(ThreadEngine(2).warnings().empty());
 }
 
 /// Tells the end of a thread, which comes after the thread has noted what it has thrown.

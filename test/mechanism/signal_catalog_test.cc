@@ -35,7 +35,7 @@ RobotDescription catalog_robot() {
   robot.joints[1].friction.emplace();
   robot.joints[1].friction->joint_length = Quantity(0.1);
   robot.joints[1].friction->joint_width = Quantity(0.05);
-  robot.joints[2].dry_friction = 0.1;
+  robot.joints[2].dry_friction = robot.joints[4].dry_friction = 0.1;
   return robot;
 }
 

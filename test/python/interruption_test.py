@@ -55,6 +55,23 @@ except KeyboardInterrupt:
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.communicate(timeout=PATIENCE)[0], "interrupted\n")
 
+    def test_a_thread_that_computes_while_the_interpreter_ends_leaves_it_alone(self):
+        """Python ends a thread that asks for its lock now: in the middle of C++ that would end the process with an error."""
+        program = f"""
+import threading
+import mechanism_codesign as codesign
+problem = codesign.Problem({PENDULUM!r}, {SWING!r})
+def again():
+    while True:
+        problem.optimize(progress=lambda *told: None)
+for _ in range(4):
+    threading.Thread(target=again, daemon=True).start()
+problem.gradient()
+"""
+        for _ in range(10):
+            child = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=PATIENCE, check=False)
+            self.assertEqual((child.returncode, child.stderr), (0, ""))
+
     def test_a_handler_that_raises_nothing_ends_the_call_as_cancelled(self):
         seen = []
         before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))

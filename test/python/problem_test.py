@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Simulations and gradients from Python: the bits of the command line, numpy without copies, errors, scipy."""
+import concurrent.futures
 import copy
 import math
+import multiprocessing
 import os
 import pathlib
 import pickle
+import re
 import tempfile
 import unittest
 import warnings
@@ -16,6 +19,7 @@ import scipy.optimize
 from fixture import PENDULUM, SWING, case, command_line
 
 import mechanism_codesign as codesign
+from mechanism_codesign import _core
 
 
 def pendulum(study=SWING, **options):
@@ -44,6 +48,56 @@ class Postures(unittest.TestCase):
     def test_there_is_no_adjoint(self):
         with self.assertRaises(codesign.InputError):
             shipped("four_bar_path").adjoint()
+
+
+class Designs(unittest.TestCase):
+    def test_rho_is_a_keyword_too(self):
+        problem = pendulum()
+        self.assertEqual(problem.gradient(rho=[0.4])[0], problem.gradient([0.4])[0])
+        self.assertEqual(problem.objective(rho=np.array([0.4]), payload=0.3), problem.objective([0.4], payload=0.3))
+        self.assertEqual(problem.simulate(rho=[0.4])["pivot/position"][-1], problem.simulate([0.4])["pivot/position"][-1])
+        named = codesign.Problem(*(re.sub(r"\blength\b", "rho", text) for text in (PENDULUM, SWING)))
+        self.assertEqual(named.objective(rho=0.4), problem.objective(length=0.4), "a parameter of this name counts")
+
+
+def objective_of(problem):
+    return problem.gradient()[0]
+
+
+class Copies(unittest.TestCase):
+    """A problem is read again from what it was made of."""
+
+    def test_a_copy_has_the_same_numbers_and_tells_no_warning_again(self):
+        problem = pendulum(set={"length": 0.7})
+        value, gradient = problem.gradient()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for again in (copy.copy(problem), copy.deepcopy(problem), pickle.loads(pickle.dumps(problem))):
+                self.assertEqual(again.gradient()[0], value)
+                np.testing.assert_array_equal(again.gradient()[1], gradient)
+                np.testing.assert_array_equal(again.start, problem.start)
+
+    def test_files_are_found_from_another_folder(self):
+        folder, before = tempfile.mkdtemp(), os.getcwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(folder)
+        for name, text in (("model.urdf", PENDULUM), ("study.yaml", SWING)):
+            pathlib.Path(name).write_text(text, encoding="utf-8")
+        packed = pickle.dumps(codesign.Problem("model.urdf", pathlib.Path("study.yaml")))
+        os.chdir("/")
+        self.assertEqual(pickle.loads(packed).gradient()[0], pendulum().gradient()[0])
+
+    def test_other_processes_compute_with_it(self):
+        problem = pendulum()
+        with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
+            self.assertEqual(list(pool.map(objective_of, [problem] * 3)), [objective_of(problem)] * 3)
+
+    def test_what_the_library_makes_is_not_made_empty(self):
+        for kind in (_core.Session, _core.Optimized, _core.Identified, _core.RunNotes):
+            with self.assertRaisesRegex(TypeError, "by the library"):
+                kind.__new__(kind)
+            with self.assertRaisesRegex(TypeError, "by the library"):
+                kind()
 
 
 class Bits(unittest.TestCase):

@@ -165,8 +165,11 @@ void check_friction(const RobotDescription& robot) {
   };
   for (const JointDescription& joint : robot.joints) {
     if (!joint.friction) continue;
-    const bool ordinary = joint.is_loop || (is_body(joint.parent) && is_body(joint.child));
-    if (ordinary)
+    // Of a chain across links without mass, only the whole has a kind; but nothing slips in a fixed
+    // joint of it.
+    const bool is_whole = joint.is_loop || joint.type == JointType::kFixed ||
+                          (is_body(joint.parent) && is_body(joint.child));
+    if (is_whole)
       check_friction_geometry(*joint.friction, kind_of(joint),
                               joint.element() + " <codesign:friction>");
   }

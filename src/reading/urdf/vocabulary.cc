@@ -41,8 +41,14 @@ void add_link(Words* words) {
   words->push_back({link + "/inertial", {}, {"origin", "mass", "inertia"}, {}, {}, false});
   words->push_back({link + "/inertial/origin", {"xyz", "rpy"}, {}, {"quat_xyzw"}, {}, false});
   words->push_back({link + "/inertial/mass", {"value"}, {}, {}, {}, false});
-  words->push_back(
-      {link + "/inertial/inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}, {}, false});
+  words->push_back({link + "/inertial/inertia",
+                    {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"},
+                    {},
+                    {},
+                    {},
+                    false,
+                    {},
+                    {{"iyx", "ixy"}, {"izx", "ixz"}, {"izy", "iyz"}}});
   words->push_back({link + "/visual",
                     {"name"},
                     {"origin", "geometry", "material"},
@@ -66,7 +72,7 @@ void add_joint(Words* words) {
                     {"name", "type"},
                     {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic",
                      "calibration", "safety_controller"},
-                    {"independent"},
+                    {"independent", "dont_collapse"},
                     {"joint_properties", "hardwareInterface", "actuator", "sensor", "compliance"},
                     false});
   words->push_back({joint + "/origin", {"xyz", "rpy"}, {}, {"quat_xyzw"}, {}, false});
@@ -79,8 +85,15 @@ void add_joint(Words* words) {
                     {"acceleration", "deceleration", "jerk"},
                     {},
                     false});
-  words->push_back(
-      {joint + "/dynamics", {"damping", "friction"}, {}, {"coulomb_window"}, {}, false});
+  words->push_back({joint + "/dynamics",
+                    {"damping", "friction"},
+                    {},
+                    {"coulomb_window"},
+                    {},
+                    false,
+                    {{"armature",
+                      "write the rotor's inertia, armature/gear_ratio^2, as rotor_inertia of "
+                      "<codesign:actuator>"}}});
   words->push_back({joint + "/mimic", {"joint", "multiplier", "offset"}, {}, {}, {}, false});
   words->push_back(
       {joint + "/calibration", {"rising", "falling", "reference_position"}, {}, {}, {}, false});

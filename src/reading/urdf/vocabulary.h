@@ -3,6 +3,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace codesign {
@@ -13,10 +14,14 @@ struct Vocabulary {
   std::string path;        ///< tags from `robot` down, separated by slashes
   Names attributes;        ///< that urdfdom reads
   Names children;          ///< that urdfdom reads
-  Names other_attributes;  ///< that other tools read: Gazebo, Bullet, Drake, later releases of
-                           ///< urdfdom
+  Names other_attributes;  ///< that other tools read: Gazebo, Bullet, Drake, Isaac, later releases
+                           ///< of urdfdom
   Names other_children;    ///< likewise
   bool repeats_children = true;  ///< false: readers use only the first child with a tag
+  /// Attributes of other tools whose meaning is written otherwise here, and how.
+  std::vector<std::pair<std::string, std::string>> translations = {};
+  /// Attributes of other tools that repeat another one, and that one.
+  std::vector<std::pair<std::string, std::string>> repeats = {};
 };
 
 /// Each row of a table of one of these by its path; every element of a file is looked up.

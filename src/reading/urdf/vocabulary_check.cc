@@ -10,6 +10,7 @@
 #include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -24,6 +25,22 @@ bool is_ours(const std::string& name) { return name.rfind(kPrefix, 0) == 0; }
 std::string forgotten_prefix(const std::string& tag, const ElementRule* rule) {
   const std::string prefixed = kPrefix + tag;
   return rule != nullptr && contains(rule->children, prefixed) ? prefixed : "";
+}
+
+/// What stands beside a name in a list; null if it is not there.
+const std::string* found(const std::vector<std::pair<std::string, std::string>>& list,
+                         const std::string& name) {
+  const auto place = std::find_if(list.begin(), list.end(),
+                                  [&name](const auto& each) { return each.first == name; });
+  return place == list.end() ? nullptr : &place->second;
+}
+
+bool same_number(const XmlElement& element, const std::string& a, const std::string& b) {
+  const auto number = [&element](const std::string& attribute) {
+    const std::optional<std::string> text = element.find(attribute);
+    return text ? parse_number(*text) : std::nullopt;
+  };
+  return number(a).has_value() && number(a) == number(b);
 }
 
 class Check {
@@ -76,13 +93,26 @@ class Check {
       throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute,
                          attribute, words.attributes);
     if (contains(words.other_attributes, attribute)) return;
-    const std::string near = nearest_name(attribute, words.attributes);
+    if (const std::string* twin = found(words.repeats, attribute)) {
+      if (!same_number(element, attribute, *twin))
+        note(path + " " + attribute,
+             element.warning_at("unknown_attribute", attribute,
+                                "the attribute " + attribute + " is ignored, since " + *twin +
+                                    " counts, which is another number",
+                                "correct " + *twin + ", or remove " + attribute));
+      return;
+    }
+    const std::string* translation = found(words.translations, attribute);
+    const std::string near = translation ? "" : nearest_name(attribute, words.attributes);
+    const std::string advice = translation    ? *translation + ", or "
+                               : near.empty() ? ""
+                                              : "write " + near + ", or ";
     note(
         path + " " + attribute,
         element.warning_at("unknown_attribute", attribute,
                            "the attribute " + attribute +
                                " is ignored, since no reader of URDF knows it" + did_you_mean(near),
-                           near.empty() ? "remove it" : "write " + near + ", or remove it"));
+                           advice + "remove it"));
   }
 
   void check_child(const XmlElement& child, const std::string& path, const ElementRule* rule,

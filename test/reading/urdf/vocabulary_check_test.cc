@@ -19,7 +19,7 @@ TEST(VocabularyCheck, AllOfAFileAreToldInTheOrderOfItsLines) {
 TEST(VocabularyCheck, TheSameNameInTheSameKindOfElementIsToldOnceWithACount) {
   const std::string inertia =
       "<inertial><origin xyz=\"0 0 0\"/><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" "
-      "iyx=\"0\" iyy=\"1\" iyz=\"0\" "
+      "iyx=\"0.5\" iyy=\"1\" iyz=\"0\" "
       "izz=\"1\"/></inertial>\n";
   std::string links;
   for (const char* name : {"a", "b", "c"})
