@@ -149,10 +149,12 @@ class Generator:
 
     def add_gear(self):
         """With a controller that drives it, and a short run, since flanks meet often."""
-        if not self.study.controllers or self.study.controllers[0].sample_time:
+        controllers = self.study.controllers
+        # The rotor of an elbow turns with the upper arm, which the closed form does not have.
+        if not controllers or controllers[0].sample_time or controllers[0].joint == "elbow":
             return
         self.kinds.append("gear")
-        joint = self.study.controllers[0].joint
+        joint = controllers[0].joint
         self.study.of_model.update(gear=self.uniform(300.0, 2000.0), play=self.uniform(0.005, 0.05))
         self.study.ranges.update(gear=(100.0, 5000.0), play=(0.001, 0.1))
         self.study.gears.append(Gear(joint, 10.0, self.uniform(0.001, 0.005), "gear", self.uniform(0.5, 3.0), "play"))
