@@ -91,8 +91,15 @@ def choose(a, b, then, otherwise):
 
 
 def sign(x):
-    branch = object()
-    return Formula(f"sign({x.text})", lambda point: np.asarray(1.0 if point.is_positive(branch, x.value(point)) else -1.0))
+    """Zero at zero: a motion at rest can stay there."""
+    above, below = object(), object()
+
+    def value(point):
+        inner = x.value(point)
+        if point.is_positive(above, inner):
+            return np.asarray(1.0)
+        return np.asarray(-1.0 if point.is_positive(below, -inner) else 0.0)
+    return Formula(f"sign({x.text})", value)
 
 
 def magnitude(x):
