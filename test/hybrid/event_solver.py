@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from expressions import Point
 
 STEP = 1e-30  # of complex directions
-SAMPLES = np.linspace(0.0, 1.0, 13)[1:]  # of sides within a step
+SAMPLES = np.linspace(0.0, 1.0, 13)  # of sides within a step
 AT_ONCE = 1e-9  # of the duration: events nearer than that are one instant
 TANGENT = 1e-5  # of the rate a side's size has over the duration: slower crossings graze
 PER_RUN = 40  # steps at least
@@ -45,6 +45,20 @@ class Motion:
     def rates(self, t, extended, mode):
         return self.evaluate(t, extended, mode)[1]
 
+    def mode_across(self, t, extended, mode, key):
+        """With the other outcome of one side. Branches that are clearly wrong then, since what they read has jumped, decide anew; others that are zero at the same
+        instant have their own events."""
+        branch = key[0] if isinstance(key, tuple) and key[-1] in ("low", "high") else key
+        change = {"low": -1, "high": 1}.get(key[-1]) if isinstance(key, tuple) else None
+        mode = {**mode, branch: not mode[branch] if change is None else mode[branch] + change}
+        for _ in range(8):
+            point = self.evaluate(t, extended, mode)[0]
+            wrong = {side for side, value in point.sides.items() if np.real(value).flat[0] < -1e-9 * max(1e-3, self.largest.get(side, 0.0))}
+            if not wrong:
+                return point.outcomes
+            mode = {other: outcome for other, outcome in mode.items() if not wrong & {other, (other, "low"), (other, "high")}}
+        raise Doubt(f"no mode leads on at {t}")
+
     def mode_behind(self, t, extended, mode):
         """A little further along the motion of the mode that is found there."""
         step = 1e-7 * self.model.duration
@@ -68,15 +82,16 @@ class Motion:
         found = (np.inf, None)
         times = t + h * SAMPLES
         for key, values in self.sides(times, dense(times)[:self.n], mode).items():
+            begin, values = values[0], values[1:]
             self.largest[key] = size = max(self.largest.get(key, 0.0), np.max(np.abs(values)))
-            below = np.nonzero(values < -1e-13 * size)[0]
+            below = np.nonzero(values < min(begin, -1e-13 * size))[0]
             if not len(below):
                 continue
 
             def side(time, key=key):
                 return self.sides(np.array([time]), dense(np.array([time]))[:self.n], mode)[key][0]
-            before = t if below[0] == 0 else times[below[0] - 1]
-            time = brentq(side, before, times[below[0]], xtol=1e-15, rtol=1e-15) if side(before) > 0.0 else before
+            before, behind = times[below[0]], times[below[0] + 1]
+            time = brentq(side, before, behind, xtol=1e-15, rtol=1e-15) if side(before) > 0.0 else before
             found = min(found, (time, key), key=lambda pair: pair[0])
         return found
 
@@ -122,7 +137,7 @@ class Motion:
         side, rate = self.side_and_rate(t, extended, mode, key)
         if not rate < 0.0:
             raise Doubt(f"a side falls to zero at {t} with the rate {rate}")
-        behind = self.mode_behind(t, extended, mode)
+        behind = self.mode_across(t, extended, mode, key)
         before, after = self.rates(t, extended, mode)[:self.n], self.rates(t, extended, behind)[:self.n]
         jumps = np.max(np.abs(before - after)) > 1e-9 * np.max(np.abs(before))
         if jumps and abs(rate) * self.model.duration < TANGENT * self.largest.get(key, 0.0):

@@ -29,6 +29,8 @@ class Point:
 class Formula:
     """@param text for the study; @param value(point)"""
 
+    rate = None  # by time, of set-points that have one
+
     def __init__(self, text, value):
         self.text, self.value = text, value
 
@@ -157,6 +159,32 @@ def table(name, at, values, interpolation):
         return (rows[piece] * right + rows[piece + 1] * left) / h + (m[piece] * (right**3 / h - h * right) + m[piece + 1] * (left**3 / h - h * left)) / 6.0
     ordinates = ", ".join(f'"${{{v.text}}}"' for v in values)
     return Formula(f"{{type: table, signal: {name}, at: {list(map(float, at))}, values: [{ordinates}], interpolation: {interpolation}}}", value)
+
+
+def waypoints(times, positions):
+    """Lines between way-points, held before and after; `rate` is the derivative. Its text is the study's map."""
+    positions = [formula(position) for position in positions]
+    branches = [object() for _ in times]
+
+    def piece(point):
+        return sum(1 for k, time in enumerate(times) if point.is_positive(branches[k], point.t - time)) - 1
+
+    def slope(point, k):
+        return (positions[k + 1].value(point) - positions[k].value(point)) / (times[k + 1] - times[k])
+
+    def value(point):
+        k = piece(point)
+        if k < 0 or k + 1 == len(times):
+            return positions[max(k, 0)].value(point)
+        return positions[k].value(point) + slope(point, k) * (point.t - times[k])
+
+    def rate(point):
+        k = piece(point)
+        return 0.0 if k < 0 or k + 1 == len(times) else slope(point, k)
+    ordinates = ", ".join(quoted(position) for position in positions)
+    result = Formula(f"{{type: waypoints, times: {list(map(float, times))}, positions: [{ordinates}], interpolation: linear}}", value)
+    result.rate = rate
+    return result
 
 
 def quoted(x):

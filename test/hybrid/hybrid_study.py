@@ -35,7 +35,7 @@ class Gear:
 
 @dataclasses.dataclass
 class Pid:
-    """@param setpoint of the time, whose own rate is zero between its jumps"""
+    """@param setpoint of the time; without a rate it is constant between its jumps"""
     name: str
     joint: str
     setpoint: Formula
@@ -173,10 +173,11 @@ class HybridStudy:
         for controller, place in zip(self.controllers, self.places()):
             k = self.mechanism.joints.index(controller.joint)
             error = controller.setpoint.value(point) - q[k]
+            wanted = controller.setpoint.rate(point) if controller.setpoint.rate else 0.0
             if controller.sample_time:
                 u, further = y[place], [0.0, 0.0, 0.0]
             else:
-                u = controller.gain(point, "p") * error + controller.gain(point, "i") * y[place] - controller.gain(point, "d") * v[k]
+                u = controller.gain(point, "p") * error + controller.gain(point, "i") * y[place] + controller.gain(point, "d") * (wanted - v[k])
                 u, further = saturated(u, controller.output_limit) if controller.output_limit else u, [error]
                 point.signals[controller.name + "/error"], point.signals[controller.name + "/integral"] = error, y[place]
             point.signals[controller.name + "/output"] = u

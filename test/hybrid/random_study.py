@@ -4,7 +4,7 @@ thresholds, instants and gains."""
 import numpy as np
 
 import mechanisms
-from expressions import TIME, choose, floor, formula, function, largest, least, magnitude, number, parameter, sign, signal, square, table
+from expressions import TIME, choose, floor, formula, function, largest, least, magnitude, number, parameter, sign, signal, square, table, waypoints
 from hybrid_study import Gear, HybridStudy, Pid
 
 
@@ -38,7 +38,16 @@ class Generator:
         return parameter(name)
 
     def instant(self):
-        return self.tuned("t", 0.1 * self.study.duration, 0.9 * self.study.duration)
+        """Some are those of samples, of other switches, or nearly the start or the end of the run."""
+        duration = self.study.duration
+        lower, upper = self.pick([(0.1, 0.9)] * 6 + [(0.0, 0.02), (0.98, 1.0)])
+        instant = self.tuned("t", lower * duration, upper * duration)
+        tuned = [name for name in self.study.parameters if name[0] == "t"]
+        if self.chance(0.3) and instant.text in tuned:
+            others = [0.1 * k for k in range(1, int(10.0 * duration))] + 2 * [self.study.parameters[name] for name in tuned]
+            self.study.parameters[instant.text] = round(self.pick(others), 3)
+            self.study.ranges[instant.text] = (-1.0, 3.0)
+        return instant
 
     def joint(self):
         return self.pick(self.study.mechanism.joints)
@@ -71,7 +80,8 @@ class Generator:
         return floor(TIME / self.tuned("d", 0.15, 0.6)) * (0.5 * self.force())
 
     def position_jump(self, joint):
-        return choose(self.position(), self.tuned("x", -0.5, 0.5), self.force(), self.force())
+        """Zero is where many motions begin."""
+        return choose(self.position(), 0.0 if self.chance(0.15) else self.tuned("x", -0.5, 0.5), self.force(), self.force())
 
     def position_stairs(self, joint):
         return floor(self.position() / self.tuned("d", 0.2, 0.6)) * -self.uniform(0.5, 2.0)
@@ -142,6 +152,10 @@ class Generator:
         sampled = self.chance(0.3)
         self.kinds.append("sampled_pid" if sampled else "pid")
         setpoint = choose(TIME, self.instant(), self.uniform(-0.5, 0.5), self.tuned("r", -0.5, 0.5))
+        if self.chance(0.3):
+            self.kinds.append("waypoints")
+            times = [round(share * self.study.duration, 3) for share in (0.1, 0.4, 0.7)]
+            setpoint = waypoints(times, [self.uniform(-0.3, 0.3), self.tuned("r", -0.5, 0.5), self.tuned("r", -0.5, 0.5)])
         limit = self.uniform(3.0, 10.0) if self.chance(0.4) else 0.0
         self.study.controllers.append(Pid(name, joint, setpoint, gains, limit, self.pick([0.02, 0.05, 0.1]) if sampled else 0.0))
         if self.chance(0.3):
@@ -160,24 +174,27 @@ class Generator:
         self.study.gears.append(Gear(joint, 10.0, self.uniform(0.001, 0.005), "gear", self.uniform(0.5, 3.0), "play"))
         self.study.duration = min(self.study.duration, 0.6)
 
-    def windowed(self, term):
-        kind = self.dice.integers(5)
+    def windowed(self, term, signals):
+        kind = self.dice.integers(6)
         if kind == 0:
             return choose(self.instant(), TIME, term, 0.0)
         if kind == 1:
             return choose(self.position(), self.tuned("x", -0.3, 0.3), term, 0.0)
         if kind == 2:
             return largest(term, self.uniform(-0.2, 0.2))
+        if kind == 3:
+            return choose(signal(self.pick(signals)), self.tuned("z", -0.3, 0.3), term, 0.0)
         return term
 
     def add_objective(self):
         signals = [joint + quantity for joint in self.study.mechanism.joints for quantity in ("/position", "/velocity", "/acceleration")]
         for controller in self.study.controllers:
             signals += [controller.joint + "/effort"] + [controller.name + "/error"] * (controller.sample_time == 0.0)
+            signals += [controller.name + "/integral"] * (controller.sample_time == 0.0 and "i" in controller.gains)
         for _ in range(self.dice.integers(1, 4)):
             name = self.pick(signals)
             weight = {"acceleration": 0.02, "effort": 0.05}.get(name.split("/")[1], 1.0)
-            self.study.integral.append((self.windowed(signal(name)), self.uniform(-0.5, 0.5), weight))
+            self.study.integral.append((self.windowed(signal(name), signals), self.uniform(-0.5, 0.5), weight))
         for _ in range(self.dice.integers(0, 3)):
             name = self.pick(self.study.mechanism.joints) + self.pick(["/position", "/velocity"])
             self.study.terminal.append((signal(name) if self.chance(0.7) else square(signal(name)), self.uniform(-0.5, 0.5), self.uniform(0.5, 2.0)))
