@@ -15,6 +15,10 @@ TANGENT = 1e-5  # of the rate a side's size has over the duration: slower crossi
 PER_RUN = 40  # steps at least
 
 
+def first(values):
+    return np.ravel(values)[0]
+
+
 class Doubt(Exception):
     """The derivative does not exist, or the motion does not go on."""
 
@@ -50,10 +54,13 @@ class Motion:
         instant have their own events."""
         branch = key[0] if isinstance(key, tuple) and key[-1] in ("low", "high") else key
         change = {"low": -1, "high": 1}.get(key[-1]) if isinstance(key, tuple) else None
-        mode = {**mode, branch: not mode[branch] if change is None else mode[branch] + change}
+        held, mode = mode[branch], {**mode, branch: not mode[branch] if change is None else mode[branch] + change}
+        opposite = self.evaluate(t, extended, mode)[0].opposites.get(branch)
+        if opposite and held:
+            mode[opposite] = True
         for _ in range(8):
             point = self.evaluate(t, extended, mode)[0]
-            wrong = {side for side, value in point.sides.items() if np.real(value).flat[0] < -1e-9 * max(1e-3, self.largest.get(side, 0.0))}
+            wrong = {side for side, value in point.sides.items() if first(np.real(value)) < -1e-9 * max(1e-3, self.largest.get(side, 0.0))}
             if not wrong:
                 return point.outcomes
             mode = {other: outcome for other, outcome in mode.items() if not wrong & {other, (other, "low"), (other, "high")}}
@@ -121,7 +128,7 @@ class Motion:
             solver.step()
         y = solver.y if solver else y
         side, rate = self.side_and_rate(time, y, mode, key)
-        change = -np.real(side).flat[0] / rate if rate < 0.0 else 0.0
+        change = -first(np.real(side)) / rate if rate < 0.0 else 0.0
         if abs(change) > 1e-6 * self.model.duration:
             return time, y
         return time + change, y + change * self.rates(time, y, mode)
@@ -130,7 +137,7 @@ class Motion:
         point, rates = self.evaluate(t, extended, mode)
         along = Point(t + 1j * STEP, self.numbers, mode)
         self.model.rates(along, (extended[:self.n] + 1j * STEP * rates[:self.n])[:, None])
-        return point.sides[key], np.imag(along.sides[key]).flat[0] / STEP
+        return point.sides[key], first(np.imag(along.sides[key])) / STEP
 
     def cross(self, t, extended, mode, key):
         """The sensitivities behind the event, and the new mode."""
@@ -153,7 +160,7 @@ class Motion:
         while t < end:
             t, extended, key = self.until_event(t, end, extended, mode)
             if key is None:
-                return self.cross_at_end(t, extended, mode)
+                return self.cross_at_end(t, extended, mode) if end < self.model.duration else extended
             repeated = repeated + 1 if t - last < AT_ONCE * self.model.duration else 0
             if repeated > 8 or len(self.events) > 2000:
                 raise Doubt(f"the motion is held at a switch at {t}")
@@ -167,7 +174,7 @@ class Motion:
         last = 1e-12 * self.model.duration
         for key in self.evaluate(t, extended, mode)[0].sides:
             side, rate = self.side_and_rate(t, extended, mode, key)
-            if rate < 0.0 and np.real(side).flat[0] < -rate * last:
+            if rate < 0.0 and first(np.real(side)) < -rate * last:
                 self.events.append(t)
                 return self.cross(t, extended, mode, key)[0]
         return extended

@@ -6,21 +6,21 @@ import numpy as np
 
 class Point:
     """Where formulas are evaluated: the time, parameters, signals, and the mode, a map from each branch to its outcome; without a mode, branches decide
-    themselves, and `outcomes` is the mode. `sides` collects what must stay positive."""
+    themselves, and `outcomes` is the mode. `sides` collects what must stay positive. `opposites` are pairs of branches of which one holds unless the value is zero."""
 
     def __init__(self, t, parameters, mode=None):
         self.t, self.parameters, self.mode = t, parameters, mode
-        self.signals, self.outcomes, self.sides = {}, {}, {}
+        self.signals, self.outcomes, self.sides, self.opposites = {}, {}, {}, {}
 
     def is_positive(self, branch, guard):
-        outcome = bool(np.real(guard).flat[0] > 0.0) if self.mode is None or branch not in self.mode else self.mode[branch]
+        outcome = bool(np.ravel(np.real(guard))[0] > 0.0) if self.mode is None or branch not in self.mode else self.mode[branch]
         self.outcomes[branch] = outcome
         self.sides[branch] = guard if outcome else -guard
         return outcome
 
     def whole(self, branch, value):
         """The largest whole number up to the value."""
-        outcome = int(np.floor(np.real(value).flat[0])) if self.mode is None or branch not in self.mode else self.mode[branch]
+        outcome = int(np.floor(np.ravel(np.real(value))[0])) if self.mode is None or branch not in self.mode else self.mode[branch]
         self.outcomes[branch] = outcome
         self.sides[(branch, "low")], self.sides[(branch, "high")] = value - outcome, outcome + 1 - value
         return outcome
@@ -98,6 +98,7 @@ def sign(x):
 
     def value(point):
         inner = x.value(point)
+        point.opposites.update({above: below, below: above})
         if point.is_positive(above, inner):
             return np.asarray(1.0)
         return np.asarray(-1.0 if point.is_positive(below, -inner) else 0.0)

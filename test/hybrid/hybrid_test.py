@@ -26,34 +26,34 @@ VALUE, GRADIENT = 1e-7, 1e-5  # relative errors allowed
 FAULTS = ("disagree", "failed", "without derivative, not told")
 
 
-def evaluate(codesign, study, folder):
-    """What the program says: (JSON, None) or (None, message)."""
+def write(study, folder):
     model, text = folder / "model.urdf", folder / "study.yaml"
     model.write_text(study.model_text(), encoding="utf-8")
     text.write_text(study.study_text(), encoding="utf-8")
+    return model, text
+
+
+def evaluate(codesign, study, folder):
+    """What the program says: (JSON, None) or (None, message)."""
+    model, text = write(study, folder)
     done = subprocess.run([codesign, "gradient", model, text, "--json", "--quiet"], capture_output=True, text=True, check=False)
     if done.returncode == 2 or done.returncode < 0:
         raise RuntimeError(done.stderr)
     return (json.loads(done.stdout), None) if done.returncode == 0 else (None, done.stderr.strip() or done.stdout)
 
 
-def compare(codesign, seed, keep=None):
-    """One line about a study: (outcome, kinds, details)."""
-    generator = Generator(seed)
-    study = generator.make()
-    kinds = ", ".join(generator.kinds)
-    with tempfile.TemporaryDirectory() as place:
-        folder = pathlib.Path(keep) / str(seed) if keep else pathlib.Path(place)
-        folder.mkdir(parents=True, exist_ok=True)
-        answer, failure = evaluate(codesign, study, folder)
+def judge(codesign, study):
+    """(outcome, details)"""
+    with tempfile.TemporaryDirectory() as folder:
+        answer, failure = evaluate(codesign, study, pathlib.Path(folder))
     motion = Motion(study)
     try:
         value, gradient = motion.run()
     except Doubt as doubt:
         honest = failure or (answer["warnings"] and "; ".join(w["code"] for w in answer["warnings"]))
-        return ("without derivative, told" if honest else "without derivative, not told"), kinds, f"{doubt}; the program: {honest}"
+        return ("without derivative, told" if honest else "without derivative, not told"), f"{doubt}; the program: {honest}"
     if failure:
-        return "failed", kinds, failure
+        return "failed", failure
     ranges = np.array([study.ranges[name][1] - study.ranges[name][0] for name in study.names])
     ours = np.array([answer["gradient"][name] for name in study.names])
     scale = max(np.max(np.abs(gradient * ranges)), abs(value))
@@ -62,10 +62,23 @@ def compare(codesign, seed, keep=None):
     worst = int(np.argmax(error))
     details = f"{len(motion.events)} events, {answer['steps']} steps, value off by {error_value:.1e}, gradient by {error[worst]:.1e}"
     if error_value < VALUE and error[worst] < GRADIENT:
-        return "agree", kinds, details
+        return "agree", details
     warned = [warning["code"] for warning in answer["warnings"]]
     details += f" ({study.names[worst]}: {ours[worst]:.10g} for {gradient[worst]:.10g}; objective {answer['objective']:.10g} for {value:.10g}) {warned}"
-    return ("warned" if warned else "disagree"), kinds, details
+    return ("warned" if warned else "disagree"), details
+
+
+def compare(codesign, seed, keep=None):
+    """One line about the study of a number: (outcome, kinds, details). Model and study of a fault are kept."""
+    generator = Generator(seed)
+    study = generator.make()
+    outcome, details = judge(codesign, study)
+    if keep and outcome in FAULTS:
+        folder = pathlib.Path(keep) / str(seed)
+        folder.mkdir(parents=True, exist_ok=True)
+        write(study, folder)
+        details += f"\n  kept in {folder}"
+    return outcome, ", ".join(generator.kinds), details
 
 
 def options():
@@ -74,7 +87,7 @@ def options():
     parser.add_argument("--studies", type=int, default=40, help="how many; their numbers are their seeds")
     parser.add_argument("--first", type=int, default=0, help="the first number")
     parser.add_argument("--minutes", type=float, help="as many as can be compared in this time, in place of --studies")
-    parser.add_argument("--keep", help="a folder for models and studies")
+    parser.add_argument("--keep", help="a folder for models and studies that fail")
     parser.add_argument("--verbose", action="store_true", help="a line for each study")
     return parser.parse_args()
 
