@@ -146,6 +146,9 @@ add_test(NAME peers COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/benc
 add_test(NAME corpus_table COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/corpus_table_test.py $<TARGET_FILE:codesign>)
 add_test(NAME identify_cases COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/identify_cases_test.py $<TARGET_FILE:codesign>)
 add_test(NAME features COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/features_test.py $<TARGET_FILE:codesign>)
+# Forty of the random hybrid studies; --studies 200 compares all. doc/testing.md
+add_test(NAME hybrid COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/hybrid/hybrid_test.py $<TARGET_FILE:codesign>)
+add_test(NAME hybrid_solver COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/hybrid/event_solver_test.py)
 add_test(NAME json_schema COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/json_schema_test.py $<TARGET_FILE:codesign>)
 add_test(NAME pages COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/pages_test.py)
 add_test(NAME readme COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/readme_test.py $<TARGET_FILE:codesign>)

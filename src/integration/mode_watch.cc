@@ -12,6 +12,9 @@
 namespace codesign {
 namespace {
 
+/// How far beyond the end of a step, in parts of it, its dense output is used.
+constexpr double kBeyond = 1e-3;
+
 /// The place of the lowest point of the parabola through (0, a), (1, b), (2, c), if it is between
 /// them.
 double lowest(double a, double b, double c) {
@@ -106,6 +109,18 @@ ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
   return first;
 }
 
+// An end on a guard, as where a switching time is also an instant at which a controller samples: the
+// guard is crossed before inputs jump.
+ModeWatch::Crossing ModeWatch::crossing_at_end(RosenbrockStep<double>* step) {
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
+    const double end = side(k, samples_.col(kPoints)), before = side(k, samples_.col(kPoints - 1));
+    if (std::abs(end) <= sizes_[k] && before > sizes_[k] &&
+        has_left(k, side_at(k, 1.0 + kBeyond, step)))
+      return {k, 1.0, 1.0};
+  }
+  return {};
+}
+
 // The Illinois variant of the regula falsi, on the dense output.
 double ModeWatch::locate(const Crossing& crossing, RosenbrockStep<double>* step) {
   constexpr int kMost = 60;
@@ -164,21 +179,23 @@ bool ModeWatch::cut(RosenbrockStep<double>* step) {
   if (!is_active()) return true;
   is_due_ = false;
   step_size_ = step->step_size();
-  const Crossing crossing = first_crossing(step);
+  Crossing crossing = first_crossing(step);
+  if (crossing.guard < 0) crossing = crossing_at_end(step);
   if (crossing.guard < 0) return true;
   const double least = smallest_step(step->state().t, system_.study().duration);
-  guard_ = crossing.guard;
+  // A guard that is beyond zero from the beginning on jumped there: it has no instant of its own.
+  if (!has_left(crossing.guard, side(crossing.guard, samples_.col(0)))) guard_ = crossing.guard;
   is_due_ = true;
-  next_mode_ = mode_beyond(crossing, step);
+  next_mode_ = mode_of_one(crossing, mode_beyond(crossing, step), step);
   const auto row = samples_.row(crossing.guard);
   guard_pace_ = (row.maxCoeff() - row.minCoeff()) / step_size_;
-  return repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
+  return crossing.from >= 1.0 || repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
 }
 
 // As near behind the crossing as its guard has another sign: the mode that the motion enters. The
 // dense output goes on a little beyond the end of the step.
 std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
-  constexpr double kNearest = 1e-9, kBeyond = 1e-3, kFarther = 10.0;
+  constexpr double kNearest = 1e-9, kFarther = 10.0;
   for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
     const double place = std::min(1.0 + kBeyond, crossing.to + distance);
     if (side_at(crossing.guard, place, step) >= 0.0) continue;
@@ -189,6 +206,27 @@ std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockSte
   std::vector<bool> begun(mode_.begin(), mode_.begin() + crossing.guard);
   begun.push_back(!mode_[to_index(crossing.guard)]);
   return system_.record_variant({}, EquationPart::kMotion, begun)->mode();
+}
+
+// Guards that are zero at the same instant are crossed one after the other, since each has an
+// instant of its own in other designs: two switching times that are equal. @param mode with all of
+// them beyond. The mode in which only the first one is must have been right for all others before.
+std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, std::vector<bool> mode,
+                                         RosenbrockStep<double>* step) {
+  constexpr double kBefore = 1e-6;
+  std::vector<bool> one = mode_;
+  one[to_index(crossing.guard)] = !one[to_index(crossing.guard)];
+  if (mode.size() != one.size() || mode == one ||
+      system_.record_variant({}, EquationPart::kMotion, one)->mode() != one)
+    return mode;
+  Equations<double>& equations = step->equations();
+  step->interpolate_attempt(std::max(0.0, crossing.to - kBefore), &point_);
+  equations.hold(one);
+  equations.compiled().switches(point_, &residual_, &right_);
+  equations.hold(mode_);
+  for (int k = 0; k < static_cast<int>(one.size()); ++k)
+    if (k != crossing.guard && has_left(k, side(k, residual_))) return mode;
+  return one;
 }
 
 double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {
@@ -245,6 +283,36 @@ bool ModeWatch::has_jump(const ModeChange& change) const {
   return !is_touched(change.guard_rate);
 }
 
+// The guard that the change of the rates itself has moved beyond zero, such as one of an
+// acceleration; -1 if there is none.
+int ModeWatch::jumped_guard(const ModeChange& change, Equations<double>* equations) {
+  constexpr double kSame = 1e-9;
+  equations->compiled().switches(change.before, &residual_, &right_);
+  equations->compiled().switches(change.behind, &ahead_, &right_);
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
+    const double size = std::max(std::abs(residual_[k]), std::abs(ahead_[k]));
+    if (side(k, ahead_) < 0.0 && std::abs(ahead_[k] - residual_[k]) > kSame * size) return k;
+  }
+  return -1;
+}
+
+// Guards that jump with the rates belong to the same change and the same instant.
+Status ModeWatch::enter(Assembly* assembly, Equations<double>* equations, ModeChange* change) {
+  for (std::size_t turn = 0;; ++turn) {
+    mode_ = change->mode;
+    equations->hold(mode_);
+    change->behind = change->before;
+    if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
+      return status;
+    const int jumped = turn < mode_.size() ? jumped_guard(*change, equations) : -1;
+    if (jumped < 0) return {};
+    std::vector<bool> begun(mode_.begin(), mode_.begin() + jumped);
+    begun.push_back(!mode_[to_index(jumped)]);
+    begun.insert(begun.end(), mode_.begin() + jumped + 1, mode_.end());
+    change->mode = system_.record_variant({}, EquationPart::kMotion, begun)->mode();
+  }
+}
+
 Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
                         Equations<double>* equations, ModeChange* change) {
   is_due_ = false;
@@ -265,11 +333,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   along_->hold(mode_);
   if (change->guard >= 0) change->guard_rate = guard_rate(change->guard, before, rates);
   change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
-  mode_ = change->mode;
-  equations->hold(mode_);
-  change->behind = before;
-  if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
-    return status;
+  if (Status status = enter(assembly, equations, change); !status.ok()) return status;
   equations->residual(change->behind, &residual_, &change->g);
   if (!has_jump(*change)) change->guard = -1;
   return {};

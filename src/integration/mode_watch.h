@@ -94,6 +94,7 @@ class ModeWatch {
   bool has_left(int k, double value) const { return value < -sizes_[k]; }
   Crossing first_crossing(RosenbrockStep<double>* step);
   Crossing crossing_of(int k, RosenbrockStep<double>* step);
+  Crossing crossing_at_end(RosenbrockStep<double>* step);
   double locate(const Crossing& crossing, RosenbrockStep<double>* step);
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
@@ -101,6 +102,10 @@ class ModeWatch {
   Status count_return(double t);
   bool has_jump(const ModeChange& change) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
+  std::vector<bool> mode_of_one(const Crossing& crossing, std::vector<bool> mode,
+                                RosenbrockStep<double>* step);
+  Status enter(Assembly* assembly, Equations<double>* equations, ModeChange* change);
+  int jumped_guard(const ModeChange& change, Equations<double>* equations);
   std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,
                                 Equations<double>* equations) const;
 
@@ -114,7 +119,7 @@ class ModeWatch {
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
   VectorX<double> sizes_;      ///< of what counts as zero of each guard
   State<double> point_;
-  VectorX<double> residual_, right_;
+  VectorX<double> residual_, right_, ahead_;
   Eigen::MatrixXd samples_;                     ///< a column of guards per point of the step
   std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion
   State<Lanes<4>> moving_;

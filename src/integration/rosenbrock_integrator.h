@@ -62,6 +62,7 @@ class RosenbrockIntegrator final : public Integrator {
   }
   /// The mode that the equations hold now; empty without switches.
   const std::vector<bool>& mode() const { return mode_watch_.mode(); }
+  bool ends_at_switch() const override { return mode_watch_.is_due(); }
   /// The events of the last jump(), none if there was nothing to do, and the state before them.
   const std::vector<ControlEvent>& jump_events() const { return jump_events_; }
   const State<double>& before_jump() const { return before_jump_; }

@@ -113,7 +113,7 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
 Status SignalWatch::look() {
   const double from = time_, to = integrator_->state().t;
   begins_at_jump_ = ends_at_jump_;
-  ends_at_jump_ = !clock_.due(to).empty();
+  ends_at_jump_ = !clock_.due(to).empty() || integrator_->ends_at_switch();
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
   time_ = to;
   return integrator_->has_ended() ? end() : status_;

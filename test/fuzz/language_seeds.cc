@@ -99,6 +99,11 @@ std::vector<Seed> language_seeds() {
                               "0.01], between: [0.4, 0.6]}}\n"
                               "robust: {measure: cvar, level: 0.5, samples: 4, validate: "
                               "3}\nengine: {type: serial}\n")),
+      seed("switches",
+           tuned("\"${t < 0.02 ? 0.4 : top}\"", "",
+                 "loads:\n  - {joint: pivot, effort: \"${pivot/position < 0.49 ? -2*sign(t - ts) : "
+                 "floor(40*t)}\"}\n"
+                 "  - {joint: pivot, effort: \"${max(0, abs(pivot/velocity) - 0.1)}\"}\n")),
       seed("starts",
            tuned("0.1", "",
                  "multistart: {starts: 2, screen: 4, sampler: random}\nengine: {workers: 2}\n")),
@@ -114,6 +119,11 @@ std::vector<Seed> language_seeds() {
       seed("statics", tuned("0.1", "",
                             "efforts: {grid: {pivot: {from: -1.0, to: 1.0, count: 3}}}\n"
                             "runs: {heavy: {loads: [{joint: pivot, effort: 0.5}]}}\n"))};
+  for (Seed& one : seeds)
+    if (one.name == "switches")
+      one.study.insert(one.study.find("Kp: {"),
+                       "ts: {initial: 0.03, lower: 0, upper: 0.05}, top: {initial: 0.1, lower: 0, "
+                       "upper: 0.5}, ");
   // The peak belongs to the objective.
   std::string& study = seeds.front().study;
   study.insert(study.find("optimizer:"), "  peak: [{signal: pivot/acceleration, weight: 0.001}]\n");

@@ -91,6 +91,32 @@ parameters: {xp: {initial: 0.4, lower: 0.1, upper: 1.9}, w: {initial: 0.0001, lo
 objective: {terminal: [{signal: slide/velocity}]})",
        1.0 + 4.0e-4,
        {0.0, 4.0}},
+      // Each of two instants that are equal here has its own derivative.
+      {"two switching times that are equal",
+       R"(
+loads: [{joint: slide, effort: "${(t < t1 ? 0.5 : 0) + (t < t2 ? 0.5 : -1)}"}]
+parameters: {t1: {initial: 0.8, lower: 0.1, upper: 1.9}, t2: {initial: 0.8, lower: 0.1, upper: 1.9}}
+objective: {terminal: [{signal: slide/position}]})",
+       0.56 * 0.56,
+       {2.0 * 0.56 * 0.5 * 1.2, 2.0 * 0.56 * 1.5 * 1.2}},
+      // The controller changes nothing, but samples at the instant of the switch.
+      {"a switching time at which a controller samples",
+       R"(
+loads: [{joint: slide, effort: "${t < ts ? 1 : -1}"}]
+controllers: {c: {type: pid, input: slide/velocity, output: slide, setpoint: 0.0, sample_time: 0.1,
+  gains: {p: 0.0}}}
+parameters: {ts: {initial: 0.8, lower: 0.1, upper: 1.9}}
+objective: {terminal: [{signal: slide/position, reference: 2.0}]})",
+       (x - 2.0) * (x - 2.0),
+       {2.0 * (x - 2.0) * 2.0 * 1.2}},
+      // max() changes its side because the acceleration jumps, at an instant that is not its own.
+      {"a guard that jumps",
+       R"(
+loads: [{joint: slide, effort: "${t < ts ? -1 : 1}"}]
+parameters: {ts: {initial: 0.8, lower: 0.1, upper: 1.9}}
+objective: {integral: [{signal: "${max(slide/acceleration, 0)}"}]})",
+       1.2,
+       {-1.0}},
       // floor(2 t) N on 1 kg: 0, 1, 2, 3 N for half a second each.
       {"steps of time",
        R"(
