@@ -87,6 +87,7 @@ def context(job, scale):
         "mechanism": mechanism(job), "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
         "friction_rows": friction_rows, "friction_chart": friction_chart, "energies": results.energies(job),
         "signal_rows": signals.signal_rows(job), "signal_groups": signals.signal_groups(job, scale),
+        "events": signals.events(job),
         "waterfall": results.waterfall(job), "samples": results.samples(job),
         "identified": results.identified(job), "correlations": results.correlations(job), "residuals": results.residuals(job),
         "commands": commands(job),

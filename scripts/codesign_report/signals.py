@@ -69,9 +69,24 @@ def curves(job, name):
             for side, table in job.runs.items() if table and name in table]
 
 
+def events(job):
+    """[(side, event)] of both designs, before the search and after it."""
+    return [(side, event) for side in ("initial", "tuned") for event in job.details.get(side, {}).get("events", [])]
+
+
+def marks(job):
+    """The instants of the events of both designs, for the axis of time; those after the search stand below."""
+    found = []
+    for side, words in (("tuned", "after"), ("initial", "before")):
+        times = [event["time"] for of, event in events(job) if of == side]
+        if times:
+            found.append((side, f"events {words}", times))
+    return found
+
+
 def signal_groups(job, scale=1.0):
     """[(title, words, [(row, chart)])] without empty groups. @param scale of the number of points of each curve."""
-    used = used_signals(job.study)
+    used, instants = used_signals(job.study), marks(job)
     groups = [(title, words, []) for title, words in GROUPS]
     rows = signal_rows(job)
     most = int(scale * max(24, min(240, CAPACITY // (22 * max(1, min(len(rows), MOST_CHARTS))))))
@@ -79,6 +94,7 @@ def signal_groups(job, scale=1.0):
         series = curves(job, row["name"])
         if series:
             title = f'{row["name"]} before and after'
-            chart = line_chart(title, series, "time [s]", f'[{row["unit"]}]' if row["unit"] else "", row["limits"], most=most)
+            chart = line_chart(title, series, "time [s]", f'[{row["unit"]}]' if row["unit"] else "", row["limits"], most=most,
+                               marks=instants)
             groups[group_of(row["name"], used)][2].append((row, chart))
     return [group for group in groups if group[2]]

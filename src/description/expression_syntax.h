@@ -30,6 +30,8 @@ class ExpressionScanner {
   }
 
   const ExpressionToken& token() const { return token_; }
+  /// Where the token before it ends.
+  std::size_t behind_last() const { return behind_last_; }
   bool is(const char* symbol) const {
     return token_.kind == ExpressionToken::Kind::kSymbol && token_.text == symbol;
   }
@@ -49,7 +51,7 @@ class ExpressionScanner {
 
   const std::string& text_;
   const ExpressionScope& scope_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, behind_last_ = 0;
   ExpressionToken token_;
 };
 

@@ -182,9 +182,9 @@ SignalDescription parse_formula(const std::string& text, const SourceLocation& w
   };
   const std::string inside = trimmed(text);
   try {
-    formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
-                                     {find, [&names] { return names; }, signal_end})
-                        .steps;
+    formula.text = inside.substr(2, inside.size() - 3);
+    formula.steps =
+        parse_expression(formula.text, {find, [&names] { return names; }, signal_end}).steps;
   } catch (const std::invalid_argument& error) {
     throw InputError({where, element, error.what(), text, kFormOfSignal});
   }

@@ -134,6 +134,10 @@ class EquationCode {
   /// The outcomes of the residual's switches in turn, of which a run holds one set in each step;
   /// the same sequence in every part that begins with the residual, empty in the others.
   const std::vector<bool>& mode() const { return mode_; }
+  /// Where each of these switches was recorded.
+  const std::vector<SwitchOrigin>& switch_origins() const {
+    return values_.recording.switch_origins();
+  }
 
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[to_index(function)]; }

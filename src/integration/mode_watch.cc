@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "equations/equation_code.h"
+#include "integration/event_names.h"
 #include "integration/step_control.h"
 #include "math/arrays.h"
 
@@ -90,6 +91,7 @@ ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
     step->equations().compiled().switches(point_, &residual_, &right_);
     samples_.col(point) = residual_;
     if (sizes_.size() != count) sizes_.setZero(count);
+    if (residual_.hasNaN()) continue;
     sizes_ = sizes_.cwiseMax(kRounding * residual_.cwiseAbs())
                  .cwiseMax(kCancelled * (right_.cwiseAbs() + (right_ - residual_).cwiseAbs()));
   }
@@ -159,12 +161,33 @@ bool ModeWatch::repeat(int guard, double h, RosenbrockStep<double>* step) {
   return true;
 }
 
+// A comparison with NaN counts as equal, so that a guard without a value would never be passed.
+Status ModeWatch::undefined_guard(double t) const {
+  if (undefined_ < 0) return {};
+  return {StatusCode::kNonFinite, t,
+          "the guard of " + describe_switch(system_, undefined_at_) +
+              " is not a number there, so that it cannot be decided"};
+}
+
+// Behind the crossing another mode holds, which may not ask for that guard: sqrt(x) where x < 0.
+bool ModeWatch::is_undefined_before(const Crossing& crossing) {
+  const double end = crossing.guard < 0 ? 1.0 : crossing.to;
+  for (int point = 0; point <= kPoints && static_cast<double>(point) / kPoints <= end; ++point)
+    for (Eigen::Index k = 0; k < samples_.rows(); ++k)
+      if (std::isnan(samples_(k, point))) undefined_ = static_cast<int>(k);
+  return undefined_ >= 0;
+}
+
 bool ModeWatch::cut(RosenbrockStep<double>* step) {
-  guard_ = -1;
+  guard_ = undefined_ = -1;
   if (!is_active()) return true;
   is_due_ = false;
   step_size_ = step->step_size();
   const Crossing crossing = first_crossing(step);
+  if (is_undefined_before(crossing)) {
+    undefined_at_ = step->equations().compiled().switch_origin(mode_, to_index(undefined_));
+    return false;
+  }
   if (crossing.guard < 0) return true;
   const double least = smallest_step(step->state().t, system_.study().duration);
   guard_ = crossing.guard;
@@ -226,28 +249,37 @@ Status ModeWatch::count_return(double t) {
   last_change_ = t;
   if (returns_ < kEnough + 2 * static_cast<int>(mode_.size())) return {};
   return {StatusCode::kSwitchHolds, t,
-          "the motion is held at a switch of an expression, whose both sides lead back to it; take "
-          "a friction law such as coulomb or gonthier in place of sign() of a velocity, or make "
-          "the expression continuous"};
+          "the motion is held at the switch of " + describe_switch(system_, held_at_) +
+              ", whose both sides lead back to it; take a friction law such as coulomb or gonthier "
+              "in place of sign() of a velocity, or make the expression continuous"};
 }
 
-// At a kink the rates are continuous, and no sensitivity jumps. Where a guard is only touched, its
-// instant has no derivative.
+// At a kink the rates are continuous, and no sensitivity jumps.
 bool ModeWatch::has_jump(const ModeChange& change) const {
-  constexpr double kSame = 1e-10, kTouched = 1e-6;
+  constexpr double kSame = 1e-10;
   const double size = std::max(change.before.z.lpNorm<Eigen::Infinity>(),
                                change.behind.z.lpNorm<Eigen::Infinity>()),
                jump = (change.before.z - change.behind.z).lpNorm<Eigen::Infinity>(),
                of_g = std::abs(change.g_before - change.g);
-  if (jump <= kSame * size &&
-      of_g <= kSame * std::max(std::abs(change.g_before), std::abs(change.g)))
-    return false;
-  return std::abs(change.guard_rate) > kTouched * guard_pace_;
+  return jump > kSame * size ||
+         of_g > kSame * std::max(std::abs(change.g_before), std::abs(change.g));
+}
+
+// Modes are equal up to the first switch that changed.
+int ModeWatch::changed_switch(int guard, const std::vector<bool>& mode) const {
+  if (guard >= 0) return guard;
+  const std::size_t both = std::min(mode.size(), mode_.size());
+  for (std::size_t k = 0; k < both; ++k)
+    if (mode[k] != mode_[k]) return static_cast<int>(k);
+  return -1;
 }
 
 Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
                         Equations<double>* equations, ModeChange* change) {
+  constexpr double kTouched = 1e-6;
   is_due_ = false;
+  const bool at_start = last_change_ < 0.0;
+  if (guard_ >= 0) held_at_ = equations->compiled().switch_origin(mode_, to_index(guard_));
   if (Status status = count_return(state.t); !status.ok()) return status;
   *change = {};
   change->guard = std::exchange(guard_, -1);
@@ -265,13 +297,21 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   along_->hold(mode_);
   if (change->guard >= 0) change->guard_rate = guard_rate(change->guard, before, rates);
   change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
+  if (const int k = at_start ? -1 : changed_switch(change->guard, change->mode); k >= 0) {
+    change->origin = equations->compiled().switch_origin(mode_, to_index(k));
+    change->becomes_true = !mode_[to_index(k)];
+  }
   mode_ = change->mode;
   equations->hold(mode_);
   change->behind = before;
   if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
     return status;
   equations->residual(change->behind, &residual_, &change->g);
-  if (!has_jump(*change)) change->guard = -1;
+  // Where a guard is only touched, its instant has no derivative.
+  change->is_jump = has_jump(*change);
+  change->is_touched = change->is_jump && change->guard >= 0 &&
+                       !(std::abs(change->guard_rate) > kTouched * guard_pace_);
+  if (!change->is_jump || change->is_touched) change->guard = -1;
   return {};
 }
 

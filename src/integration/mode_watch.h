@@ -23,6 +23,11 @@ struct ModeChange {
   State<double> end;               ///< of the step, with its own z
   State<double> before, behind;    ///< the same q, v and s with the rates z of both modes
   double g_before = 0.0, g = 0.0;  ///< integrands of the objective
+  /// Of the switch that changed; null at the start of a run, and if no switch did.
+  const SwitchOrigin* origin = nullptr;
+  bool becomes_true = false;  ///< whether its comparison x < y holds after the change
+  bool is_jump = false;       ///< whether z or the integrand jump, at an event without a kink
+  bool is_touched = false;    ///< whether they jump where the guard is only touched
 };
 
 /// Keeps each step within one mode of the equations: the set of outcomes of their switches, which
@@ -52,6 +57,8 @@ class ModeWatch {
   bool cut(RosenbrockStep<double>* step);
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
+  /// kNonFinite with its place, if the last cut() failed because a guard is no number.
+  Status undefined_guard(double t) const;
   /// After an instant at which inputs jumped or the design changed: the mode is looked at.
   void look_again() { is_due_ = is_active(); }
 
@@ -80,10 +87,13 @@ class ModeWatch {
   /// which may stay at zero: a bristle at rest.
   bool has_left(int k, double value) const { return value < -sizes_[k]; }
   Crossing first_crossing(RosenbrockStep<double>* step);
+  bool is_undefined_before(const Crossing& crossing);
   Crossing crossing_of(int k, RosenbrockStep<double>* step);
   double locate(const Crossing& crossing, RosenbrockStep<double>* step);
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
+  /// The switch that the change of the mode concerns, of the mode before it; -1: none.
+  int changed_switch(int guard, const std::vector<bool>& mode) const;
   Status count_return(double t);
   bool has_jump(const ModeChange& change) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
@@ -93,7 +103,9 @@ class ModeWatch {
   const CompiledSystem& system_;
   std::vector<bool> mode_, next_mode_;
   bool is_due_ = false;
-  int guard_ = -1;             ///< that cut the last step
+  int guard_ = -1;      ///< that cut the last step
+  int undefined_ = -1;  ///< a guard that is NaN in the last attempt
+  const SwitchOrigin *held_at_ = nullptr, *undefined_at_ = nullptr;
   int returns_ = 0;            ///< changes in turn without a step between them
   double last_change_ = -1.0;  ///< [s]
   double guard_pace_ = 0.0;    ///< range of the guard over the attempt that it cut, per second

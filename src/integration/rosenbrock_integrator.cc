@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integration/event_names.h"
 #include "integration/run_ends.h"
 
 namespace codesign {
@@ -64,6 +65,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   step_.use(choice_.start());
   stability_.start();
   begin_methods(step_.tableau().name);
+  log_.start(system_.has_switches());
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
   if (Status status =
@@ -86,6 +88,7 @@ Warnings RosenbrockIntegrator::warnings() const {
   Warnings all = assembly_.warnings();
   append(run_watch_.warnings(statistics_), &all);
   append(singularity_.warnings(), &all);
+  append(grazing_warnings(system_, log_), &all);
   return all;
 }
 
@@ -135,6 +138,9 @@ Status RosenbrockIntegrator::change_mode(ModeChange* change) {
       !status.ok())
     return status;
   has_jumped_ = true;
+  if (change->origin)
+    log_.add(
+        {change->end.t, change->origin, change->becomes_true, change->is_jump, change->is_touched});
   step_.restart(change->behind);
   work_.start(change->behind, run_watch_.motion());
   return {};
@@ -203,6 +209,8 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   const double smallest = smallest_step(t, system_.study().duration);
   bool singular = false;
   const auto judged = [&](const Status& status) {
+    if (Status undefined = mode_watch_.undefined_guard(t); !status.ok() && !undefined.ok())
+      return undefined;
     return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(),
                             statistics_, &step_.equations());
   };

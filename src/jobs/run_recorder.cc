@@ -224,6 +224,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
                                       postures > 0 ? postures : samples, observer, cancel);
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
+  summary.events = simulation.events();
   summary.warnings = simulation.warnings();
   if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
   const Study& study = study_of(problem);
@@ -277,6 +278,7 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   // If the run ends early, the integrals would not cover the whole study.
   if (record.status.ok() && postures == 0) add_energies(shown, watched, duration, &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());
+  add_events(simulation.events(), &record.summary);
   record.summary["poses"] = poses.json(simulation.names().links);
   return record;
 }
