@@ -35,7 +35,11 @@ class EventLog {
   void add(const Entry& entry) {
     ++count_;
     if (entries_.size() < kMost) entries_.push_back(entry);
-    if (entry.is_touched && touched_.size() < kMostTouched) touched_.push_back(entry);
+    if (entry.is_touched) touch(entry);
+  }
+  /// A guard that was touched and not passed, which is no event.
+  void touch(const Entry& entry) {
+    if (touched_.size() < kMostTouched) touched_.push_back(entry);
   }
 
   const std::vector<Entry>& entries() const { return entries_; }

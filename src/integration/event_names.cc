@@ -121,6 +121,7 @@ SwitchName name_of(const System& system, const SwitchOrigin* origin) {
                 (origin->part == kBristleCut ? "friction at its limit" : "end of the dwell")};
   }
   SwitchName name = FormulaPlaces(system).find(source);
+  if (name.element.empty()) name.element = "study";
   if (const auto* formula = source.as<ResolvedFormula>())
     name.expression = text_of(formula->steps, origin->part, formula->text);
   if (const auto* of_time = source.as<Expression>())
@@ -195,14 +196,15 @@ Warnings grazing_warnings(const CompiledSystem& system, const EventLog& log) {
     first.try_emplace(describe_switch(system, entry.origin), entry.time);
   Warnings warnings;
   for (const auto& [place, time] : first)
-    warnings.push_back(warn(
-        "grazing_event", {{system.study().file, 0},
-                          place,
-                          "at t = " + readable(time) +
-                              " s the guard is only touched: its rate is zero there, so that the "
-                              "instant has no derivative, and the gradient leaves its change out",
-                          "",
-                          "a motion that passes the switch, or misses it by more"}));
+    warnings.push_back(
+        warn("grazing_event",
+             {{system.study().file, 0},
+              place,
+              "at t = " + readable(time) +
+                  " s the guard is only touched, at a rate near zero: the instant of the "
+                  "switch has no derivative there, and a gradient says nothing across it",
+              "",
+              "a motion that passes the switch, or misses it by more"}));
   return warnings;
 }
 

@@ -18,8 +18,8 @@ std::string describe_switch(const CompiledSystem& system, const SwitchOrigin* or
 /// The events of a run with the names of their elements.
 Events events_of(const CompiledSystem& system, const EventLog& log);
 
-/// A warning `grazing_event` for each switch whose guard was only touched where the motion jumps:
-/// the first time, element and guard.
+/// A warning `grazing_event` for each switch whose guard was only touched where the motion jumps,
+/// or would jump: the first time, element and guard.
 Warnings grazing_warnings(const CompiledSystem& system, const EventLog& log);
 
 }  // namespace codesign

@@ -74,10 +74,53 @@ ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) 
                  from = static_cast<double>(point - 1) / kPoints;
     if (has_left(k, at(point))) return {k, from, to};
     if (point == kPoints || at(point) > at(point - 1) || at(point) > at(point + 1)) continue;
-    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints;
-    if (has_left(k, side_at(k, place, step))) return {k, from, place};
+    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints,
+                 value = side_at(k, place, step);
+    if (has_left(k, value)) return {k, from, place};
+    look_for_touch(k, place, value, step);
   }
   return {};
+}
+
+// As deep as a crossing at kGrazing of the guard's pace: the parabola of range R over the step
+// whose rate at its zeros is kGrazing R per step.
+void ModeWatch::look_for_touch(int k, double place, double value, RosenbrockStep<double>* step) {
+  constexpr double kMoves = 1e4, kWindow = 1e-3;
+  constexpr int kMost = 4;
+  const auto row = samples_.row(k);
+  const double range = row.maxCoeff() - row.minCoeff(), deepest = kGrazing * kGrazing / 4.0 * range;
+  if (!(range > kMoves * sizes_[k]) || !(value < kWindow * range)) return;
+  // The lowest point of the dense output, by parabolas through ever nearer points.
+  double width = 0.5 / kPoints;
+  for (int n = 0; n < kMost && value > deepest; ++n, width *= 0.1) {
+    const double a = side_at(k, place - width, step), c = side_at(k, place + width, step);
+    place += width * (lowest(a, value, c) - 1.0);
+    value = side_at(k, place, step);
+  }
+  if (value > deepest || (touch_.guard >= 0 && place >= touch_.to)) return;
+  touch_ = {k, place, place};
+}
+
+// Whether the motion would jump on the other side of the guard, at which it turns round.
+bool ModeWatch::has_touched(Assembly* assembly, Equations<double>* equations,
+                            EventLog::Entry* entry) {
+  if (touch_.guard < 0) return false;
+  const int k = std::exchange(touch_.guard, -1);
+  ModeChange change;
+  change.before = change.behind = touched_;
+  change.mode = beyond(k);
+  const auto solve = [&](const std::vector<bool>& mode, State<double>* at, double* g) {
+    equations->hold(mode);
+    if (!assembly->solve_rates(equations, at).ok()) return false;
+    equations->residual(*at, &residual_, g);
+    return true;
+  };
+  const bool is_solved = solve(change.mode, &change.behind, &change.g) &&
+                         solve(mode_, &change.before, &change.g_before);
+  equations->hold(mode_);
+  *entry = {touched_.t, equations->compiled().switch_origin(mode_, to_index(k)),
+            !mode_[to_index(k)], true, true};
+  return is_solved && has_jump(change);
 }
 
 ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
@@ -183,7 +226,10 @@ bool ModeWatch::cut(RosenbrockStep<double>* step) {
   if (!is_active()) return true;
   is_due_ = false;
   step_size_ = step->step_size();
+  touch_.guard = -1;
   const Crossing crossing = first_crossing(step);
+  if (touch_.guard >= 0 && crossing.guard >= 0 && crossing.to <= touch_.to) touch_.guard = -1;
+  if (touch_.guard >= 0) step->interpolate_attempt(touch_.to, &touched_);
   if (is_undefined_before(crossing)) {
     undefined_at_ = step->equations().compiled().switch_origin(mode_, to_index(undefined_));
     return false;
@@ -208,9 +254,14 @@ std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockSte
     std::vector<bool> mode = step->equations().compiled().mode_of(point_);
     if (mode != mode_) return mode;
   }
-  // It leaves its side more slowly than that. What decides later switches is expected.
-  std::vector<bool> begun(mode_.begin(), mode_.begin() + crossing.guard);
-  begun.push_back(!mode_[to_index(crossing.guard)]);
+  // It leaves its side more slowly than that.
+  return beyond(crossing.guard);
+}
+
+// What decides later switches is expected.
+std::vector<bool> ModeWatch::beyond(int guard) const {
+  std::vector<bool> begun(mode_.begin(), mode_.begin() + guard);
+  begun.push_back(!mode_[to_index(guard)]);
   return system_.record_variant({}, EquationPart::kMotion, begun)->mode();
 }
 
@@ -309,9 +360,9 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   equations->residual(change->behind, &residual_, &change->g);
   // Where a guard is only touched, its instant has no derivative.
   change->is_jump = has_jump(*change);
-  change->is_touched = change->is_jump && change->guard >= 0 &&
-                       !(std::abs(change->guard_rate) > kTouched * guard_pace_);
-  if (!change->is_jump || change->is_touched) change->guard = -1;
+  const double rate = std::abs(change->guard_rate);
+  change->is_touched = change->is_jump && change->guard >= 0 && !(rate > kGrazing * guard_pace_);
+  if (!change->is_jump || !(rate > kTouched * guard_pace_)) change->guard = -1;
   return {};
 }
 

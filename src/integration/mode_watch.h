@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.h"
 #include "equations/equations.h"
+#include "integration/event_log.h"
 #include "integration/rosenbrock_step.h"
 #include "mechanism_codesign/status.h"
 #include "system/state.h"
@@ -27,7 +28,7 @@ struct ModeChange {
   const SwitchOrigin* origin = nullptr;
   bool becomes_true = false;  ///< whether its comparison x < y holds after the change
   bool is_jump = false;       ///< whether z or the integrand jump, at an event without a kink
-  bool is_touched = false;    ///< whether they jump where the guard is only touched
+  bool is_touched = false;    ///< whether they jump where the guard is hardly more than touched
 };
 
 /// Keeps each step within one mode of the equations: the set of outcomes of their switches, which
@@ -57,6 +58,9 @@ class ModeWatch {
   bool cut(RosenbrockStep<double>* step);
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
+  /// After a step was accepted: whether it touched a guard without passing it, behind which the
+  /// motion would jump. @param entry of the log, without an event.
+  bool has_touched(Assembly* assembly, Equations<double>* equations, EventLog::Entry* entry);
   /// kNonFinite with its place, if the last cut() failed because a guard is no number.
   Status undefined_guard(double t) const;
   /// After an instant at which inputs jumped or the design changed: the mode is looked at.
@@ -72,6 +76,9 @@ class ModeWatch {
  private:
   /// What of a guard counts as zero, relative to its largest value and to the sizes of x and y.
   static constexpr double kRounding = 1e-10, kCancelled = 1e-13;
+  /// A guard is only touched where its rate is at most this share of its range over the attempt
+  /// per second: as sharp as its sign is known within kRounding.
+  static constexpr double kGrazing = 1e-4;
   static constexpr int kPoints = 5;  ///< at which guards are evaluated after the start of a step
 
   struct Crossing {
@@ -89,6 +96,7 @@ class ModeWatch {
   Crossing first_crossing(RosenbrockStep<double>* step);
   bool is_undefined_before(const Crossing& crossing);
   Crossing crossing_of(int k, RosenbrockStep<double>* step);
+  void look_for_touch(int k, double place, double value, RosenbrockStep<double>* step);
   double locate(const Crossing& crossing, RosenbrockStep<double>* step);
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
@@ -96,6 +104,7 @@ class ModeWatch {
   int changed_switch(int guard, const std::vector<bool>& mode) const;
   Status count_return(double t);
   bool has_jump(const ModeChange& change) const;
+  std::vector<bool> beyond(int guard) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
   std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,
                                 Equations<double>* equations) const;
@@ -111,7 +120,8 @@ class ModeWatch {
   double guard_pace_ = 0.0;    ///< range of the guard over the attempt that it cut, per second
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
   VectorX<double> sizes_;      ///< of what counts as zero of each guard
-  State<double> point_;
+  Crossing touch_;             ///< the first guard that the attempt touches; guard -1: none
+  State<double> point_, touched_;
   VectorX<double> residual_, right_;
   Eigen::MatrixXd samples_;                     ///< a column of guards per point of the step
   std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion

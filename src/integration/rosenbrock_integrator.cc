@@ -267,6 +267,8 @@ Status RosenbrockIntegrator::look() {
   if (step_.tableau().is_explicit()) ++statistics_.explicit_steps;
   chooses_ = true;
   step_.track_turns();
+  if (EventLog::Entry entry; mode_watch_.has_touched(&assembly_, &step_.equations(), &entry))
+    log_.touch(entry);
   const double drift =
       run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
   singularity_.look(step_.state(), drift, &step_.equations());
