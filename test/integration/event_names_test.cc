@@ -87,7 +87,7 @@ TEST(EventNames, ControllersAndObjectives) {
 TEST(EventNames, StopsAreTouchedAndLeft) {
   const Events events = events_of_run(
       "initial_state: {slide: {position: 4.5, velocity: 1.0}}\n"
-      "limits: {position: {stiffness: 1.0e4, width: 0.001}}\n");
+      "limits: {position: true, stiffness: 1.0e4, width: 0.001}\n");
   ASSERT_EQ(events.list.size(), 2u);
   expect_event(events.list[0], 0.5, "joint \"slide\", \"touch of the upper stop\", rising, a kink");
   EXPECT_FALSE(events.list[1].rising);
