@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/event.h"
 #include "mechanism_codesign/problem.h"
 #include "mechanism_codesign/statistics.h"
 #include "mechanism_codesign/status.h"
@@ -44,6 +45,8 @@ struct Evaluation {
   Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
+  Events events;  ///< of the run, as Simulation::events(); over scenarios the list of the first one
+                  ///< and the number of all, without an order
 };
 
 /// Evaluates psi(rho) and its gradient. `solver.gradient` of the study selects direct sensitivities

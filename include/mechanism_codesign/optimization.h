@@ -30,6 +30,7 @@ struct Trial {
       0.0;  ///< at the best point so far; a point that violates the constraints less is better
   double best_violation = 0.0;  ///< largest violation of a constraint at that point, beyond its
                                 ///< tolerance; 0 if all constraints are met
+  std::int64_t events = 0;      ///< number of events in the runs at the trial point
 };
 
 /// Called after each trial point; returning false ends the search with kCancelled and the best
@@ -115,6 +116,7 @@ struct DesignPoint {
   // For a study with runs or uncertain parameters, else empty:
   Eigen::VectorXd values;   ///< psi of each scenario
   std::vector<int> failed;  ///< indices of the scenarios that could not be integrated
+  Events events;            ///< of the run there, Evaluation::events
 };
 
 /// How near the best point is to an optimum, and what holds it there.

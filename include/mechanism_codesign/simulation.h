@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanism_codesign/event.h"
 #include "mechanism_codesign/frame.h"
 #include "mechanism_codesign/problem.h"
 #include "mechanism_codesign/statistics.h"
@@ -89,6 +90,10 @@ class Simulation {
   const Statistics& statistics() const;
   /// The methods of the run so far: that of the first step, then each change of `method: auto`.
   const std::vector<MethodChange>& methods() const;
+  /// The events of the run so far, and their number, which costs nothing. The integrator `idas` and
+  /// postures have none.
+  Events events() const;
+  std::int64_t event_count() const;
   /// Warnings of the run so far, such as `constraint_drift`, `energy_error` and `singular_start`;
   /// doc/warnings.md lists the codes.
   const Warnings& warnings() const;

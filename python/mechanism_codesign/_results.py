@@ -65,6 +65,16 @@ class Run(Mapping[str, Array]):
         return list(self._record["limits_exceeded"])
 
     @property
+    def events(self) -> List[Dict[str, Any]]:
+        """Instants at which a formula switched, at most 500: time [s], element, object, expression, direction ("rising" or "falling"), kind ("jump" or "kink")."""
+        return list(self._record["events"])
+
+    @property
+    def event_count(self) -> int:
+        """Number of all events of the run."""
+        return int(self._record["event_count"])
+
+    @property
     def methods(self) -> List[Dict[str, Any]]:
         """From when on [s] which method took the steps: from, method."""
         return list(self._record["methods"])
@@ -113,11 +123,12 @@ class Trial(_Progress):
     gradient_norm: of its gradient by the scaled parameters, in the same unit.
     best_objective: psi of the best point so far, in the same unit.
     best_violation: of the constraints at the best point, in the unit of the constraint that is violated most; 0: none.
+    events: number of events in its runs: instants at which formulas switch.
     parameters: the tuned ones by name, in SI units.
     """
 
     def __init__(self, line: str, evaluation: int, iteration: int, start: int, status: Dict[str, Any], objective: float, gradient_norm: float,
-                 best_objective: float, best_violation: float, parameters: Dict[str, float]):
+                 best_objective: float, best_violation: float, events: int, parameters: Dict[str, float]):
         self.line = line
         self.evaluation = evaluation
         self.iteration = iteration
@@ -127,6 +138,7 @@ class Trial(_Progress):
         self.gradient_norm = gradient_norm
         self.best_objective = best_objective
         self.best_violation = best_violation
+        self.events = events
         self.parameters = parameters
 
 

@@ -144,15 +144,28 @@ def standalone(picture, background=False):
         "</title>", f"</title><style>{style}</style>", 1)
 
 
-def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240):
-    """@param limits values of horizontal lines. They are drawn if they lie near the curves, and never squeeze these."""
+def ticks_of(marks, x):
+    """Rows of short strokes above a horizontal axis, one row for each of the marks, at places that lie on the axis."""
+    parts = []
+    for row, (kind, label, places) in enumerate(marks):
+        bottom = HEIGHT - BOTTOM - 11 * row
+        inside = sorted({f"{x.place(place):.1f}" for place in finite(places) if x.low <= place <= x.high}, key=float)
+        if inside:
+            strokes = "".join(f"M{at} {bottom}v-8" for at in inside)
+            parts.append(f'<path class="{kind} mark" d="{strokes}"><title>{escape(label)}</title></path>')
+    return parts
+
+
+def line_chart(title, series, x_label, y_label, limits=(), log=False, most=240, marks=()):
+    """@param limits values of horizontal lines. They are drawn if they lie near the curves, and never squeeze these.
+    @param marks (kind, label, places): instants that are marked at the axis of x."""
     values = [v for s in series for v in finite(s.ys)]
     span = max(values) - min(values) if values else 1.0
     near = [v for v in limits if values and min(values) - 0.6 * span <= v <= max(values) + 0.6 * span]
     y = Axis(values + near, HEIGHT - BOTTOM, TOP, log and any(v > 0.0 for v in values))
     left = max(LEFT, 24 + y.widest())
     x = Axis([v for s in series for v in s.xs], left, WIDTH - RIGHT, margin=0.0 if all(s.style == "line" for s in series) else 0.03)
-    body = [grid(x, y, x_label, y_label)]
+    body = [grid(x, y, x_label, y_label), *ticks_of(marks, x)]
     for value in near:
         body.append(f'<path class="limit" d="M{left:.0f} {y.place(value):.1f}H{WIDTH - RIGHT}"/>')
     for s in series:

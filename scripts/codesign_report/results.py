@@ -17,6 +17,9 @@ def convergence(job):
             Series("trial points", "initial", trials, table["objective"], "dots")], "trial point", "objective", log=True)),
         ("Scaled gradient", line_chart("Norm of the scaled gradient at each trial point", [
             Series("gradient", "tuned", trials, table["gradient_norm"], "dots")], "trial point", "norm", log=True))]
+    if "events" in table and any(table["events"]):
+        charts.append(("Events per run", line_chart("Number of events in the runs of each trial point", [
+            Series("events", "tuned", trials, [int(count) for count in table["events"]], "dots")], "trial point", "events")))
     bounds = {row["name"]: (row["lower"], row["upper"]) for row in job.details.get("parameters", []) if row["tuned"]}
     series = []
     for k, (name, (lower, upper)) in enumerate(bounds.items()):

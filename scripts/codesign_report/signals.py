@@ -109,9 +109,24 @@ def curves(job, name):
     return found
 
 
+def events(job):
+    """[(side, event)] of both designs, before the search and after it."""
+    return [(side, event) for side in ("initial", "tuned") for event in job.details.get(side, {}).get("events", [])]
+
+
+def marks(job):
+    """The instants of the events of both designs, for the axis of time; those after the search stand below."""
+    found = []
+    for side, words in (("tuned", "after"), ("initial", "before")):
+        times = [event["time"] for of, event in events(job) if of == side]
+        if times:
+            found.append((side, f"events {words}", times))
+    return found
+
+
 def signal_groups(job, scale=1.0):
     """[(title, words, [(row, chart)])] without empty groups. @param scale of the number of points of each curve."""
-    used = used_signals(job.study)
+    used, instants = used_signals(job.study), marks(job)
     groups = [(title, words, []) for title, words in GROUPS]
     rows, references = signal_rows(job)[0], asked.numbers_asked(job.study)
     most = int(scale * max(24, min(240, CAPACITY // (22 * max(1, min(len(rows), MOST_CHARTS))))))
@@ -123,6 +138,6 @@ def signal_groups(job, scale=1.0):
                 wanted, count = references[row["name"]], len(series[-1].xs)
                 series.append(Series("asked", "target", list(range(count)), (wanted * count if len(wanted) == 1 else wanted)[:count], "dots"))
             chart = line_chart(f'{row["name"]} before and after', series, "posture" if job.in_postures else "time [s]",
-                               f'[{row["unit"]}]' if row["unit"] else "", row["limits"], most=most)
+                               f'[{row["unit"]}]' if row["unit"] else "", row["limits"], most=most, marks=() if job.in_postures else instants)
             groups[groups_of[row["name"]]][2].append((row, chart))
     return [group for group in groups if group[2]]

@@ -93,6 +93,7 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
   if (result.evaluation.gradient.size() > 0)
     object["gradient"] = by_name(names, result.evaluation.gradient);
   add_statistics(result.evaluation.statistics, &object);
+  add_events(result.evaluation.events, &object);
   object.update(counts);
   if (!arguments.verify || !result.status.ok()) return object;
   Json& verification = object["verification"];

@@ -32,6 +32,10 @@ void summarize(const RunSummary& run, const Problem& problem, std::ostream& err)
   err << "energy error " << readable(run.statistics.energy_error, 3)
       << " of the largest energy; constraint drift at most "
       << readable(run.statistics.constraint_drift, 3) << " times the error tolerance" << std::endl;
+  if (run.events.count > 0)
+    err << run.events.count << (run.events.count == 1 ? " event" : " events")
+        << ", the first one at t = " << readable(run.events.list[0].time)
+        << " s: " << describe(run.events.list[0]) << std::endl;
   for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
 }
 
@@ -65,6 +69,7 @@ void add_run(const Problem& problem, const RunSummary& run, const Json& counts, 
   for (const MethodChange& change : run.methods)
     methods.push_back({{"from", change.time}, {"method", change.method}});
   (*object)["methods"] = std::move(methods);
+  add_events(run.events, object);
   object->update(counts);
   (*object)["limits_exceeded"] = to_json(run.crossings);
   (*object)["series"] = std::move(series);

@@ -95,9 +95,13 @@ bool Recording::decide(int a, int b, bool expected, unsigned place, bool is_swit
     if (std::find(places_.begin(), places_.end(), place) == places_.end()) places_.push_back(place);
     bool outcome = guards_.size() < followed_.size() ? followed_[guards_.size()] : expected;
     const bool may_be_held = is_switch && records_switches_ && (node(a).varies || node(b).varies);
-    if (may_be_held && switches_ < held_.size()) outcome = held_[switches_];
+    const std::size_t switches = switch_origins_.size();
+    if (may_be_held && switches < held_.size()) outcome = held_[switches];
     if (turned_ && turned_(place)) outcome = !outcome;
-    if (may_be_held) ++switches_;
+    if (may_be_held) {
+      switch_origins_.push_back(origin_);
+      switch_origins_.back().compares_with_literal = node(b).operation == Operation::kLiteral;
+    }
     guards_.push_back({a, b, outcome, known->second, may_be_held});
   }
   return guards_[to_index(known->second)].outcome;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <typeindex>
 #include <utility>
 #include <vector>
@@ -33,6 +34,13 @@ class SourceId {
  private:
   const void* address_;
   std::type_index type_;
+};
+
+/// Where a switch was recorded: of which object, and of which part of it.
+struct SwitchOrigin {
+  std::optional<SourceId> source;  ///< empty: not known
+  int part = -1;  ///< of an expression the operation; of stops and friction laws their decision
+  bool compares_with_literal = false;  ///< y of x < y is a number, as in floor(x)
 };
 
 /// Elementary operations of a Recording.
@@ -108,6 +116,12 @@ class Recording {
   void hold(std::vector<bool> mode) { held_ = std::move(mode); }
   /// Whether switches are marked as such from now on; else they are decisions as all others.
   void record_switches(bool on) { records_switches_ = on; }
+  /// Switches that are recorded from now on are of this object; name_part() says of which part.
+  void name_switches(const std::optional<SourceId>& source) { origin_ = {source}; }
+  void name_part(int part) { origin_.part = part; }
+  /// The origins of the switches among guards(), in their order. A switch that several objects
+  /// share has the first one.
+  const std::vector<SwitchOrigin>& switch_origins() const { return switch_origins_; }
   /// Keeps a node that varies for noted(), while record_switches(true).
   void note(int node);
   const std::vector<int>& noted() const { return noted_; }
@@ -153,8 +167,9 @@ class Recording {
       decided_;  ///< index among guards_, by the nodes that are compared
   std::vector<int> decisions_;
   std::vector<bool> followed_, held_;
-  std::size_t switches_ = 0;  ///< number of switches among guards_
   bool records_switches_ = false;
+  SwitchOrigin origin_;  ///< of the next switch
+  std::vector<SwitchOrigin> switch_origins_;
   std::vector<int> noted_;
   std::function<bool(unsigned)> turned_;
   std::vector<unsigned> places_;

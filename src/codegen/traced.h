@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "codegen/recording.h"
 #include "math/scalar.h"
@@ -70,6 +71,25 @@ Traced whole_below(const Traced& x);
 /// As in math/scalar.h: Recording::note().
 inline void note_expression(const Traced& x) {
   if (!x.is_literal()) x.recording()->note(x.node());
+}
+/// As in math/scalar.h: Recording::name_switches().
+template <>
+struct NamedSwitches<Traced> {
+  template <class Source>
+  NamedSwitches(const Traced& x, const Source& source) : recording_(x.recording()) {
+    if (recording_) recording_->name_switches(SourceId(source));
+  }
+  ~NamedSwitches() {
+    if (recording_) recording_->name_switches(std::nullopt);
+  }
+  NamedSwitches(const NamedSwitches&) = delete;
+  NamedSwitches& operator=(const NamedSwitches&) = delete;
+
+ private:
+  Recording* const recording_;
+};
+inline void name_part(const Traced& x, int part) {
+  if (!x.is_literal()) x.recording()->name_part(part);
 }
 /// As nearest_turns() in math/scalar.h, also for a reference that varies.
 inline Traced nearest_turns(const Traced& reference, const Traced& angle) {

@@ -341,6 +341,9 @@ void Reference<Traced>::set(const ReferenceDescription& description,
 }
 
 ReferenceMotion<Traced> Reference<Traced>::recorded() const {
+  const auto time = std::find_if(variables_.begin(), variables_.end(),
+                                 [](const auto& variable) { return !variable.c[0].is_literal(); });
+  const NamedSwitches<Traced> named(time->c[0], *switching_);
   const Taylor<Traced> f = evaluate_formula<Taylor<Traced>>(switching_->steps(), variables_);
   return {f.c[0], f.c[1], 2.0 * f.c[2], 6.0 * f.c[3]};
 }

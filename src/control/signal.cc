@@ -95,7 +95,7 @@ std::shared_ptr<const ResolvedFormula> resolve_formula(const SignalDescription& 
   std::vector<std::string> names;
   names.reserve(parameters.size() + 1);
   for (const Parameter& parameter : parameters) names.push_back(parameter.name);
-  ResolvedFormula formula{signal.formula->steps, {}};
+  ResolvedFormula formula{signal.formula->steps, {}, signal.formula->text};
   int terms = 0;
   for (const std::string& name : signal.formula->names) {
     ResolvedFormula::Variable& variable = formula.variables.emplace_back();

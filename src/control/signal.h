@@ -36,6 +36,7 @@ struct ResolvedFormula {
   };
   ExpressionSteps steps;
   std::vector<Variable> variables;
+  std::string text;  ///< of the steps, as the user wrote it
 };
 
 /// A sum of resolved terms, or an expression of them.

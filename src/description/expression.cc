@@ -74,6 +74,12 @@ int find_expression_function(const std::string& name) {
   return -1;
 }
 
+std::string text_of(const ExpressionSteps& steps, int step, const std::string& text) {
+  if (step < 0 || to_index(step) >= steps.size()) return text;
+  const ExpressionStep& of = steps[to_index(step)];
+  return of.end > of.begin ? text.substr(to_index(of.begin), to_index(of.end - of.begin)) : text;
+}
+
 // The two branches of `?:` are counted as if both were executed, which gives one number more than
 // is needed.
 int stack_size(const ExpressionSteps& steps) {

@@ -81,9 +81,15 @@ struct ExpressionStep {
   int index = 0;
   int count = 0;
   double number = 0.0;
+  /// Of a comparison or call: its bytes `begin` to `end` - 1 in the text of the expression.
+  int begin = 0, end = 0;
 };
 
 using ExpressionSteps = std::vector<ExpressionStep>;
+
+/// The part of an expression's text that an operation, a comparison or a call, stands for; the
+/// whole text for all others.
+std::string text_of(const ExpressionSteps& steps, int step, const std::string& text);
 
 /// An upper bound of the numbers on the stack at any time.
 int stack_size(const ExpressionSteps& steps);

@@ -31,6 +31,7 @@ void ExpressionScanner::fail(const std::string& what, std::size_t at) const {
 }
 
 void ExpressionScanner::next() {
+  behind_last_ = at_;
   while (is_space(peek())) ++at_;
   token_ = {ExpressionToken::Kind::kEnd, "", 0.0, at_};
   if (at_ >= text_.size()) return;

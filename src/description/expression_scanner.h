@@ -52,7 +52,7 @@ class ExpressionScanner {
 
   const std::string& text_;
   const ExpressionScope& scope_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, behind_last_ = 0;
   ExpressionToken token_;
 };
 

@@ -149,7 +149,7 @@ class Parser {
     number(&Parser::sum);
     if (kCodes.count(scanner_.token().text) > 0)
       scanner_.fail("a comparison stands where a number is needed", scanner_.token().at);
-    operate({found->second, 0, 2, 0.0});
+    operate({found->second, 0, 2, 0.0}, begin);
     return Type::kTruth;
   }
 
@@ -249,7 +249,7 @@ class Parser {
                         (wanted < 0 ? "at least 1" : std::to_string(wanted)) + " argument" +
                         (wanted == 2 ? "s" : "") + ", not " + std::to_string(count),
                     token.at);
-    operate({Code::kCall, function, count, 0.0});
+    operate({Code::kCall, function, count, 0.0}, token.at);
   }
 
   void number(Type (Parser::*rule)()) {
@@ -308,6 +308,13 @@ class Parser {
   int branch_end() {
     folded_ = steps_.size();
     return static_cast<int>(folded_);
+  }
+
+  /// Adds an operation whose text begins at a byte and ends with the last token.
+  void operate(ExpressionStep operation, std::size_t begin) {
+    operation.begin = static_cast<int>(begin);
+    operation.end = static_cast<int>(scanner_.behind_last());
+    operate(operation);
   }
 
   /// Adds an operation of `count` operands. Of constants it is a constant: 1 + 1 in x**(1 + 1).

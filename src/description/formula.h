@@ -143,6 +143,7 @@ T evaluate_steps(const ExpressionSteps& steps, std::size_t first, std::size_t la
         break;
       case Code::kCall: {
         top -= step.count;
+        for (int k = 0; k < step.count; ++k) name_part(top[k], static_cast<int>(at));
         const T value = formula_function(expression_function_table()[to_index(step.index)].kind,
                                          top, step.count);
         *top++ = value;
@@ -169,6 +170,8 @@ T evaluate_steps(const ExpressionSteps& steps, std::size_t first, std::size_t la
         break;
       default: {
         --top;
+        name_part(top[-1], static_cast<int>(at));
+        name_part(*top, static_cast<int>(at));
         top[-1] = formula_operation(step.code, top[-1], *top);
       }
     }

@@ -186,9 +186,10 @@ SignalDescription parse_formula(const std::string& text, const SourceLocation& w
     return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const std::string inside = trimmed(text);
-  formula.steps = parse_expression(inside.substr(2, inside.size() - 3),
-                                   {find, [&names] { return names; }, signal_end, is_condition})
-                      .steps;
+  formula.text = inside.substr(2, inside.size() - 3);
+  formula.steps =
+      parse_expression(formula.text, {find, [&names] { return names; }, signal_end, is_condition})
+          .steps;
   for (const std::string& name : names)
     if (name.find('/') != std::string::npos) signal.terms.push_back(term_of(name));
   signal.formula = std::make_shared<const SignalFormula>(std::move(formula));

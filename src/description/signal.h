@@ -27,6 +27,7 @@ struct SignalFormula {
   ExpressionSteps steps;
   std::vector<std::string> names;  ///< of the variables of the steps: signals, of which the k-th is
                                    ///< SignalDescription::terms[k], and names without a slash
+  std::string text;                ///< what stands inside ${...}
 };
 
 /// A sum or difference of named signals, or an expression of signals; see doc/study.md.

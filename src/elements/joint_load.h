@@ -96,6 +96,9 @@ T passive_load(const StateView<T>& view, int pair, int element, const JointLoad&
   return value;
 }
 
+/// The decisions of stops, as parts for name_part().
+constexpr int kUpperStop = 0, kLowerStop = 1;
+
 /// L of both stops of a coordinate [N or N m], theory (13d): positive beyond the upper limit,
 /// negative beyond the lower one.
 /// @param rate of the coordinate. @param dissipation c of (13d) [s/m or s/rad]; 0 leaves the
@@ -106,7 +109,10 @@ T stop_load(const StateView<T>& view, const JointLoad& load, const T& rate, doub
   const LimitOptions& stop = view.system.study().limits;
   const T position = view.coordinate_value(load.pair, load.element), below = d.lower - position,
           above = position - d.upper;
+  const NamedSwitches<T> named(position, load);
+  name_part(position, kUpperStop);
   const T at_upper = joint_stop(above, rate, stop.stiffness, dissipation, stop.width);
+  name_part(position, kLowerStop);
   return at_upper - joint_stop(below, T(-rate), stop.stiffness, dissipation, stop.width);
 }
 

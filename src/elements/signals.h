@@ -184,6 +184,7 @@ Number formula_of(const StateView<T>& view, const Signal& signal, const OfValueA
     else
       variables.push_back(number(view.design.clock.at(view.state->t).value, [] { return T(1.0); }));
   }
+  const NamedSwitches<T> named(view.state->q[0], *signal.formula);
   return evaluate_formula<Number>(signal.formula->steps, variables);
 }
 

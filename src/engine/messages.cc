@@ -81,6 +81,37 @@ Eigen::MatrixXd get_matrix(ByteReader* reader) {
   return values.reshaped(rows, values.size() / rows);
 }
 
+void add(const Events& events, ByteWriter* writer) {
+  const auto& [list, count, order] = events;
+  writer->add(size_of(list.size()));
+  for (const auto& [time, element, object, expression, rising, jump] : list) {
+    writer->add(time);
+    for (const std::string* text : {&element, &object, &expression}) writer->add_text(*text);
+    writer->add(rising);
+    writer->add(jump);
+  }
+  writer->add(count);
+  writer->add_text(order);
+}
+
+Event get_event(ByteReader* reader) {
+  Event event;
+  event.time = reader->get<double>();
+  for (std::string* text : {&event.element, &event.object, &event.expression})
+    *text = reader->get_text();
+  event.rising = reader->get<bool>();
+  event.jump = reader->get<bool>();
+  return event;
+}
+
+Events get_events(ByteReader* reader) {
+  Events events;
+  events.list = get_list(reader, get_event);
+  events.count = reader->get<std::int64_t>();
+  events.order = reader->get_text();
+  return events;
+}
+
 Warning get_warning(ByteReader* reader) {
   std::string code = reader->get_text(), message = reader->get_text();
   return {std::move(code), std::move(message), get_location(reader)};
@@ -168,7 +199,7 @@ TaskMessage read_task(std::uint64_t number, ByteReader* reader) {
 std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
   // All members by name, so that a new member of Evaluation does not compile before it is written
   // here and read in read_result().
-  const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings] =
+  const auto& [status, objective, gradient, jacobian_root, extremes, statistics, warnings, events] =
       evaluation;
   const auto& [code, time, cause] = status;
   const auto& [values, times, gradients] = extremes;
@@ -192,6 +223,7 @@ std::string write_result(std::uint64_t number, const Evaluation& evaluation) {
     writer.add_text(warning.message);
     add(warning.where, &writer);
   }
+  add(events, &writer);
   return writer.take();
 }
 
@@ -214,6 +246,7 @@ Evaluation read_result(ByteReader* reader) {
        {&statistics.cpu_seconds, &statistics.constraint_drift, &statistics.energy_error})
     *value = reader->get<double>();
   evaluation.warnings = get_list(reader, get_warning);
+  evaluation.events = get_events(reader);
   return evaluation;
 }
 

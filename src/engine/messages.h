@@ -18,7 +18,7 @@ namespace codesign {
 // fields listed there; numbers keep their bits.
 
 /// Version of the layout of all messages except kHello; a change of any layout needs a new number.
-constexpr std::uint32_t kMessageFormat = 3;
+constexpr std::uint32_t kMessageFormat = 4;
 
 enum class MessageKind : std::uint8_t {
   // To rank 0.

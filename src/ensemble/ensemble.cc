@@ -99,7 +99,9 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
   for (const Evaluation& member : members) {
     result.total.statistics += member.statistics;
     add_new_codes(member.warnings, &result.total.warnings);
+    result.total.events.count += member.events.count;
   }
+  result.total.events.list = std::move(members.front().events.list);
   add_new_codes(engine_->warnings(), &result.total.warnings);
   if (!collect(members, with_gradient, &result)) return result;
   for (Evaluation& member : members)

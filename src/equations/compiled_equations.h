@@ -21,6 +21,7 @@ class CodeInputs;
 struct MassFactor;
 struct CompiledFunction;
 struct NumberedRecording;
+struct SwitchOrigin;
 
 /// The recorded equations of one design (EquationCode): machine code where it can be made, else a
 /// loop over the recorded operations. The results equal those of Formulas within rounding. T:
@@ -58,6 +59,9 @@ class CompiledEquations {
   /// The differences y - x of which the switches are the signs, and the numbers y; resized to their
   /// number in the mode.
   void switches(const State<T>& state, VectorX<T>* differences, VectorX<T>* right);
+  /// Where the k-th switch of a mode was recorded, kept as long as the system; null if no variant
+  /// of the mode has been used.
+  const SwitchOrigin* switch_origin(const std::vector<bool>& mode, std::size_t k) const;
   /// The values of the study's expressions of signals in the residual, then the integrand g; for
   /// double. @param values resized.
   void expressions(const State<T>& state, VectorX<T>* values);

@@ -28,6 +28,16 @@ void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differenc
 }
 
 template <class T>
+const SwitchOrigin* CompiledEquations<T>::switch_origin(const std::vector<bool>& mode,
+                                                        std::size_t k) const {
+  for (const CodeInputs<T>& variant : variants_) {
+    const EquationCode& code = variant.code();
+    if (code.mode() == mode && k < mode.size()) return &code.switch_origins()[k];
+  }
+  return nullptr;
+}
+
+template <class T>
 void CompiledEquations<T>::constraint_errors(const State<T>& state, VectorX<T>* Phi,
                                              VectorX<T>* Phi_rate) {
   Phi->resize(system_.layout().m);
@@ -120,6 +130,8 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
 #define CODESIGN_INSTANTIATE(T)                                                                   \
   template const std::vector<bool>& CompiledEquations<T>::mode_of(const State<T>&);               \
   template void CompiledEquations<T>::switches(const State<T>&, VectorX<T>*, VectorX<T>*);        \
+  template const SwitchOrigin* CompiledEquations<T>::switch_origin(const std::vector<bool>&,      \
+                                                                   std::size_t) const;            \
   template void CompiledEquations<T>::constraint_errors(const State<T>&, VectorX<T>*,             \
                                                         VectorX<T>*);                             \
   template void CompiledEquations<T>::energies(const State<T>&, VectorX<T>*, VectorX<T>*);        \

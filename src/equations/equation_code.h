@@ -136,6 +136,10 @@ class EquationCode {
   const std::vector<bool>& mode() const { return mode_; }
   /// Whether the condition of Study::until holds in this mode.
   bool ends_run() const { return ends_run_; }
+  /// Where each of these switches was recorded.
+  const std::vector<SwitchOrigin>& switch_origins() const {
+    return values_.recording.switch_origins();
+  }
 
  private:
   RecordedFunction& at(EquationFunction function) { return functions_[to_index(function)]; }

@@ -23,11 +23,16 @@ T direction_per_speed(const T& square, const T& v_e) {
   return T(1.0) / sqrt(square);
 }
 
+/// The decisions of bristles, as parts for name_part(): where the friction is cut off, and where
+/// the dwell state turns from growing to falling.
+constexpr int kBristleCut = 0, kBristleDwell = 1;
+
 /// x if |x| <= limit, else limit x/|x|; doc/theory.md (13e).
 template <class T>
 Vector3<T> cut_off(const Vector3<T>& x, const T& limit) {
   using std::sqrt;
   const T square = dot(x, x);
+  name_part(square, kBristleCut);
   if (!is_below(T(limit * limit), square, false)) return x;
   return limit * ((T(1.0) / sqrt(square)) * x);
 }
@@ -58,6 +63,7 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state,
   b.rate = (c.bristle_stiffness * s) * u + (left * bristle_rate) * (sliding - state.zeta);
   b.mu = cut_off<T>(s * resting + left * sliding,
                     T(c.mu_dynamic + (c.mu_static - c.mu_dynamic) * state.dwell));
+  name_part(state.dwell, kBristleDwell);
   const T pace = is_below(s, state.dwell, true) ? bristle_rate : T(T(1.0) / c.dwell_time);
   b.dwell_rate = pace * (s - state.dwell);
   return b;
@@ -105,6 +111,7 @@ struct BristleContact {
 template <class T>
 Bristle<T> bristle_law(const BristleContact& contact, const Vector3<T>& u, const VectorX<T>& s,
                        const FrictionConstants<T>& c) {
+  const NamedSwitches<T> named(s[contact.first], contact);
   BristleState<T> state;
   for (int k = 0; k < contact.size; ++k) state.zeta[k] = s[contact.first + k];
   if (contact.dwells()) state.dwell = s[contact.dwell_state()];

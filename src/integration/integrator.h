@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "equations/compiled_system.h"
+#include "integration/event_log.h"
 #include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/status.h"
 #include "text/cancel.h"
@@ -66,6 +67,8 @@ class Integrator {
   virtual const Statistics& statistics() const = 0;
   /// As Simulation::methods().
   const std::vector<MethodChange>& methods() const { return methods_; }
+  /// The events of the run since start(); none by `idas` and in postures.
+  const EventLog& events() const { return log_; }
   /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;
 
@@ -87,6 +90,8 @@ class Integrator {
   Warnings end_warnings(const MotionStudy& study) const;
   void begin_methods(const char* method) { methods_.assign(1, {0.0, method}); }
   void change_method(double time, const char* method) { methods_.push_back({time, method}); }
+
+  EventLog log_;  ///< of the run
 
  private:
   std::vector<MethodChange> methods_;

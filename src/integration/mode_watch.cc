@@ -4,31 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "equations/equation_code.h"
+#include "integration/event_names.h"
 #include "integration/step_control.h"
 #include "math/arrays.h"
 
 namespace codesign {
 namespace {
 
-/// How far beyond the end of a step, in parts of it, its dense output is used.
-constexpr double kBeyond = 1e-3;
-
 /// The place of the lowest point of the parabola through (0, a), (1, b), (2, c), if it is between
 /// them.
 double lowest(double a, double b, double c) {
   const double curvature = a - 2.0 * b + c;
   return curvature > 0.0 ? std::clamp(1.0 + 0.5 * (a - c) / curvature, 0.0, 2.0) : 1.0;
-}
-
-void move(const State<double>& from, const State<double>& rates, double h, State<double>* to) {
-  *to = from;
-  to->q += h * rates.q;
-  to->v += h * rates.v;
-  to->s += h * rates.s;
-  to->z += h * rates.z;
-  to->t += h;
 }
 
 }  // namespace
@@ -76,10 +66,53 @@ ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) 
                  from = static_cast<double>(point - 1) / kPoints;
     if (has_left(k, at(point))) return {k, from, to};
     if (point == kPoints || at(point) > at(point - 1) || at(point) > at(point + 1)) continue;
-    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints;
-    if (has_left(k, side_at(k, place, step))) return {k, from, place};
+    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints,
+                 value = side_at(k, place, step);
+    if (has_left(k, value)) return {k, from, place};
+    look_for_touch(k, place, value, step);
   }
   return {};
+}
+
+// As deep as a crossing at kGrazing of the guard's pace: the parabola of range R over the step
+// whose rate at its zeros is kGrazing R per step.
+void ModeWatch::look_for_touch(int k, double place, double value, RosenbrockStep<double>* step) {
+  constexpr double kMoves = 1e4, kWindow = 1e-3;
+  constexpr int kMost = 4;
+  const auto row = samples_.row(k);
+  const double range = row.maxCoeff() - row.minCoeff(), deepest = kGrazing * kGrazing / 4.0 * range;
+  if (!(range > kMoves * sizes_[k]) || !(value < kWindow * range)) return;
+  // The lowest point of the dense output, by parabolas through ever nearer points.
+  double width = 0.5 / kPoints;
+  for (int n = 0; n < kMost && value > deepest; ++n, width *= 0.1) {
+    const double a = side_at(k, place - width, step), c = side_at(k, place + width, step);
+    place += width * (lowest(a, value, c) - 1.0);
+    value = side_at(k, place, step);
+  }
+  if (value > deepest || (touch_.guard >= 0 && place >= touch_.to)) return;
+  touch_ = {k, place, place};
+}
+
+// Whether the motion would jump on the other side of the guard, at which it turns round.
+bool ModeWatch::has_touched(Assembly* assembly, Equations<double>* equations,
+                            EventLog::Entry* entry) {
+  if (touch_.guard < 0) return false;
+  const int k = std::exchange(touch_.guard, -1);
+  ModeChange change;
+  change.before = change.behind = touched_;
+  change.mode = beyond(k);
+  const auto solve = [&](const std::vector<bool>& mode, State<double>* at, double* g) {
+    equations->hold(mode);
+    if (!assembly->solve_rates(equations, at).ok()) return false;
+    equations->residual(*at, &residual_, g);
+    return true;
+  };
+  const bool is_solved = solve(change.mode, &change.behind, &change.g) &&
+                         solve(mode_, &change.before, &change.g_before);
+  equations->hold(mode_);
+  *entry = {touched_.t, equations->compiled().switch_origin(mode_, to_index(k)),
+            !mode_[to_index(k)], true, true};
+  return is_solved && has_jump(change);
 }
 
 ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
@@ -93,6 +126,7 @@ ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
     step->equations().compiled().switches(point_, &residual_, &right_);
     samples_.col(point) = residual_;
     if (sizes_.size() != count) sizes_.setZero(count);
+    if (residual_.hasNaN()) continue;
     sizes_ = sizes_.cwiseMax(kRounding * residual_.cwiseAbs())
                  .cwiseMax(kCancelled * (right_.cwiseAbs() + (right_ - residual_).cwiseAbs()));
   }
@@ -109,8 +143,8 @@ ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
   return first;
 }
 
-// An end on a guard, as where a switching time is also an instant at which a controller samples: the
-// guard is crossed before inputs jump.
+// An end on a guard, as where a switching time is also an instant at which a controller samples:
+// the guard is crossed before inputs jump.
 ModeWatch::Crossing ModeWatch::crossing_at_end(RosenbrockStep<double>* step) {
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
     const double end = side(k, samples_.col(kPoints)), before = side(k, samples_.col(kPoints - 1));
@@ -174,12 +208,36 @@ bool ModeWatch::repeat(int guard, double h, RosenbrockStep<double>* step) {
   return true;
 }
 
+// A comparison with NaN counts as equal, so that a guard without a value would never be passed.
+Status ModeWatch::undefined_guard(double t) const {
+  if (undefined_ < 0) return {};
+  return {StatusCode::kNonFinite, t,
+          "the guard of " + describe_switch(system_, undefined_at_) +
+              " is not a number there, so that it cannot be decided"};
+}
+
+// Behind the crossing another mode holds, which may not ask for that guard: sqrt(x) where x < 0.
+bool ModeWatch::is_undefined_before(const Crossing& crossing) {
+  const double end = crossing.guard < 0 ? 1.0 : crossing.to;
+  for (int point = 0; point <= kPoints && static_cast<double>(point) / kPoints <= end; ++point)
+    for (Eigen::Index k = 0; k < samples_.rows(); ++k)
+      if (std::isnan(samples_(k, point))) undefined_ = static_cast<int>(k);
+  return undefined_ >= 0;
+}
+
 bool ModeWatch::cut(RosenbrockStep<double>* step) {
-  guard_ = -1;
+  guard_ = undefined_ = -1;
   if (!is_active()) return true;
   is_due_ = false;
   step_size_ = step->step_size();
+  touch_.guard = -1;
   Crossing crossing = first_crossing(step);
+  if (touch_.guard >= 0 && crossing.guard >= 0 && crossing.to <= touch_.to) touch_.guard = -1;
+  if (touch_.guard >= 0) step->interpolate_attempt(touch_.to, &touched_);
+  if (is_undefined_before(crossing)) {
+    undefined_at_ = step->equations().compiled().switch_origin(mode_, to_index(undefined_));
+    return false;
+  }
   if (crossing.guard < 0) crossing = crossing_at_end(step);
   if (crossing.guard < 0) return true;
   const double least = smallest_step(step->state().t, system_.study().duration);
@@ -189,154 +247,8 @@ bool ModeWatch::cut(RosenbrockStep<double>* step) {
   next_mode_ = mode_of_one(crossing, mode_beyond(crossing, step), step);
   const auto row = samples_.row(crossing.guard);
   guard_pace_ = (row.maxCoeff() - row.minCoeff()) / step_size_;
-  return crossing.from >= 1.0 || repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
-}
-
-// As near behind the crossing as its guard has another sign: the mode that the motion enters. The
-// dense output goes on a little beyond the end of the step.
-std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
-  constexpr double kNearest = 1e-9, kFarther = 10.0;
-  for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
-    const double place = std::min(1.0 + kBeyond, crossing.to + distance);
-    if (side_at(crossing.guard, place, step) >= 0.0) continue;
-    std::vector<bool> mode = step->equations().compiled().mode_of(point_);
-    if (mode != mode_) return mode;
-  }
-  // It leaves its side more slowly than that. What decides later switches is expected.
-  std::vector<bool> begun(mode_.begin(), mode_.begin() + crossing.guard);
-  begun.push_back(!mode_[to_index(crossing.guard)]);
-  return system_.record_variant({}, EquationPart::kMotion, begun)->mode();
-}
-
-// Guards that are zero at the same instant are crossed one after the other, since each has an
-// instant of its own in other designs: two switching times that are equal. @param mode with all of
-// them beyond. The mode in which only the first one is must have been right for all others before.
-std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, std::vector<bool> mode,
-                                         RosenbrockStep<double>* step) {
-  constexpr double kBefore = 1e-6;
-  std::vector<bool> one = mode_;
-  one[to_index(crossing.guard)] = !one[to_index(crossing.guard)];
-  if (mode.size() != one.size() || mode == one ||
-      system_.record_variant({}, EquationPart::kMotion, one)->mode() != one)
-    return mode;
-  Equations<double>& equations = step->equations();
-  step->interpolate_attempt(std::max(0.0, crossing.to - kBefore), &point_);
-  equations.hold(one);
-  equations.compiled().switches(point_, &residual_, &right_);
-  equations.hold(mode_);
-  for (int k = 0; k < static_cast<int>(one.size()); ++k)
-    if (k != crossing.guard && has_left(k, side(k, residual_))) return mode;
-  return one;
-}
-
-double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {
-  const auto seed = [](const VectorX<double>& value, const VectorX<double>& rate,
-                       VectorX<Lanes<4>>* x) {
-    *x = value.cast<Lanes<4>>();
-    for (Eigen::Index i = 0; i < value.size(); ++i) (*x)[i].directions()[0] = rate[i];
-  };
-  moving_.resize(system_.layout());
-  moving_.t = at.t;
-  moving_.turns = at.turns;
-  seed(at.q, rates.q, &moving_.q);
-  seed(at.v, rates.v, &moving_.v);
-  seed(at.s, rates.s, &moving_.s);
-  seed(at.z, rates.z, &moving_.z);
-  VectorX<Lanes<4>> guards, right;
-  along_->compiled().switches(moving_, &guards, &right);
-  return guards[k].directions()[0];
-}
-
-// A little further along the motion, where the guards that are zero here have signs.
-std::vector<bool> ModeWatch::mode_behind(const State<double>& at, const State<double>& rates,
-                                         Equations<double>* equations) const {
-  const double least = smallest_step(at.t, system_.study().duration);
-  State<double> further;
-  move(at, rates, std::max(16.0 * least, 1e-9 * step_size_), &further);
-  return equations->compiled().mode_of(further);
-}
-
-// Both modes drive the motion to the guard: no step can leave it.
-Status ModeWatch::count_return(double t) {
-  constexpr int kEnough = 6;
-  constexpr double kAtOnce = 1e-7;  // of the duration
-  returns_ = t - last_change_ < kAtOnce * system_.study().duration ? returns_ + 1 : 0;
-  last_change_ = t;
-  if (returns_ < kEnough + 2 * static_cast<int>(mode_.size())) return {};
-  return {StatusCode::kSwitchHolds, t,
-          "the motion is held at a switch of an expression, whose both sides lead back to it; take "
-          "a friction law such as coulomb or gonthier in place of sign() of a velocity, or make "
-          "the expression continuous"};
-}
-
-// At a kink the rates are continuous, and no sensitivity jumps. Where a guard is only touched, its
-// instant has no derivative.
-bool ModeWatch::has_jump(const ModeChange& change) const {
-  constexpr double kSame = 1e-10;
-  const double size = std::max(change.before.z.lpNorm<Eigen::Infinity>(),
-                               change.behind.z.lpNorm<Eigen::Infinity>()),
-               jump = (change.before.z - change.behind.z).lpNorm<Eigen::Infinity>(),
-               of_g = std::abs(change.g_before - change.g);
-  if (jump <= kSame * size &&
-      of_g <= kSame * std::max(std::abs(change.g_before), std::abs(change.g)))
-    return false;
-  return !is_touched(change.guard_rate);
-}
-
-// The guard that the change of the rates itself has moved beyond zero, such as one of an
-// acceleration; -1 if there is none.
-int ModeWatch::jumped_guard(const ModeChange& change, Equations<double>* equations) {
-  constexpr double kSame = 1e-9;
-  equations->compiled().switches(change.before, &residual_, &right_);
-  equations->compiled().switches(change.behind, &ahead_, &right_);
-  for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
-    const double size = std::max(std::abs(residual_[k]), std::abs(ahead_[k]));
-    if (side(k, ahead_) < 0.0 && std::abs(ahead_[k] - residual_[k]) > kSame * size) return k;
-  }
-  return -1;
-}
-
-// Guards that jump with the rates belong to the same change and the same instant.
-Status ModeWatch::enter(Assembly* assembly, Equations<double>* equations, ModeChange* change) {
-  for (std::size_t turn = 0;; ++turn) {
-    mode_ = change->mode;
-    equations->hold(mode_);
-    change->behind = change->before;
-    if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
-      return status;
-    const int jumped = turn < mode_.size() ? jumped_guard(*change, equations) : -1;
-    if (jumped < 0) return {};
-    std::vector<bool> begun(mode_.begin(), mode_.begin() + jumped);
-    begun.push_back(!mode_[to_index(jumped)]);
-    begun.insert(begun.end(), mode_.begin() + jumped + 1, mode_.end());
-    change->mode = system_.record_variant({}, EquationPart::kMotion, begun)->mode();
-  }
-}
-
-Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
-                        Equations<double>* equations, ModeChange* change) {
-  is_due_ = false;
-  if (Status status = count_return(state.t); !status.ok()) return status;
-  *change = {};
-  change->guard = std::exchange(guard_, -1);
-  change->end = change->before = state;
-  if (Status status = assembly->solve_rates(equations, &change->before); !status.ok())
-    return status;
-  State<double>& before = change->before;
-  State<double> rates;
-  rates.resize(system_.layout());
-  rates.q = before.v;
-  rates.v = before.z.head(system_.layout().n);
-  rates.s = before.z.tail(system_.layout().states);
-  assembly->differentiate_rates(before, equations, &rates);
-  equations->residual(before, &residual_, &change->g_before);
-  along_->hold(mode_);
-  if (change->guard >= 0) change->guard_rate = guard_rate(change->guard, before, rates);
-  change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
-  if (Status status = enter(assembly, equations, change); !status.ok()) return status;
-  equations->residual(change->behind, &residual_, &change->g);
-  if (!has_jump(*change)) change->guard = -1;
-  return {};
+  return crossing.from >= 1.0 ||
+         repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
 }
 
 }  // namespace codesign

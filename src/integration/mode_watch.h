@@ -7,6 +7,7 @@
 
 #include "assembly/assembly.h"
 #include "equations/equations.h"
+#include "integration/event_log.h"
 #include "integration/rosenbrock_step.h"
 #include "mechanism_codesign/status.h"
 #include "system/state.h"
@@ -24,6 +25,11 @@ struct ModeChange {
   State<double> end;               ///< of the step, with its own z
   State<double> before, behind;    ///< the same q, v and s with the rates z of both modes
   double g_before = 0.0, g = 0.0;  ///< integrands of the objective
+  /// Of the switch that changed; null at the start of a run, and if no switch did.
+  const SwitchOrigin* origin = nullptr;
+  bool becomes_true = false;  ///< whether its comparison x < y holds after the change
+  bool is_jump = false;       ///< whether z or the integrand jump, at an event without a kink
+  bool is_touched = false;    ///< whether they jump where the guard is hardly more than touched
 };
 
 /// Keeps each step within one mode of the equations: the set of outcomes of their switches, which
@@ -64,6 +70,11 @@ class ModeWatch {
   }
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
+  /// After a step was accepted: whether it touched a guard without passing it, behind which the
+  /// motion would jump. @param entry of the log, without an event.
+  bool has_touched(Assembly* assembly, Equations<double>* equations, EventLog::Entry* entry);
+  /// kNonFinite with its place, if the last cut() failed because a guard is no number.
+  Status undefined_guard(double t) const;
   /// After an instant at which inputs jumped or the design changed: the mode is looked at.
   void look_again() { is_due_ = is_active(); }
 
@@ -77,7 +88,12 @@ class ModeWatch {
  private:
   /// What of a guard counts as zero, relative to its largest value and to the sizes of x and y.
   static constexpr double kRounding = 1e-10, kCancelled = 1e-13;
+  /// How far beyond the end of a step, in parts of it, its dense output is used.
+  static constexpr double kBeyond = 1e-3;
   static constexpr double kTouched = 1e-6;  ///< share of its pace below which a guard is touched
+  /// A guard is only touched where its rate is at most this share of its range over the attempt
+  /// per second: as sharp as its sign is known within kRounding.
+  static constexpr double kGrazing = 1e-4;
   static constexpr int kPoints = 5;  ///< at which guards are evaluated after the start of a step
 
   struct Crossing {
@@ -93,14 +109,19 @@ class ModeWatch {
   /// which may stay at zero: a bristle at rest.
   bool has_left(int k, double value) const { return value < -sizes_[k]; }
   Crossing first_crossing(RosenbrockStep<double>* step);
+  bool is_undefined_before(const Crossing& crossing);
   Crossing crossing_of(int k, RosenbrockStep<double>* step);
   Crossing crossing_at_end(RosenbrockStep<double>* step);
   double locate(const Crossing& crossing, RosenbrockStep<double>* step);
   bool repeat(int guard, double h, RosenbrockStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   bool is_touched(double rate) const { return !(std::abs(rate) > kTouched * guard_pace_); }
+  void look_for_touch(int k, double place, double value, RosenbrockStep<double>* step);
+  /// The switch that the change of the mode concerns, of the mode before it; -1: none.
+  int changed_switch(int guard, const std::vector<bool>& mode) const;
   Status count_return(double t);
   bool has_jump(const ModeChange& change) const;
+  std::vector<bool> beyond(int guard) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
   std::vector<bool> mode_of_one(const Crossing& crossing, std::vector<bool> mode,
                                 RosenbrockStep<double>* step);
@@ -112,13 +133,16 @@ class ModeWatch {
   const CompiledSystem& system_;
   std::vector<bool> mode_, next_mode_;
   bool is_due_ = false;
-  int guard_ = -1;             ///< that cut the last step
+  int guard_ = -1;      ///< that cut the last step
+  int undefined_ = -1;  ///< a guard that is NaN in the last attempt
+  const SwitchOrigin *held_at_ = nullptr, *undefined_at_ = nullptr;
   int returns_ = 0;            ///< changes in turn without a step between them
   double last_change_ = -1.0;  ///< [s]
   double guard_pace_ = 0.0;    ///< range of the guard over the attempt that it cut, per second
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
   VectorX<double> sizes_;      ///< of what counts as zero of each guard
-  State<double> point_;
+  Crossing touch_;             ///< the first guard that the attempt touches; guard -1: none
+  State<double> point_, touched_;
   VectorX<double> residual_, right_, ahead_;
   Eigen::MatrixXd samples_;                     ///< a column of guards per point of the step
   std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion

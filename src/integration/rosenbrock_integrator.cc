@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integration/event_names.h"
 #include "integration/run_ends.h"
 
 namespace codesign {
@@ -72,6 +73,7 @@ Status RosenbrockIntegrator::begin(const std::vector<double>& parameters) {
   step_.use(choice_.start());
   stability_.start();
   begin_methods(step_.tableau().name);
+  log_.start(system_.has_switches());
   chooses_ = false;
   controller_ = StepController(step_.tableau().order);
   if (Status status =
@@ -96,6 +98,7 @@ Warnings RosenbrockIntegrator::warnings() const {
   append(run_watch_.warnings(statistics_), &all);
   append(singularity_.warnings(), &all);
   append(end_warnings(system_.study()), &all);
+  append(grazing_warnings(system_, log_), &all);
   return all;
 }
 
@@ -145,6 +148,9 @@ Status RosenbrockIntegrator::change_mode(ModeChange* change) {
       !status.ok())
     return status;
   has_jumped_ = true;
+  if (change->origin)
+    log_.add(
+        {change->end.t, change->origin, change->becomes_true, change->is_jump, change->is_touched});
   step_.restart(change->behind);
   work_.start(change->behind, run_watch_.motion());
   return look_for_end(change->behind);
@@ -229,6 +235,8 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   const double smallest = smallest_step(t, system_.study().duration);
   bool singular = false;
   const auto judged = [&](const Status& status) {
+    if (Status undefined = mode_watch_.undefined_guard(t); !status.ok() && !undefined.ok())
+      return undefined;
     return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(),
                             statistics_, &step_.equations());
   };
@@ -289,6 +297,8 @@ Status RosenbrockIntegrator::look() {
   if (step_.tableau().is_explicit()) ++statistics_.explicit_steps;
   chooses_ = true;
   step_.track_turns();
+  if (EventLog::Entry entry; mode_watch_.has_touched(&assembly_, &step_.equations(), &entry))
+    log_.touch(entry);
   const double drift =
       run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
   singularity_.look(step_.state(), drift, &step_.equations());

@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
+#include "integration/event_names.h"
 #include "integration/integrator.h"
 #include "integration/run_ends.h"
 #include "integration/simulation_of.h"
@@ -106,6 +107,8 @@ class Simulation::Implementation {
   const FrameNames& names() const { return observer_.names(); }
   const Statistics& statistics() const { return statistics_; }
   const std::vector<MethodChange>& methods() const { return integrator_->methods(); }
+  Events events() const { return events_of(*system_, integrator_->events()); }
+  std::int64_t event_count() const { return integrator_->events().count(); }
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
@@ -171,6 +174,8 @@ void Simulation::obey(const std::atomic<bool>* cancel) { implementation_->obey(c
 const FrameNames& Simulation::names() const { return implementation_->names(); }
 const Statistics& Simulation::statistics() const { return implementation_->statistics(); }
 const std::vector<MethodChange>& Simulation::methods() const { return implementation_->methods(); }
+Events Simulation::events() const { return implementation_->events(); }
+std::int64_t Simulation::event_count() const { return implementation_->event_count(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
 // Where a run ends by its condition, only the run tells: it is computed once more for the samples.

@@ -132,8 +132,7 @@ StatusCode code_of(const std::string& name) {
   for (int k = 0;; ++k) {
     const auto code = static_cast<StatusCode>(k);
     if (name == name_of(code)) return code;
-    if (code == StatusCode::kNotIdentifiable)
-      throw std::invalid_argument("unknown status: " + name);
+    if (code == StatusCode::kSwitchHolds) throw std::invalid_argument("unknown status: " + name);
   }
 }
 
@@ -161,6 +160,24 @@ Warnings warnings_of(const Json& array) {
                         one.at("message").get<std::string>(),
                         {one.at("file").get<std::string>(), one.at("line").get<int>()}});
   return warnings;
+}
+
+Json events_json(const Events& events) {
+  Json list = Json::array();
+  for (const auto& [time, element, object, expression, rising, jump] : events.list)
+    list.push_back(Json::array({exact(time), element, object, expression, rising, jump}));
+  return {{"list", std::move(list)}, {"count", events.count}, {"order", events.order}};
+}
+
+Events events_of(const Json& object) {
+  Events events;
+  for (const Json& one : object.at("list"))
+    events.list.push_back({number_of(one.at(0)), one.at(1).get<std::string>(),
+                           one.at(2).get<std::string>(), one.at(3).get<std::string>(),
+                           one.at(4).get<bool>(), one.at(5).get<bool>()});
+  events.count = object.at("count").get<std::int64_t>();
+  events.order = object.at("order").get<std::string>();
+  return events;
 }
 
 }  // namespace
@@ -209,7 +226,7 @@ std::string header_difference(const std::string& found, const std::string& expec
 std::string to_line(const EvaluationRecord& record) {
   // All members by name, so that a new member of Evaluation does not compile before it is written
   // here and read in read_line().
-  const auto& [status, objective, gradient, root, extremes, statistics, warnings] =
+  const auto& [status, objective, gradient, root, extremes, statistics, warnings, events] =
       record.evaluation;
   const bool with_gradient = record.derivatives != Derivatives::kNone,
              with_root = record.derivatives == Derivatives::kGaussNewton;
@@ -226,6 +243,7 @@ std::string to_line(const EvaluationRecord& record) {
   if (status.ok() && extremes.values.size() > 0) line["extremes"] = extremes_json(extremes);
   line["statistics"] = statistics_json(statistics);
   if (!warnings.empty()) line["warnings"] = to_json(warnings);
+  if (events.count > 0) line["events"] = events_json(events);
   return with_checksum(line.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -250,6 +268,7 @@ EvaluationRecord read_line(const std::string& line) {
   if (object.contains("extremes")) evaluation.extremes = extremes_of(object.at("extremes"));
   evaluation.statistics = statistics_of(object.at("statistics"));
   if (object.contains("warnings")) evaluation.warnings = warnings_of(object.at("warnings"));
+  if (object.contains("events")) evaluation.events = events_of(object.at("events"));
   return record;
 }
 

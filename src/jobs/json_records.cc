@@ -90,6 +90,19 @@ Json to_json(const std::vector<LimitCrossing>& crossings) {
   return array;
 }
 
+void add_events(const Events& events, Json* object) {
+  Json list = Json::array();
+  for (const Event& event : events.list)
+    list.push_back({{"time", event.time},
+                    {"element", event.element},
+                    {"object", event.object},
+                    {"expression", event.expression},
+                    {"direction", event.rising ? "rising" : "falling"},
+                    {"kind", event.jump ? "jump" : "kink"}});
+  (*object)["events"] = std::move(list);
+  (*object)["event_count"] = events.count;
+}
+
 Json to_json(const Status& status) {
   return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}};
 }

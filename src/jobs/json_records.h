@@ -22,6 +22,9 @@ Json to_json(const Counts& counts);
 Json to_json(const InputError& error);
 /// `[{joint, limit, bound, worst, time}]`
 Json to_json(const std::vector<LimitCrossing>& crossings);
+/// Sets `events`, a list of `{time, element, object, expression, direction, kind}`, and
+/// `event_count`.
+void add_events(const Events& events, Json* object);
 /// `{code, message, time}`
 Json to_json(const Status& status);
 /// `[{code, message, file, line}]`

@@ -129,6 +129,7 @@ Json optimization_json(const Problem& problem, const OptimizationResult& result)
   if (!result.algorithm.empty()) object["algorithm"] = result.algorithm;
   if (std::isfinite(result.optimality.stationarity)) add_optimality(names, result, &object);
   add_statistics(result.cost.statistics, &object);
+  add_events(result.best.events, &object);
   add_watched(result, &object);
   add_ensemble(problem, result, &object);
   if (has_design(problem, result))

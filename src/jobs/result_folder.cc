@@ -178,8 +178,8 @@ std::string csv_text(const std::vector<std::string>& columns,
 }
 
 std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names) {
-  std::vector<std::string> columns = {"evaluation", "iteration",      "status",
-                                      "objective",  "best_objective", "gradient_norm"};
+  std::vector<std::string> columns = {"evaluation",     "iteration",     "status", "objective",
+                                      "best_objective", "gradient_norm", "events"};
   columns.insert(columns.end(), tuned_names.begin(), tuned_names.end());
   return columns;
 }
@@ -191,7 +191,8 @@ std::vector<std::string> convergence_row(const Trial& trial) {
   std::vector<std::string> cells = {
       std::to_string(trial.evaluation), std::to_string(trial.iteration),
       name_of(trial.status.code),       known(trial.objective),
-      to_decimal(trial.best_objective), known(trial.gradient_norm)};
+      to_decimal(trial.best_objective), known(trial.gradient_norm),
+      std::to_string(trial.events)};
   for (const double value : trial.rho) cells.push_back(to_decimal(value));
   return cells;
 }

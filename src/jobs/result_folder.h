@@ -80,8 +80,8 @@ std::string csv_text(const std::vector<std::string>& columns,
                      const std::vector<std::vector<std::string>>& rows, const std::string& where);
 
 /// Columns and a row of convergence.csv: evaluation, iteration, status, objective, best_objective,
-/// gradient_norm, then the tuned parameters. The objective of a failed point is an empty cell,
-/// which readers of CSV take as missing.
+/// gradient_norm, events, then the tuned parameters. The objective of a failed point is an empty
+/// cell, which readers of CSV take as missing.
 std::vector<std::string> convergence_columns(const std::vector<std::string>& tuned_names);
 std::vector<std::string> convergence_row(const Trial& trial);
 

@@ -225,6 +225,7 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   summary.end = simulation.time();
   summary.statistics = simulation.statistics();
   summary.methods = simulation.methods();
+  summary.events = simulation.events();
   summary.warnings = simulation.warnings();
   if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
   const Study& study = study_of(problem);
@@ -279,6 +280,7 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   if (record.status.ok() && postures == 0)
     add_energies(shown, watched, simulation.time(), &record.summary);
   record.summary["limits_exceeded"] = to_json(limits.crossings());
+  add_events(simulation.events(), &record.summary);
   record.summary["poses"] = poses.json(simulation.names().links);
   return record;
 }

@@ -88,6 +88,7 @@ struct RunSummary {
   Statistics statistics;
   std::vector<MethodChange> methods;     ///< Simulation::methods()
   std::vector<LimitCrossing> crossings;  ///< found at the sampled instants
+  Events events;                         ///< Simulation::events()
   Warnings warnings;                     ///< Simulation::warnings()
   /// The study's objective; empty if the study has none or a peak, or if the run does not end at
   /// the study's duration.

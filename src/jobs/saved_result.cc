@@ -62,7 +62,13 @@ Json parse(const SourceText& source) {
   }
 }
 
-constexpr std::size_t kConvergenceColumns = 6;  ///< number of columns before the tuned parameters
+/// Number of columns before the tuned parameters; older folders have no `events`.
+std::ptrdiff_t first_parameter(const std::vector<std::string>& header) {
+  constexpr std::size_t kEventsColumn = 6;
+  const bool has_events = header.size() > kEventsColumn && header[kEventsColumn] == "events";
+  return to_signed(kEventsColumn) + (has_events ? 1 : 0);
+}
+
 constexpr std::size_t kStatusColumn = 2;
 
 using Cells = std::vector<std::string>;
@@ -143,13 +149,14 @@ class Examination {
     std::string line;
     std::getline(table, line);
     const Cells header = cells_of(line);
-    if (header.size() <= kConvergenceColumns)
+    const std::ptrdiff_t first = first_parameter(header);
+    if (to_signed(header.size()) <= first)
       throw InputError({{in_folder("convergence.csv"), 1},
                         "header",
                         "no tuned parameters",
                         line,
                         "the table of codesign optimize"});
-    job->tuned.assign(header.begin() + kConvergenceColumns, header.end());
+    job->tuned.assign(header.begin() + first, header.end());
     Cells wanted;
     for (const std::string& name : job->tuned) wanted.push_back(to_decimal(value_of(*job, name)));
     int rows = 0;
@@ -157,7 +164,7 @@ class Examination {
       const Cells row = cells_of(line);
       if (row.size() != header.size() || row[kStatusColumn] != name_of(StatusCode::kSuccess))
         continue;
-      if (std::equal(wanted.begin(), wanted.end(), row.begin() + kConvergenceColumns)) return;
+      if (std::equal(wanted.begin(), wanted.end(), row.begin() + first)) return;
     }
     if (object_.value("evaluations", rows) > rows) return;
     std::string design;

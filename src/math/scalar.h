@@ -250,6 +250,20 @@ bool is_below(const T& x, const T& y, bool likely,
   return is_less(x, y, likely, place);
 }
 
+/// While it lives, recordings name their switches after `source`, an object that stays where it is:
+/// an expression, a joint's stops. For all scalars but Traced it does nothing. @param x a number
+/// of the recording; of a literal nothing is recorded.
+template <class T>
+struct NamedSwitches {
+  template <class Source>
+  NamedSwitches(const T& x, const Source& source) {
+    static_cast<void>(x), static_cast<void>(source);
+  }
+};
+/// Which part of that object decides next: the operation of an expression, a law's decision.
+template <class T>
+void name_part(const T&, int) {}
+
 // The derivatives that a vector of complex numbers (imaginary parts) or of lanes carries, as a real
 // matrix: one row per component, one column per direction. The derivatives of a solution of
 // equations follow from a linear solve with this matrix on the right-hand side (implicit function

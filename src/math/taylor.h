@@ -111,6 +111,7 @@ struct Taylor {
                        unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
     return is_below(x.c[0], y.c[0], likely, place);
   }
+  friend void name_part(const Taylor& x, int part) { name_part(x.c[0], part); }
   friend bool is_less(const Taylor& x, const Taylor& y, bool likely,
                       unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
     return is_less(x.c[0], y.c[0], likely, place);

@@ -66,6 +66,9 @@ void SearchTrials::conclude(const std::string& failure) {
   if (have_best_) judge_stop();
   if (have_best_) append(search_warnings(study_, options_, result_), &result_.warnings);
   append(lost_branches_, &result_.warnings);
+  if (have_best_ && ensemble_.scenarios().size() == 1)
+    append(event_changes_.warnings(result_.best.rho, best_.total.events, extents(), study_.file),
+           &result_.warnings);
   result_.status = {StatusCode::kSuccess, study_.duration, ""};
   if (interrupted()) {
     result_.termination = name_of(interruption_.code);
@@ -205,6 +208,7 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
   trial.evaluation = ++result_.cost.evaluations;
   trial.status = evaluation.status;
   trial.rho = rho;
+  trial.events = evaluation.events.count;
   result_.cost.statistics += evaluation.statistics;
   // At any trial point, since a jump of the objective there may end the search elsewhere.
   for (const Warning& warning : evaluation.warnings)
@@ -217,6 +221,7 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     note_influences(all.gradients);
     for (const Extremes& extremes : all.extremes) note_influences(extremes.gradients);
     note_change(all, rho);
+    event_changes_.note(rho, evaluation.events);
     take_best(all, rho);
   } else {
     ++result_.cost.failed_evaluations;
@@ -283,6 +288,7 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   result_.optimality.flat_directions.resize(0, 0);
   result_.best.failed = all.failed;
   result_.best.gradient = evaluation.gradient;
+  result_.best.events = evaluation.events;
   result_.warnings = evaluation.warnings;
   result_.best.rho = rho;
 }

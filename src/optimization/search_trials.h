@@ -8,6 +8,7 @@
 #include "ensemble/ensemble.h"
 #include "ensemble/parameter_rows.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/event_changes.h"
 #include "optimization/lagrangian.h"
 #include "optimization/scaling.h"
 #include "optimization/smooth_program.h"
@@ -115,6 +116,7 @@ class SearchTrials {
   std::optional<double> initial_slope_;
   bool looked_beside_ = false;
   OptimizationResult result_;
+  EventChanges event_changes_;
   Warnings lost_branches_;  ///< the first `branch_lost` of all trial points
   Status first_failure_{StatusCode::kNonFinite, 0.0, "no trial point could be evaluated"},
       interruption_;

@@ -36,6 +36,7 @@ Json fields_of(const Problem& problem, const Trial& trial) {
           {"gradient_norm", trial.gradient_norm},
           {"best_objective", trial.best_objective},
           {"best_violation", trial.best_violation},
+          {"events", trial.events},
           {"parameters", by_name(problem.tuned_names(), trial.rho)}};
 }
 

@@ -138,6 +138,7 @@ struct RunNotes {
                    {"parameters", parameters_json(problem, design)}};
     add_statistics(summary.statistics, &record);
     record["methods"] = methods_json(summary);
+    add_events(summary.events, &record);
     record["limits_exceeded"] = to_json(summary.crossings);
     record["warnings"] = to_json(summary.warnings);
     return to_python(record);

@@ -7,6 +7,7 @@
 #include "control/control_clock.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
+#include "integration/event_names.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
@@ -81,6 +82,7 @@ class Evaluator::Implementation {
     if (evaluation.status.ok()) collect(engine.get(), derivatives, cancel, &evaluation);
     evaluation.statistics = engine->statistics();
     evaluation.warnings = engine->warnings();
+    if (engine->events()) evaluation.events = events_of(*system_, *engine->events());
     evaluation.statistics.cpu_seconds = timer.seconds();
     return evaluation;
   }

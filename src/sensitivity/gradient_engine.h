@@ -63,6 +63,8 @@ class GradientEngine {
   virtual const Statistics& statistics() const = 0;
   /// Warnings about the run since start().
   virtual Warnings warnings() const = 0;
+  /// Its events; null where none are seen.
+  virtual const EventLog* events() const { return nullptr; }
   /// Once `cancel` is set (by any thread), advance() and gradient() end soon, advance() with
   /// kCancelled. nullptr: no cancellation.
   virtual void obey(const std::atomic<bool>* cancel) = 0;

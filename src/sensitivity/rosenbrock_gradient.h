@@ -46,6 +46,7 @@ class RosenbrockGradient final : public GradientEngine {
   const Extremes& extremes() const override { return watch_.extremes(); }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
+  const EventLog* events() const override { return &integrator_.events(); }
   void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
 
  private:

@@ -23,9 +23,10 @@ TEST(OptimizeCommand, WritesItsFolder) {
   EXPECT_EQ(Json::parse(read_text_file(folder.path("job/result.json"))), object);
   const std::vector<std::string> convergence =
       lines_of(read_text_file(folder.path("job/convergence.csv")));
-  EXPECT_EQ(convergence.at(0),
-            "evaluation,iteration,status,objective,best_objective,gradient_norm,crank_length,rod_"
-            "length,slider_length,slider_width,Kp");
+  EXPECT_EQ(
+      convergence.at(0),
+      "evaluation,iteration,status,objective,best_objective,gradient_norm,events,crank_length,"
+      "rod_length,slider_length,slider_width,Kp");
   EXPECT_EQ(convergence.size(), 1U + object["evaluations"].get<std::size_t>());
   for (const char* name : {"job/initial.csv", "job/tuned.csv"})
     EXPECT_EQ(lines_of(read_text_file(folder.path(name))).size(), 502U) << name;

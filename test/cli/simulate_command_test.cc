@@ -117,6 +117,30 @@ TEST(SimulateCommand, ARunThatFailsNamesStatusTimeAndCause) {
   EXPECT_EQ(run_words({"optimize", kModel, study}).code, kFailed);
 }
 
+TEST(SimulateCommand, EventsAreCountedAndListed) {
+  const ScratchFolder folder;
+  const std::string study = folder.edited(
+      "study.yaml", read_text_file(kStudy), "controllers:",
+      "loads: [{joint: crank_joint, effort: \"${t < 0.5 ? 0 : 1.0e-3}\"}]\ncontrollers:");
+  const Outcome run = run_words({"simulate", kModel, study, "--csv", folder.path("run.csv")});
+  ASSERT_EQ(run.code, kDone) << run.err;
+  EXPECT_NE(run.err.find("1 event, the first one at t = 0.5 s: loads[0].effort, \"t < 0.5\", "
+                         "falling, a jump\n"),
+            std::string::npos)
+      << run.err;
+  const Json events = json_of(run_words({"simulate", kModel, study, "--json"}))["events"];
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0], Json({{"time", 0.5},
+                             {"element", "loads[0].effort"},
+                             {"object", "crank_joint"},
+                             {"expression", "t < 0.5"},
+                             {"direction", "falling"},
+                             {"kind", "jump"}}));
+  EXPECT_EQ(json_of(run_words({"gradient", kModel, study, "--json"}))["event_count"], 1);
+  const Outcome plain = run_words({"simulate", kModel, kStudy, "--csv", folder.path("run.csv")});
+  EXPECT_EQ(plain.err.find("event"), std::string::npos) << plain.err;
+}
+
 TEST(SimulateCommand, ALoopThatCannotBeClosedIsBadInput) {
   const ScratchFolder folder;
   const std::string lower = "name=\"rod_length\" value=\"0.3\" lower=";

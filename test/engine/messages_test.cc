@@ -25,6 +25,7 @@ Evaluation full_evaluation() {
   evaluation.extremes.gradients = (Eigen::MatrixXd(3, 2) << 1, 2, 3, 4, 5, 6).finished();
   evaluation.statistics = {123456789012, 7, 0.5, 1e-9, kNan, 5};
   evaluation.warnings = {{"drift", "it drifts", {"a.yaml", 3}}, {"two", "", {}}};
+  evaluation.events = {{{0.5, "loads[0].effort", "slide", "t < 1", true, false}}, 7, "abc"};
   return evaluation;
 }
 
@@ -47,6 +48,10 @@ TEST(Messages, AnEvaluationKeepsItsBits) {
   EXPECT_EQ(back.extremes.gradients, full_evaluation().extremes.gradients);
   EXPECT_TRUE(std::signbit(back.gradient[0]));
   EXPECT_EQ(back.warnings[0].where.line, 3);
+  EXPECT_EQ(back.events.count, 7);
+  EXPECT_EQ(back.events.order, "abc");
+  ASSERT_EQ(back.events.list.size(), 1u);
+  EXPECT_EQ(describe(back.events.list[0]), "loads[0].effort, \"t < 1\", rising, a kink");
   const std::string empty = write_result(0, {});
   ByteReader of_empty = body_of(empty, MessageKind::kResult, 0);
   EXPECT_EQ(read_result(&of_empty).gradient.size(), 0);

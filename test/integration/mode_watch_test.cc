@@ -60,6 +60,38 @@ TEST(ModeWatch, AMotionThatIsHeldAtASwitchHasAStatus) {
   while (status.ok() && integrator.state().t < 2.0) status = integrator.advance(2.0);
   EXPECT_EQ(status.code, StatusCode::kSwitchHolds) << describe(status);
   EXPECT_NEAR(status.time, 1.0 / 1.5, 1e-5) << "where the slide comes to rest";
+  EXPECT_NE(status.cause.find("held at the switch of loads[0].effort, \"sign(slide/velocity)\""),
+            std::string::npos)
+      << status.cause;
+  EXPECT_NE(status.cause.find("coulomb or gonthier"), std::string::npos);
+}
+
+/// The status of a run of 2 s at 1 m/s.
+Status moving_status(const std::string& load) {
+  const RobotDescription model = read_urdf({"slide.urdf", slide()});
+  const auto system = make_system(
+      model,
+      read_study({"study.yaml", study(load, "initial_state: {slide: {velocity: 1.0}}\n")}, model));
+  RosenbrockIntegrator integrator(*system);
+  Status status = integrator.start(system->parameters());
+  while (status.ok() && integrator.state().t < 2.0) status = integrator.advance(2.0);
+  return status;
+}
+
+// Beyond x = 0.7 the root has no value, and comparisons with it no outcome.
+TEST(ModeWatch, AGuardWithoutAValueEndsTheRunWhereItLosesIt) {
+  const Status status = moving_status("${sqrt(0.7 - slide/position) > 2 ? 1 : 0}");
+  EXPECT_EQ(status.code, StatusCode::kNonFinite) << describe(status);
+  EXPECT_NEAR(status.time, 0.7, 1e-6);
+  EXPECT_NE(status.cause.find("loads[0].effort, \"sqrt(0.7 - slide/position) > 2\""),
+            std::string::npos)
+      << status.cause;
+}
+
+TEST(ModeWatch, AGuardThatIsNotAskedForBehindASwitchNeedsNoValue) {
+  const Status status =
+      moving_status("${slide/position < 0.7 ? (sqrt(0.7 - slide/position) > 0.4 ? 1e-9 : 0) : 0}");
+  EXPECT_TRUE(status.ok()) << describe(status);
 }
 
 // The mode of every step is that of its beginning, and none is left without a switch.

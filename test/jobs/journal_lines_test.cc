@@ -163,6 +163,28 @@ TEST(EvaluationRecord, KeepsStatusStatisticsAndWarnings) {
   EXPECT_EQ(back.evaluation.warnings[0].where.line, 7);
 }
 
+TEST(EvaluationRecord, KeepsEvents) {
+  EvaluationRecord record = record_of({1.0, 2.0});
+  EXPECT_EQ(to_line(record).find("events"), std::string::npos) << "other journals stay as they are";
+  record.evaluation.events = {
+      {{1.0 / 3.0, "loads[0].effort", "slide", "t < 1", false, true}}, 7, "abc"};
+  const Events back = read_line(to_line(record)).evaluation.events;
+  EXPECT_EQ(back.count, 7);
+  EXPECT_EQ(back.order, "abc");
+  ASSERT_EQ(back.list.size(), 1u);
+  EXPECT_EQ(back.list[0].time, 1.0 / 3.0);
+  EXPECT_EQ(back.list[0].object, "slide");
+  EXPECT_EQ(describe(back.list[0]), "loads[0].effort, \"t < 1\", falling, a jump");
+}
+
+TEST(EvaluationRecord, KeepsEveryStatus) {
+  EvaluationRecord record = record_of({1.0});
+  for (int k = 0; k <= static_cast<int>(StatusCode::kSwitchHolds); ++k) {
+    record.evaluation.status.code = static_cast<StatusCode>(k);
+    EXPECT_EQ(read_line(to_line(record)).evaluation.status.code, record.evaluation.status.code);
+  }
+}
+
 TEST(EvaluationRecord, KeepsTheExtremesOfSignals) {
   EvaluationRecord record = record_of({1.0, 2.0});
   record.evaluation.extremes = {Eigen::Vector3d(0.1, 1.0 / 3.0, -2.0),

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "jobs/files.h"
 #include "jobs/optimization_records.h"
@@ -124,6 +125,20 @@ TEST_F(FinishedPendulum, IsTakenWithItsDesign) {
     EXPECT_EQ(job.tuned, problem_.tuned_names());
     EXPECT_EQ(job.objective, result_.best.objective);
   }
+}
+
+// Jobs of before the number of events was written have no column for it.
+TEST_F(FinishedPendulum, TheFolderOfAnOlderJobIsRead) {
+  std::string table;
+  std::istringstream lines(read_source(path("convergence.csv")).text);
+  for (std::string line; std::getline(lines, line); table += line + "\n") {
+    std::size_t comma = 0;
+    for (int k = 0; k < 6; ++k) comma = line.find(',', comma) + 1;
+    line.erase(comma, line.find(',', comma) + 1 - comma);
+  }
+  ASSERT_EQ(table.find("events"), std::string::npos);
+  write_whole_file(path("convergence.csv"), table);
+  EXPECT_EQ(read_finished_job(path()).tuned, problem_.tuned_names());
 }
 
 TEST_F(FinishedPendulum, AValueChangedInOneFileIsRefused) {

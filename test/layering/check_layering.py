@@ -62,6 +62,7 @@ FEATURES = {
 PUBLIC = {
     "counts.h": "assembly",
     "error.h": "text",
+    "event.h": "text",
     "frame.h": "observation",
     "gradient.h": "sensitivity",
     "optimization.h": "optimization",

@@ -178,6 +178,13 @@ class Values(unittest.TestCase):
         del run, table
         self.assertEqual(kept.tolist(), expected, "an array keeps its memory alive")
 
+    def test_a_run_has_its_events(self):
+        run = pendulum(SWING + 'loads: [{joint: pivot, effort: "${t < 0.5 ? 0 : 1}"}]\n').simulate()
+        self.assertEqual(run.event_count, 1)
+        self.assertEqual(run.events, [{"time": 0.5, "element": "loads[0].effort", "object": "pivot", "expression": "t < 0.5",
+                                       "direction": "falling", "kind": "jump"}])
+        self.assertEqual((pendulum().simulate().events, pendulum().simulate().event_count), ([], 0))
+
     def test_signals_are_those_asked_for(self):
         run = pendulum().simulate(signals=["pivot/position", "rod/position/x"], samples=3)
         self.assertEqual(list(run), ["pivot/position", "rod/position/x"])

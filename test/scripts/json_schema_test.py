@@ -73,6 +73,14 @@ class Outputs(unittest.TestCase):
         self.assertEqual(len(output["series"]["time"]), len(next(iter(output["series"].values()))))
         self.check("urdf", "urdf/slider_crank.urdf")
 
+    def test_events(self):
+        with tempfile.TemporaryDirectory() as folder:
+            files = self.pendulum(folder, 'loads: [{joint: pivot, effort: "${t < 0.5 ? 0 : pivot/velocity < 0 ? 0.1 : -0.1}"}]')
+            for command in ("simulate", "gradient", "optimize"):
+                output = self.check(command, *files)
+                self.assertGreaterEqual(output["event_count"], 1)
+                self.assertEqual(output["events"][0]["expression"], "t < 0.5")
+
     def test_statics(self):
         self.check("efforts", *self.case("two_link_arm"))
         with tempfile.TemporaryDirectory() as folder:

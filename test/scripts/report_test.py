@@ -203,6 +203,21 @@ class Report(unittest.TestCase):
         embedded = re.search(r'<script type="application/json" id="result-json">(.*?)</script>', text, re.DOTALL).group(1)
         self.assertEqual(json.loads(embedded), result)
 
+    def test_events_are_ticks_and_rows(self):
+        with open(self.path("switched.yaml"), "w", encoding="utf-8") as file:
+            file.write(STUDY + 'loads: [{joint: hinge, effort: "${t < 0.2 ? 0 : 0.01}"}, {joint: hinge, effort: "${0.001*floor(10*t)}"}]\n')
+        done = run("optimize", self.path("arm.urdf"), self.path("switched.yaml"), "--output", self.path("switched"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text, page = self.made_page("switched")
+        self.check_numbers("switched", page)
+        marks = [attributes for tag, attributes in page.tags if tag == "path" and attributes.get("class") in ("tuned mark", "initial mark")]
+        charts = [attributes for tag, attributes in page.tags if tag == "svg" and attributes.get("aria-label", "").endswith("before and after")]
+        self.assertEqual(len(marks), 2 * len(charts))
+        self.assertEqual({attributes["d"].count("M") for attributes in marks}, {4}, "0.1, 0.2 (of both loads), 0.3 and 0.4 s")
+        self.assertIn("t < 0.2", page.text)
+        self.assertIn("Events per run", page.text)
+        self.assertNotIn(" mark\"", self.page_of("job")[0])
+
     def test_the_commands_of_the_page_repeat_the_job(self):
         _, page = self.page_of("job")
         command = next(line for line in page.text.splitlines() if "gradient tuned.urdf" in line)

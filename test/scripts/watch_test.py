@@ -20,7 +20,7 @@ from patience import PATIENCE  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WATCH = ROOT / "scripts" / "watch"
-HEADER = "evaluation,iteration,status,objective,best_objective,gradient_norm,length,Kp\n"
+HEADER = "evaluation,iteration,status,objective,best_objective,gradient_norm,length,Kp\n"  # as older jobs have it, without the number of events
 
 
 def load_script(path):
@@ -46,6 +46,12 @@ class FolderTest(unittest.TestCase):
         with open(self.path / "convergence.csv", mode, encoding="utf-8") as file:
             file.write(text)
         self.folder.read()
+
+    def test_the_number_of_events_is_no_parameter(self):
+        self.write(HEADER.replace("gradient_norm,", "gradient_norm,events,") + "1,0,success,4.5,4.5,0.25,7,0.5,1\n")
+        shown = self.job.points(0, 0)
+        self.assertEqual(shown["names"], ["length", "Kp"])
+        self.assertEqual(shown["points"], [[1, 0, 4.5, 4.5, 0.25, [0.5, 1.0]]])
 
     def test_rows_come_as_they_are_written(self):
         self.folder.read()

@@ -9,6 +9,7 @@
 #include "math/arrays.h"
 #include "reading/urdf/pictures.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/scene/event_markers.h"
 #include "ros/scene/scene_layout.h"
 #include "text/number_text.h"
 
@@ -117,6 +118,23 @@ class JobBagWriter {
       for (const ShownSide& side : runs.sides)
         if (index < side.run.frames.size()) write_frame(runs.place, side, side.run.frames[index]);
       write_caption(runs, index);
+    }
+    for (const ShownSide& side : runs.sides) write_events(runs.place, side);
+  }
+
+  /// The events between the first and the last frame.
+  void write_events(const std::string& place, const ShownSide& side) {
+    const std::string prefix = side.name + "/";
+    const std::vector<Frame>& frames = side.run.frames;
+    for (std::size_t k = 0; k < side.run.events.size(); ++k) {
+      const Event& event = side.run.events[k].event;
+      const auto frame = std::find_if(frames.begin(), frames.end(),
+                                      [&](const Frame& f) { return f.time >= event.time; });
+      if (frame == frames.end()) return;
+      const MessageContext context{BagWriter::stamp(event.time), prefix + side.run.names.links[0]};
+      writer_.write(place + prefix + "events", event.time, event_message(event, context));
+      writer_.write(place + prefix + "event_markers", event.time,
+                    event_markers(side.run, k, *frame, layout_, context));
     }
   }
 

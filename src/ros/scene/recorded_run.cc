@@ -8,6 +8,7 @@
 #include "description/study.h"
 #include "equations/compiled_system.h"
 #include "integration/simulation_of.h"
+#include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "observation/observer.h"
 #include "problem/load_problem.h"
@@ -26,6 +27,16 @@ double bytes_of_a_frame(const RobotDescription& robot, const Study& study) {
       robot.links.size() * sizeof(LinkSample) +
       study.controllers.size() * sizeof(ControllerSample) +
       signals_of(study).size() * sizeof(double));
+}
+
+/// The link at which something that acts on a joint or link is shown; 0, the root, if none is.
+std::size_t link_of(const std::string& object, const FrameNames& names,
+                    const RobotDescription& robot) {
+  std::string link = object;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.name == object) link = robot.links[to_index(joint.child)].name;
+  const auto found = std::find(names.links.begin(), names.links.end(), link);
+  return found == names.links.end() ? 0 : to_index(found - names.links.begin());
 }
 
 }  // namespace
@@ -70,6 +81,8 @@ RecordedRun record_run(const std::shared_ptr<const CompiledSystem>& system,
     run.frames.emplace_back();
     simulation.sample(instant(k), &run.frames.back());
   }
+  for (const Event& event : simulation.events().list)
+    run.events.push_back({event, link_of(event.object, run.names, system->robot())});
   return run;
 }
 

@@ -30,12 +30,20 @@ Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
   return status;
 }
 
+/// An event of a run, and the link at which it is shown.
+struct RunEvent {
+  Event event;
+  std::size_t link = 0;  ///< index in FrameNames::links: the link, or the child of the joint, on
+                         ///< which the element acts; the root if there is none
+};
+
 /// A run of a study at one design, sampled at a fixed rate.
 struct RecordedRun {
   FrameNames names;
   std::vector<Frame> frames;
   Status status;  ///< if not ok, the frames end where the run failed or was stopped
   std::vector<std::size_t> link_parents{};  ///< as link_parents() finds them
+  std::vector<RunEvent> events{};           ///< the events of Simulation::events()
 };
 
 /// Checks that the runs of a job (nominal and worst scenario of both designs) fit into memory (256

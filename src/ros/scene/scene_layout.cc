@@ -164,6 +164,8 @@ void set_point(const Eigen::Vector3d& point, boost::array<double, 3>* numbers) {
   for (std::size_t k = 0; k < 3; ++k) (*numbers)[k] = point[to_signed(k)];
 }
 
+}  // namespace
+
 visualization_msgs::Marker text_marker(const std::string& text, const Eigen::Vector3d& place,
                                        double letter) {
   visualization_msgs::Marker marker;
@@ -175,8 +177,6 @@ visualization_msgs::Marker text_marker(const std::string& text, const Eigen::Vec
   marker.color.a = 1.0F;
   return marker;
 }
-
-}  // namespace
 
 SceneLayout lay_out(const std::vector<ShownRun>& runs) {
   SceneLayout layout;

@@ -76,6 +76,10 @@ geometry_msgs::TransformStamped place_in_world(const std::string& frame,
                                                const Eigen::Vector3d& place,
                                                const ros::Time& stamp);
 
+/// A text that faces the viewer, black, without header. @param letter height of its letters [m].
+visualization_msgs::Marker text_marker(const std::string& text, const Eigen::Vector3d& place,
+                                       double letter);
+
 /// A text above the mechanism in a frame. @param name its namespace.
 visualization_msgs::Marker label(const std::string& name, const std::string& frame,
                                  const std::string& text, const Stage& stage,

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "jobs/files.h"
+#include "mechanism_codesign/Event.h"
 #include "mechanism_codesign/Scene.h"
 #include "ros/sample_frame.h"
 #include "ros/scene/frame_messages.h"
@@ -28,6 +29,9 @@ JobRecord sample_record() {
                   {},
                   sample_parents()};
   run.frames[1].objective = 1.5;
+  run.events = {{{0.25, "loads[0].effort", "rail", "t < 0.25", false, true}, 1},
+                {{0.4, "loads[0].effort", "rail", "t < 0.4", true, false}, 1},
+                {{1.5, "loads[0].effort", "rail", "t < 1.5", true, false}, 1}};
   record.nominal = {{"<robot name='before'/>", run}, {"<robot name='after'/>", run}};
   record.trials.resize(5);
   record.request.max_evaluations = 9;
@@ -81,6 +85,7 @@ TEST_F(JobBag, HoldsBothRunsAndEverythingAroundThem) {
     for (const char* topic : {"joint_states", "joint_friction", "controller_states", "loop_errors",
                               "signals", "friction_markers"})
       expected[side + topic] = 3;
+    for (const char* topic : {"events", "event_markers"}) expected[side + topic] = 2;
   }
   EXPECT_EQ(counts, expected);
 }
@@ -94,6 +99,29 @@ TEST_F(JobBag, ContentsSurvive) {
   EXPECT_EQ(read<std_msgs::String>("study_files").at(1)->data, "second");
   EXPECT_EQ(read<mechanism_codesign::OptimizeGoal>("request").at(0)->max_evaluations, 9U);
   EXPECT_EQ(read<mechanism_codesign::OptimizeResult>("result").at(0)->objective, 0.25);
+}
+
+// The third event is behind the last frame.
+TEST_F(JobBag, EventsStandAtTheirLinksAtTheirTimes) {
+  const auto events = read<mechanism_codesign::Event>("tuned/events");
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0]->header.stamp, ros::Time(1.25));
+  EXPECT_EQ(events[0]->expression, "t < 0.25");
+  EXPECT_EQ(events[0]->object, "rail");
+  EXPECT_TRUE(events[0]->jump);
+  EXPECT_FALSE(events[0]->rising);
+  const auto markers = read<visualization_msgs::MarkerArray>("tuned/event_markers");
+  ASSERT_EQ(markers.size(), 2U);
+  const auto &first = markers[0]->markers.at(0), &second = markers[1]->markers.at(0);
+  EXPECT_EQ(first.text, "t < 0.25 falling");
+  EXPECT_EQ(first.header.frame_id, "tuned/ground");
+  EXPECT_EQ(first.header.stamp, ros::Time(1.25));
+  EXPECT_NE(first.id, second.id);
+  EXPECT_GT(first.lifetime, ros::Duration(0.0));
+  const auto height = [](const visualization_msgs::Marker& marker) {
+    return Eigen::Vector3d(marker.pose.position.x, marker.pose.position.y, marker.pose.position.z);
+  };
+  EXPECT_GE((height(second) - height(first)).norm(), 0.99 * first.scale.z) << "one above the other";
 }
 
 TEST_F(JobBag, LinksHangOnTheirParentsAsInTheNode) {

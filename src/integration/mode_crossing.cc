@@ -1,0 +1,195 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+// What a ModeWatch does where the mode changes.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "equations/equation_code.h"
+#include "integration/event_names.h"
+#include "integration/mode_watch.h"
+#include "integration/step_control.h"
+#include "math/arrays.h"
+
+namespace codesign {
+namespace {
+
+void move(const State<double>& from, const State<double>& rates, double h, State<double>* to) {
+  *to = from;
+  to->q += h * rates.q;
+  to->v += h * rates.v;
+  to->s += h * rates.s;
+  to->z += h * rates.z;
+  to->t += h;
+}
+
+}  // namespace
+
+// As near behind the crossing as its guard has another sign: the mode that the motion enters. The
+// dense output goes on a little beyond the end of the step.
+std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
+  constexpr double kNearest = 1e-9, kFarther = 10.0;
+  for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
+    const double place = std::min(1.0 + kBeyond, crossing.to + distance);
+    if (side_at(crossing.guard, place, step) >= 0.0) continue;
+    std::vector<bool> mode = step->equations().compiled().mode_of(point_);
+    if (mode != mode_) return mode;
+  }
+  // It leaves its side more slowly than that.
+  return beyond(crossing.guard);
+}
+
+// What decides later switches is expected.
+std::vector<bool> ModeWatch::beyond(int guard) const {
+  std::vector<bool> begun(mode_.begin(), mode_.begin() + guard);
+  begun.push_back(!mode_[to_index(guard)]);
+  return system_.record_variant({}, EquationPart::kMotion, begun)->mode();
+}
+
+// Guards that are zero at the same instant are crossed one after the other, since each has an
+// instant of its own in other designs: two switching times that are equal. @param mode with all of
+// them beyond. The mode in which only the first one is must have been right for all others before.
+std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, std::vector<bool> mode,
+                                         RosenbrockStep<double>* step) {
+  constexpr double kBefore = 1e-6;
+  std::vector<bool> one = mode_;
+  one[to_index(crossing.guard)] = !one[to_index(crossing.guard)];
+  if (mode.size() != one.size() || mode == one ||
+      system_.record_variant({}, EquationPart::kMotion, one)->mode() != one)
+    return mode;
+  Equations<double>& equations = step->equations();
+  step->interpolate_attempt(std::max(0.0, crossing.to - kBefore), &point_);
+  equations.hold(one);
+  equations.compiled().switches(point_, &residual_, &right_);
+  equations.hold(mode_);
+  for (int k = 0; k < static_cast<int>(one.size()); ++k)
+    if (k != crossing.guard && has_left(k, side(k, residual_))) return mode;
+  return one;
+}
+
+double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {
+  const auto seed = [](const VectorX<double>& value, const VectorX<double>& rate,
+                       VectorX<Lanes<4>>* x) {
+    *x = value.cast<Lanes<4>>();
+    for (Eigen::Index i = 0; i < value.size(); ++i) (*x)[i].directions()[0] = rate[i];
+  };
+  moving_.resize(system_.layout());
+  moving_.t = at.t;
+  moving_.turns = at.turns;
+  seed(at.q, rates.q, &moving_.q);
+  seed(at.v, rates.v, &moving_.v);
+  seed(at.s, rates.s, &moving_.s);
+  seed(at.z, rates.z, &moving_.z);
+  VectorX<Lanes<4>> guards, right;
+  along_->compiled().switches(moving_, &guards, &right);
+  return guards[k].directions()[0];
+}
+
+// A little further along the motion, where the guards that are zero here have signs.
+std::vector<bool> ModeWatch::mode_behind(const State<double>& at, const State<double>& rates,
+                                         Equations<double>* equations) const {
+  const double least = smallest_step(at.t, system_.study().duration);
+  State<double> further;
+  move(at, rates, std::max(16.0 * least, 1e-9 * step_size_), &further);
+  return equations->compiled().mode_of(further);
+}
+
+// Both modes drive the motion to the guard: no step can leave it.
+Status ModeWatch::count_return(double t) {
+  constexpr int kEnough = 6;
+  constexpr double kAtOnce = 1e-7;  // of the duration
+  returns_ = t - last_change_ < kAtOnce * system_.study().duration ? returns_ + 1 : 0;
+  last_change_ = t;
+  if (returns_ < kEnough + 2 * static_cast<int>(mode_.size())) return {};
+  return {StatusCode::kSwitchHolds, t,
+          "the motion is held at the switch of " + describe_switch(system_, held_at_) +
+              ", whose both sides lead back to it; take a friction law such as coulomb or gonthier "
+              "in place of sign() of a velocity, or make the expression continuous"};
+}
+
+// At a kink the rates are continuous, and no sensitivity jumps.
+bool ModeWatch::has_jump(const ModeChange& change) const {
+  constexpr double kSame = 1e-10;
+  const double size = std::max(change.before.z.lpNorm<Eigen::Infinity>(),
+                               change.behind.z.lpNorm<Eigen::Infinity>()),
+               jump = (change.before.z - change.behind.z).lpNorm<Eigen::Infinity>(),
+               of_g = std::abs(change.g_before - change.g);
+  return jump > kSame * size ||
+         of_g > kSame * std::max(std::abs(change.g_before), std::abs(change.g));
+}
+
+// The guard that the change of the rates itself has moved beyond zero, such as one of an
+// acceleration; -1 if there is none.
+int ModeWatch::jumped_guard(const ModeChange& change, Equations<double>* equations) {
+  constexpr double kSame = 1e-9;
+  equations->compiled().switches(change.before, &residual_, &right_);
+  equations->compiled().switches(change.behind, &ahead_, &right_);
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
+    const double size = std::max(std::abs(residual_[k]), std::abs(ahead_[k]));
+    if (side(k, ahead_) < 0.0 && std::abs(ahead_[k] - residual_[k]) > kSame * size) return k;
+  }
+  return -1;
+}
+
+// Guards that jump with the rates belong to the same change and the same instant.
+Status ModeWatch::enter(Assembly* assembly, Equations<double>* equations, ModeChange* change) {
+  for (std::size_t turn = 0;; ++turn) {
+    mode_ = change->mode;
+    equations->hold(mode_);
+    change->behind = change->before;
+    if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
+      return status;
+    const int jumped = turn < mode_.size() ? jumped_guard(*change, equations) : -1;
+    if (jumped < 0) return {};
+    std::vector<bool> begun(mode_.begin(), mode_.begin() + jumped);
+    begun.push_back(!mode_[to_index(jumped)]);
+    begun.insert(begun.end(), mode_.begin() + jumped + 1, mode_.end());
+    change->mode = system_.record_variant({}, EquationPart::kMotion, begun)->mode();
+  }
+}
+
+// Modes are equal up to the first switch that changed.
+int ModeWatch::changed_switch(int guard, const std::vector<bool>& mode) const {
+  if (guard >= 0) return guard;
+  const std::size_t both = std::min(mode.size(), mode_.size());
+  for (std::size_t k = 0; k < both; ++k)
+    if (mode[k] != mode_[k]) return static_cast<int>(k);
+  return -1;
+}
+
+Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
+                        Equations<double>* equations, ModeChange* change) {
+  is_due_ = false;
+  const bool at_start = last_change_ < 0.0;
+  if (guard_ >= 0) held_at_ = equations->compiled().switch_origin(mode_, to_index(guard_));
+  if (Status status = count_return(state.t); !status.ok()) return status;
+  *change = {};
+  change->guard = std::exchange(guard_, -1);
+  change->end = change->before = state;
+  if (Status status = assembly->solve_rates(equations, &change->before); !status.ok())
+    return status;
+  State<double>& before = change->before;
+  State<double> rates;
+  rates.resize(system_.layout());
+  rates.q = before.v;
+  rates.v = before.z.head(system_.layout().n);
+  rates.s = before.z.tail(system_.layout().states);
+  assembly->differentiate_rates(before, equations, &rates);
+  equations->residual(before, &residual_, &change->g_before);
+  along_->hold(mode_);
+  if (change->guard >= 0) change->guard_rate = guard_rate(change->guard, before, rates);
+  change->mode = change->guard >= 0 ? next_mode_ : mode_behind(before, rates, equations);
+  if (const int k = at_start ? -1 : changed_switch(change->guard, change->mode); k >= 0) {
+    change->origin = equations->compiled().switch_origin(mode_, to_index(k));
+    change->becomes_true = !mode_[to_index(k)];
+  }
+  if (Status status = enter(assembly, equations, change); !status.ok()) return status;
+  equations->residual(change->behind, &residual_, &change->g);
+  // Where a guard is only touched, its instant has no derivative.
+  change->is_jump = has_jump(*change);
+  change->is_touched = change->is_jump && change->guard >= 0 &&
+                       !(std::abs(change->guard_rate) > kGrazing * guard_pace_);
+  if (!change->is_jump || is_touched(change->guard_rate)) change->guard = -1;
+  return {};
+}
+
+}  // namespace codesign
