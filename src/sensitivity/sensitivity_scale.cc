@@ -74,10 +74,10 @@ double SensitivityScale<N>::error(const IncrementLayout& at, const Attempt& atte
                v = judge(squared_norms(u, at.v(), at.n), v_.max(squared_norms(y, at.v(), at.n)),
                          rounding.max(share * v_square_)),
                // Bristles are micrometres beside joints that turn, and carry the whole friction.
-               s = at.states == 0 ? 0.0
-                                  : judge(squared_norms(u, at.s(), at.states),
-                                          s_.max(squared_norms(y, at.s(), at.states)),
-                                          floor.max(share * s_square_)),
+      s = at.states == 0
+              ? 0.0
+              : judge(squared_norms(u, at.s(), at.states),
+                      s_.max(squared_norms(y, at.s(), at.states)), floor.max(share * s_square_)),
                psi = judge(u.col(at.psi()).array().square(), psi_.max(attempt.psi.square()),
                            floor.max(share * square(attempt.objective)));
   // A derivative that is not finite at any step size is reported by the gradient.

@@ -44,7 +44,7 @@ class SensitivityScale {
   Array per_value_, per_range_;  ///< squares of what a direction is in units of the parameters'
                                  ///< values and ranges
   double q_square_ = 0.0, v_square_ = 0.0, s_square_ = 0.0;  ///< of the motion itself
-  double absolute_ = 0.0;                   ///< an error over the range that does not count
+  double absolute_ = 0.0;  ///< an error over the range that does not count
 };
 
 /// The tolerance of sensitivities in the error test of a run with gradient:

@@ -130,8 +130,7 @@ TEST(ModeChange, IdasLeavesSwitchesToTheOtherIntegrator) {
                               "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}" +
                               test.study;
     Warnings warnings;
-    const auto system =
-        make_system(robot, read_study({"study.yaml", study}, robot), &warnings);
+    const auto system = make_system(robot, read_study({"study.yaml", study}, robot), &warnings);
     ASSERT_EQ(warnings.size(), 1U) << test.name;
     EXPECT_EQ(warnings[0].code, "other_integrator") << test.name;
     const Evaluation run =
