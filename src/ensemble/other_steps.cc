@@ -97,7 +97,8 @@ class OtherSteps {
       if (differences->levels() > 0) judge(*differences);
       if (differences->levels() > 1 && check_.error <= kGoodEnough * check_.allowed) break;
     }
-    if (differences->levels() > 1 && !differences->diverges()) return;
+    const bool diverges = differences->diverges() && !(check_.error <= check_.allowed);
+    if (differences->levels() > 1 && !diverges) return;
     check_.status = failure;
     if (differences->levels() > 1)
       check_.status = {StatusCode::kNonFiniteGradient, 0.0,

@@ -44,7 +44,7 @@ class LineDifferences {
   /// 0; infinite below two levels.
   double value() const { return value_; }
   double error() const { return error_; }
-  /// Whether the plain quotients grow from level to level up to that of value(), by more than half
+  /// Whether the plain quotients grow from level to level up to the last one, by more than half
   /// as much each time as before and by a fifth of their size: beside a singular design nothing
   /// bounds what they grow to, and error() is none.
   bool diverges() const;
