@@ -264,11 +264,8 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   return result;
 }
 
-}  // namespace
-
-// The study's own design must start; a later design that cannot is a trial point with a failed
-// status.
-std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study,
+/// As the public one, with the integrator that the study names.
+std::shared_ptr<const CompiledSystem> make_chosen(const RobotDescription& robot, const Study& study,
                                                   Warnings* warnings) {
   if (study.solver.coordinates == CoordinatesKind::kAuto) {
     Study chosen = study;
@@ -276,6 +273,34 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
     return make_system(robot, chosen, true, {}, warnings);
   }
   return make_system(robot, study, false, {}, warnings);
+}
+
+Warning other_integrator(const Study& study) {
+  return warn("other_integrator",
+              {{study.file, 1},
+               "solver.integrator",
+               "idas does not locate the instants at which expressions switch, and gradients would "
+               "lose what happens there: the runs of this study take rosenbrock",
+               "idas",
+               "rosenbrock; or expressions without comparisons, sign, abs, min, max and floor"});
+}
+
+}  // namespace
+
+// The study's own design must start; a later design that cannot is a trial point with a failed
+// status.
+std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot, const Study& study,
+                                                  Warnings* warnings) {
+  Warnings found;
+  std::shared_ptr<const CompiledSystem> system = make_chosen(robot, study, &found);
+  if (study.solver.integrator == IntegratorKind::kIdas && system->has_switches()) {
+    Study located = study;
+    located.solver.integrator = IntegratorKind::kRosenbrock;
+    found = {other_integrator(study)};
+    system = make_chosen(robot, located, &found);
+  }
+  if (warnings) append(found, warnings);
+  return system;
 }
 
 }  // namespace codesign

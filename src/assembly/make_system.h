@@ -12,9 +12,10 @@ namespace codesign {
 
 /// Builds the system of a model and a study: assembles the initial state, (19), finds redundant
 /// constraints there and decides which rows are dropped, doc/theory.md (23), and checks that every
-/// motion has inertia, (14a).
-/// @param warnings receives `inexact_loop`, `undetermined_friction` and `undetermined_reaction`, if
-/// not null.
+/// motion has inertia, (14a). A study whose expressions switch is not integrated by `idas`: the
+/// system's own study then says `rosenbrock`.
+/// @param warnings receives `inexact_loop`, `other_integrator`, `undetermined_friction` and
+/// `undetermined_reaction`, if not null.
 /// @throws InputError for a mechanism whose equations of motion cannot be set up: two masses on one
 /// end of a loop, a chain of massless links that cannot be folded into one pair, an unknown signal,
 /// an initial state that cannot be assembled, a motion without inertia.

@@ -97,9 +97,17 @@ class OtherSteps {
       if (differences->levels() > 0) judge(*differences);
       if (differences->levels() > 1 && check_.error <= kGoodEnough * check_.allowed) break;
     }
-    if (differences->levels() > 1) return;
+    const bool diverges = differences->diverges() && !(check_.error <= check_.allowed);
+    if (differences->levels() > 1 && !diverges) return;
     check_.status = failure;
-    if (failure.ok())
+    if (differences->levels() > 1)
+      check_.status = {StatusCode::kNonFiniteGradient, 0.0,
+                       "its slope along the checked direction grows as the steps shrink, to " +
+                           readable(differences->quotient()) + " over " +
+                           readable(differences->step(), 2) +
+                           " of the direction: differences cannot tell the derivative beside a "
+                           "design where there is none"};
+    else if (failure.ok())
       check_.status = {StatusCode::kNonFinite, 0.0,
                        "the objective beside the design is not finite"};
   }

@@ -90,6 +90,7 @@ void IdasEquations::pack(const State<double>& state, Out<double> y, Out<double> 
 
 int IdasEquations::residual(double t, In<double> y, In<double> y_dot, Out<double> F) {
   double g = 0.0;
+  order_floor_.begin();
   load(t, y, y_dot);
   equations_.residual(state_, &G_, &g);
   equations_.constraint_errors(state_, &Phi_, &Phi_rate_);

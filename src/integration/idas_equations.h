@@ -8,6 +8,7 @@
 #include "equations/equations.h"
 #include "equations/turn_follower.h"
 #include "integration/idas_newton.h"
+#include "integration/idas_order.h"
 #include "integration/integrator.h"
 #include "integration/run_watch.h"
 
@@ -64,6 +65,8 @@ class IdasEquations {
   int size() const { return 2 * layout_.n + layout_.states + layout_.m; }
   Equations<double>& equations() { return equations_; }
   void set_sensitivities(IdasSensitivities* sensitivities) { sensitivities_ = sensitivities; }
+  /// Of the motion's errors; active only beside sensitivities.
+  OrderFloor& order_floor() { return order_floor_; }
   /// For the quadrature of the work of all forces but gravity; must outlive the integration.
   void set_motion(const BodyMotion* motion) { motion_ = motion; }
   /// Discards stored derivatives, pivots and the last failure.
@@ -114,6 +117,7 @@ class IdasEquations {
   IdasSensitivities* sensitivities_ = nullptr;
   const BodyMotion* motion_ = nullptr;
   TurnFollower<double> turns_;
+  OrderFloor order_floor_;
   State<double> state_, direction_;
   std::optional<State<double>> counted_;
   VectorX<double> G_, dG_, Phi_, Phi_rate_;

@@ -103,6 +103,7 @@ Status IdasIntegrator::start(const std::vector<double>& parameters) {
 }
 
 void IdasIntegrator::start_sensitivities(const std::vector<double>& parameters) {
+  equations_.order_floor().set_active(with_sensitivities());
   if (!with_sensitivities()) {
     if (y_rho_) require(IDASensToggleOff(ida_.get()), "IDASensToggleOff");
     if (y_rho_) require(IDASetDeltaCjLSetup(ida_.get(), kDefaultDelta), "IDASetDeltaCjLSetup");
@@ -114,6 +115,10 @@ void IdasIntegrator::start_sensitivities(const std::vector<double>& parameters) 
     y_rho_ = std::make_unique<VectorArray>(count, y_.get());
     y_dot_rho_ = std::make_unique<VectorArray>(count, y_.get());
     psi_rho_ = std::make_unique<VectorArray>(count, psi_.get());
+    for (int k = 0; k < count; ++k) {
+      set_order_floor(y_rho_->get()[k], nullptr);
+      set_order_floor(y_dot_rho_->get()[k], nullptr);
+    }
     directions_.resize(to_index(count), initial_);
     scales_.resize(to_index(count));
   }
@@ -131,6 +136,7 @@ void IdasIntegrator::start_sensitivities(const std::vector<double>& parameters) 
   require(IDAQuadSensInit(ida_.get(), IdasEquations::sensitivity_integrand, psi_rho_->get()),
           "IDAQuadSensInit");
   require(IDASensEEtolerances(ida_.get()), "IDASensEEtolerances");
+  require(IDAQuadSensEEtolerances(ida_.get()), "IDAQuadSensEEtolerances");
 }
 
 /// Restarts IDAS at state_ and its sensitivities, at order one.
@@ -145,6 +151,7 @@ void IdasIntegrator::restart_solver() {
   require(IDASetDeltaCjLSetup(ida, 0.0), "IDASetDeltaCjLSetup");
   // A run without sensitivities in between switches this error test off.
   require(IDASetSensErrCon(ida, SUNTRUE), "IDASetSensErrCon");
+  require(IDASetQuadSensErrCon(ida, SUNTRUE), "IDASetQuadSensErrCon");
   require(IDASetSensParams(ida, nullptr, scales_.data(), nullptr), "IDASetSensParams");
 }
 

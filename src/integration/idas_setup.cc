@@ -44,6 +44,7 @@ void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEqu
   const Span<double> multipliers = multipliers_of(system, differential);
   std::fill(multipliers.begin(), multipliers.end(), 0.0);
   require(keep_last_message(ida, memory.context, memory.message), "keep_last_message");
+  set_order_floor(vectors.y, &equations->order_floor());
   require(IDAInit(ida, IdasEquations::residual, 0.0, vectors.y, vectors.y_dot), "IDAInit");
   require(IDASetUserData(ida, equations), "IDASetUserData");
   set_tolerances(memory, system, equations->size());

@@ -114,6 +114,16 @@ void LineDifferences::add(double h, double forward, double backward) {
   used_ = i;
 }
 
+// The changes of a smooth function fall by 16, on one side by 4; those beside |x|^(1/2) double.
+bool LineDifferences::diverges() const {
+  constexpr double kLeastRatio = 0.5, kLeastShare = 0.2;
+  if (levels_ < 3) return false;
+  const auto i = to_index(levels_ - 1);
+  const double last = table_[i][0] - table_[i - 1][0], before = table_[i - 1][0] - table_[i - 2][0];
+  return last * before > 0.0 && std::abs(last) > kLeastRatio * std::abs(before) &&
+         std::abs(last) > kLeastShare * std::abs(table_[i][0]);
+}
+
 double allowed_difference(const IndependentCheck& check, const CheckedLine& line, double objective,
                           double curvature) {
   return std::max({kOfGradient * check.size, kOfObjective * std::abs(objective) * line.per_range,

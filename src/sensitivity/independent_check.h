@@ -44,6 +44,10 @@ class LineDifferences {
   /// 0; infinite below two levels.
   double value() const { return value_; }
   double error() const { return error_; }
+  /// Whether the plain quotients grow from level to level up to the last one, by more than half
+  /// as much each time as before and by a fifth of their size: beside a singular design nothing
+  /// bounds what they grow to, and error() is none.
+  bool diverges() const;
   /// The shortest step that value() uses, and its plain quotient.
   double step() const { return steps_[used_]; }
   double quotient() const { return table_[used_][0]; }

@@ -31,10 +31,10 @@ template <int N>
 void SensitivityScale<N>::start(const CompiledSystem& system,
                                 const std::vector<Lanes<N>>& parameters) {
   const MotionStudy& study = system.study();
-  for (Array* all : {&x_, &v_, &psi_, &per_value_, &per_range_}) all->setZero();
+  for (Array* all : {&q_, &v_, &s_, &psi_, &per_value_, &per_range_}) all->setZero();
   // Of lanes without a parameter.
   per_range_.setConstant(1e-200);
-  q_square_ = v_square_ = 0.0;
+  q_square_ = v_square_ = s_square_ = 0.0;
   absolute_ = kAbsoluteShare * study.solver.absolute_tolerance;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double value = std::abs(value_of(parameters[i])),
@@ -51,8 +51,10 @@ void SensitivityScale<N>::measure(const IncrementLayout& at, const State<double>
                                   const Directions<N>& y) {
   q_square_ = std::max(q_square_, state.q.squaredNorm());
   v_square_ = std::max(v_square_, state.v.squaredNorm());
-  x_ = x_.max(squared_norms(y, at.x(), at.x_size));
+  s_square_ = std::max(s_square_, state.s.squaredNorm());
+  q_ = q_.max(squared_norms(y, at.x(), at.n));
   v_ = v_.max(squared_norms(y, at.v(), at.n));
+  s_ = s_.max(squared_norms(y, at.s(), at.states));
   psi_ = psi_.max(y.col(at.psi()).array().square());
 }
 
@@ -67,16 +69,20 @@ double SensitivityScale<N>::error(const IncrementLayout& at, const Attempt& atte
     return (error / size.max(least)).maxCoeff();
   };
   const Directions<N>&u = attempt.estimate, &y = attempt.end;
-  const double x = judge(squared_norms(u, at.x(), at.x_size),
-                         x_.max(squared_norms(y, at.x(), at.x_size)),
+  const double q = judge(squared_norms(u, at.x(), at.n), q_.max(squared_norms(y, at.x(), at.n)),
                          rounding.max(share * q_square_)),
                v = judge(squared_norms(u, at.v(), at.n), v_.max(squared_norms(y, at.v(), at.n)),
                          rounding.max(share * v_square_)),
+               // Bristles are micrometres beside joints that turn, and carry the whole friction.
+      s = at.states == 0
+              ? 0.0
+              : judge(squared_norms(u, at.s(), at.states),
+                      s_.max(squared_norms(y, at.s(), at.states)), floor.max(share * s_square_)),
                psi = judge(u.col(at.psi()).array().square(), psi_.max(attempt.psi.square()),
                            floor.max(share * square(attempt.objective)));
   // A derivative that is not finite at any step size is reported by the gradient.
-  const double largest = std::max({x, v, psi});
-  return std::isfinite(x + v + psi) ? std::sqrt(largest) / tolerance : 0.0;
+  const double largest = std::max({q, v, s, psi});
+  return std::isfinite(q + v + s + psi) ? std::sqrt(largest) / tolerance : 0.0;
 }
 
 double sensitivity_tolerance(const SolverOptions& options) {

@@ -16,8 +16,9 @@ struct SolverOptions;
 template <class T>
 struct State;
 
-/// The error test of sensitivities along N directions, doc/theory.md (18f). Positions, velocities
-/// and psi are judged apart, each direction in the scale of its own largest size so far.
+/// The error test of sensitivities along N directions, doc/theory.md (18f). Positions, velocities,
+/// extra states and psi are judged apart, each direction in the scale of its own largest size so
+/// far.
 template <int N>
 class SensitivityScale {
  public:
@@ -25,7 +26,7 @@ class SensitivityScale {
 
   /// What a step does to the sensitivities.
   struct Attempt {
-    const Directions<N>& end;       ///< at its end, positions and velocities
+    const Directions<N>& end;       ///< at its end, positions, extra states and velocities
     const Directions<N>& estimate;  ///< of its error
     Array psi;                      ///< psi' at its end
     double objective;               ///< psi at its beginning
@@ -39,11 +40,11 @@ class SensitivityScale {
   double error(const IncrementLayout& at, const Attempt& attempt, double tolerance) const;
 
  private:
-  Array x_, v_, psi_;            ///< squares of the largest sizes so far
+  Array q_, v_, s_, psi_;        ///< squares of the largest sizes so far
   Array per_value_, per_range_;  ///< squares of what a direction is in units of the parameters'
                                  ///< values and ranges
-  double q_square_ = 0.0, v_square_ = 0.0;  ///< of the motion itself
-  double absolute_ = 0.0;                   ///< an error over the range that does not count
+  double q_square_ = 0.0, v_square_ = 0.0, s_square_ = 0.0;  ///< of the motion itself
+  double absolute_ = 0.0;  ///< an error over the range that does not count
 };
 
 /// The tolerance of sensitivities in the error test of a run with gradient:

@@ -102,6 +102,22 @@ TEST(LineDifferences, TakeShortStepsBesideASingularPoint) {
   EXPECT_LT(fine.error(), 1e-2 * exact);
 }
 
+// With steps that are all longer than the distance to the singular point, quotients tell nothing,
+// and their last change is no error: the derivative is five times as large.
+TEST(LineDifferences, SayThatTheyDiverge) {
+  const auto f = [](double x) { return std::sqrt(std::abs(x + 1e-4)); };
+  const LineDifferences coarse = of(f, 0.01, 3);
+  EXPECT_GT(std::abs(coarse.value() - 50.0), coarse.error());
+  EXPECT_TRUE(coarse.diverges());
+  EXPECT_FALSE(of(f, 0.01, 8).diverges());
+  EXPECT_TRUE(of([](double x) { return std::sqrt(x); }, 0.01, 4, false).diverges());
+  for (const bool two_sided : {true, false}) {
+    EXPECT_FALSE(of([](double x) { return std::exp(9.0 * x); }, 0.1, 4, two_sided).diverges());
+    EXPECT_FALSE(of([](double x) { return std::abs(x); }, 0.1, 4, two_sided).diverges());
+    EXPECT_FALSE(of([](double x) { return 1e3 * x * x + x; }, 0.1, 4, two_sided).diverges());
+  }
+}
+
 TEST(LineDifferences, TakeTheLevelOfLeastRounding) {
   double sign = 1.0;
   const auto f = [&sign](double x) { return x + x * x * x + 1e-9 * (sign = -sign); };

@@ -148,6 +148,28 @@ TEST_P(ModeChangeTest, GradientsAreThoseOfClosedForms) {
   }
 }
 
+// idas does not locate switches: other steps are taken, and the study hears of it.
+TEST(ModeChange, IdasLeavesSwitchesToTheOtherIntegrator) {
+  const RobotDescription robot = read_urdf({"slide.urdf", kSlide});
+  for (const SwitchCase& test : switch_cases()) {
+    const std::string study = std::string("duration: 2.0\nsolver: {integrator: idas, ") +
+                              "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}" +
+                              test.study;
+    Warnings warnings;
+    const auto system = make_system(robot, read_study({"study.yaml", study}, robot), &warnings);
+    ASSERT_EQ(warnings.size(), 1U) << test.name;
+    EXPECT_EQ(warnings[0].code, "other_integrator") << test.name;
+    const Evaluation run =
+        evaluator_of(system).evaluate_design(system->parameters(), true, nullptr);
+    ASSERT_TRUE(run.status.ok()) << test.name << ": " << describe(run.status);
+    EXPECT_NEAR(run.objective, test.objective, 1e-7) << test.name;
+    for (std::size_t k = 0; k < test.gradient.size(); ++k)
+      EXPECT_NEAR(run.gradient[static_cast<Eigen::Index>(k)], test.gradient[k],
+                  1e-6 * std::max(1.0, std::abs(test.gradient[k])))
+          << test.name << ", parameter " << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Methods, ModeChangeTest,
     ::testing::Values(

@@ -28,6 +28,19 @@ TEST_P(RestGradientTest, IsThatOfTheClosedForm) {
   }
 }
 
+// The motion's errors are zero at every order of idas: sensitivities alone choose it.
+TEST(RestGradient, ByIdasIsThatOfTheClosedForm) {
+  for (const MotionAtRest& rest : motions_at_rest()) {
+    const auto system = rest.compile("integrator: idas");
+    const GradientRun run =
+        run_gradient(make_gradient_engine(*system).get(), *system, system->parameters());
+    ASSERT_TRUE(run.status.ok()) << rest.name << ": " << run.status.cause;
+    EXPECT_NEAR(run.gradient[0], rest.derivative, 2e-3 * rest.amplitude)
+        << rest.name << " in " << run.steps << " steps";
+    EXPECT_LT(run.steps, 10000) << rest.name;
+  }
+}
+
 // Differences of the objective see no step of the gradient.
 TEST(RestGradient, IsThatOfDifferences) {
   for (const MotionAtRest& rest : motions_at_rest()) {

@@ -83,6 +83,32 @@ TEST_F(SensitivityScaleTest, JudgesTheDerivativeOfTheIntegral) {
   EXPECT_NEAR(judge(0.0, 500.0), 1e-6 / 0.05 / 1e-4, 1e-6);
 }
 
+// Bristles are micrometres beside a joint that turns: an error of the size of their own
+// sensitivity counts whole.
+TEST(SensitivityScale, JudgesExtraStatesApartFromPositions) {
+  const GradientCase brush = from_texts(
+      "brush",
+      robot("<link name='mass'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+            "iyz='0' izz='1'/></inertial></link><joint name='turn' type='continuous'><parent "
+            "link='ground'/><child link='mass'/><axis xyz='0 0 1'/><codesign:friction "
+            "model='lugre' mu_static='0.3' mu_dynamic='0.3' transition_velocity='0.0005' "
+            "joint_length='0.05' pin_radius='0.01'/></joint>"),
+      "duration: 1.0\ninitial_state: {turn: {velocity: \"${a}\"}}\nparameters: {a: {initial: 1, "
+      "lower: 0, upper: 10}}\nobjective: {terminal: [{signal: turn/position}]}\n");
+  const auto system = brush.compile("auto", "direct");
+  const IncrementLayout at(system->layout());
+  ASSERT_GT(at.states, 0);
+  std::vector<Lanes<4>> parameters(1, Lanes<4>(1.0));
+  parameters[0].v[0] = 1.0;
+  SensitivityScale<4> scale;
+  scale.start(*system, parameters);
+  Directions<4> y(at.size()), e(at.size());
+  y.col(at.x())[0] = 100.0;
+  y.col(at.s())[0] = 1e-4;
+  e.col(at.s())[0] = 1e-7;
+  EXPECT_NEAR(scale.error(at, {y, e, Eigen::Array4d::Zero(), 0.0}, 1e-3), 1.0, 1e-9);
+}
+
 TEST(SensitivityTolerance, FollowsTheRelativeOneToFiveDigits) {
   SolverOptions options;
   const auto at = [&options](double relative) {
