@@ -147,9 +147,10 @@ TEST(Convergence, AFailedTrialLeavesItsNumbersEmpty) {
   trial.evaluation = 2;
   trial.status.code = StatusCode::kAssemblyFailed;
   trial.best_objective = 0.25;
+  trial.events = 3;
   trial.rho = Eigen::Vector2d(1.0, 0.5);
-  EXPECT_EQ(convergence_row(trial),
-            (std::vector<std::string>{"2", "0", "assembly_failed", "", "0.25", "", "1", "0.5"}));
+  EXPECT_EQ(convergence_row(trial), (std::vector<std::string>{"2", "0", "assembly_failed", "",
+                                                              "0.25", "", "3", "1", "0.5"}));
   EXPECT_EQ(convergence_columns({"a", "b"}).size(), convergence_row(trial).size());
 }
 

@@ -211,8 +211,8 @@ class Report(unittest.TestCase):
         text, page = self.made_page("switched")
         self.check_numbers("switched", page)
         marks = [attributes for tag, attributes in page.tags if tag == "path" and attributes.get("class") in ("tuned mark", "initial mark")]
-        charts = [attributes for tag, attributes in page.tags if tag == "svg" and attributes.get("aria-label", "").endswith("before and after")]
-        self.assertEqual(len(marks), 2 * len(charts))
+        self.assertGreater(len(marks), 0)
+        self.assertEqual(len(marks), 2 * text.count(">time [s]</text>"), "both designs in each chart over the time")
         self.assertEqual({attributes["d"].count("M") for attributes in marks}, {4}, "0.1, 0.2 (of both loads), 0.3 and 0.4 s")
         self.assertIn("t < 0.2", page.text)
         self.assertIn("Events per run", page.text)
