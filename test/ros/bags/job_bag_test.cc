@@ -185,7 +185,8 @@ TEST_F(JobBag, DescriptionsAndPlacesAreLatched) {
                         connection->topic.find("_states") != std::string::npos ||
                         connection->topic.find("_errors") != std::string::npos ||
                         connection->topic.find("_markers") != std::string::npos ||
-                        connection->datatype == "mechanism_codesign/Signals";
+                        connection->datatype == "mechanism_codesign/Signals" ||
+                        connection->datatype == "mechanism_codesign/Event";
     EXPECT_NE(is_latched, is_run) << connection->topic;
   }
 }
@@ -207,7 +208,8 @@ TEST_F(JobBag, TheWorstRunHasTheTopicsOfTheNominalOneBelowItsName) {
     EXPECT_EQ(count, nominal[is_worst ? topic.substr(6) : topic]) << topic;
     if (is_worst) ++below;
   }
-  EXPECT_EQ(below, 2U * 7U + 2U) << "six topics and the description of each design, tf and caption";
+  EXPECT_EQ(below, 2U * 9U + 2U)
+      << "six topics, two of events and the description of each design, tf and caption";
   rosbag::View text(bag, rosbag::TopicQuery("worst/tuned/robot_description"));
   EXPECT_EQ(text.begin()->instantiate<std_msgs::String>()->data, "<robot name='worst'/>");
 }
