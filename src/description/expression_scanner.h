@@ -29,6 +29,8 @@ class ExpressionScanner {
   }
 
   const ExpressionToken& token() const { return token_; }
+  /// Where the token before it ends.
+  std::size_t behind_last() const { return behind_last_; }
   bool is(const char* symbol) const {
     return token_.kind == ExpressionToken::Kind::kSymbol && token_.text == symbol;
   }

@@ -58,8 +58,8 @@ class Integrator {
 
   virtual Equations<double>& equations() = 0;
   virtual Assembly& assembly() = 0;
-  /// Whether formulas may switch at the end of the last step, so that accelerations, multipliers and
-  /// what depends on them may jump there: the next step begins with other ones.
+  /// Whether formulas may switch at the end of the last step, so that accelerations, multipliers
+  /// and what depends on them may jump there: the next step begins with other ones.
   virtual bool ends_at_switch() const { return false; }
   /// Whether runs look for singular positions that they pass, doc/theory.md (17b), to report in
   /// warnings(); from the next start() on.

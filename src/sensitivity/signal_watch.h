@@ -99,9 +99,8 @@ class SignalWatch {
   const WatchLayout layout_;
   ControlClock clock_;
   bool begins_at_jump_ = false,
-       ends_at_jump_ =
-           false;  ///< whether sampled controllers act, or formulas switch, at the begin and at the
-                   ///< end of the last step
+       ends_at_jump_ = false;  ///< whether sampled controllers act, or formulas switch, at the
+                               ///< begin and at the end of the last step
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
   std::vector<Curve> curves_;
