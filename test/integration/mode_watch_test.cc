@@ -12,7 +12,7 @@
 namespace codesign {
 namespace {
 
-std::string study(const std::string& load, const std::string& more = "") {
+std::string loaded_study(const std::string& load, const std::string& more = "") {
   return "duration: 2.0\ngravity: [0, 0, 0]\nloads: [{joint: slide, effort: \"" + load + "\"}]\n" +
          more;
 }
@@ -25,7 +25,7 @@ const char* const kTightTolerances =
 // 6 N on 2 kg from an instant on: the speed is exact, since no step crosses it.
 TEST(ModeWatch, AStepOfTimeIsMetToRounding) {
   const std::string load = "${t < 0.7153 ? 0 : 6}";
-  EXPECT_NEAR(end_of(slide(), study(load), 2.0, {"slide/velocity"})[0], 3.0 * (2.0 - 0.7153),
+  EXPECT_NEAR(end_of(slide(), loaded_study(load), 2.0, {"slide/velocity"})[0], 3.0 * (2.0 - 0.7153),
               1e-12);
 }
 
@@ -33,7 +33,7 @@ TEST(ModeWatch, AStepOfTimeIsMetToRounding) {
 TEST(ModeWatch, TwoCrossingsWithinAStepAreSeen) {
   const std::string load = "${abs(slide/position - 0.4) < 1.0e-4 ? 2000 : 0}",
                     start = "initial_state: {slide: {velocity: 1.0}}\n";
-  EXPECT_NEAR(end_of(slide(), study(load, start), 2.0, {"slide/velocity"})[0],
+  EXPECT_NEAR(end_of(slide(), loaded_study(load, start), 2.0, {"slide/velocity"})[0],
               std::sqrt(1.0 + 2.0 * 0.4 / 2.0), 1e-8);
 }
 
@@ -52,8 +52,8 @@ TEST(ModeWatch, ARelaySwitchesAtEachPassage) {
 TEST(ModeWatch, AMotionThatIsHeldAtASwitchHasAStatus) {
   const auto system = make_system(
       read_urdf({"slide.urdf", slide()}),
-      read_study({"study.yaml",
-                  study("${-3*sign(slide/velocity)}", "initial_state: {slide: {velocity: 1.0}}\n")},
+      read_study({"study.yaml", loaded_study("${-3*sign(slide/velocity)}",
+                                             "initial_state: {slide: {velocity: 1.0}}\n")},
                  read_urdf({"slide.urdf", slide()})));
   RosenbrockIntegrator integrator(*system);
   Status status = integrator.start(system->parameters());
@@ -71,7 +71,8 @@ Status moving_status(const std::string& load) {
   const RobotDescription model = read_urdf({"slide.urdf", slide()});
   const auto system = make_system(
       model,
-      read_study({"study.yaml", study(load, "initial_state: {slide: {velocity: 1.0}}\n")}, model));
+      read_study({"study.yaml", loaded_study(load, "initial_state: {slide: {velocity: 1.0}}\n")},
+                 model));
   RosenbrockIntegrator integrator(*system);
   Status status = integrator.start(system->parameters());
   while (status.ok() && integrator.state().t < 2.0) status = integrator.advance(2.0);
@@ -97,9 +98,10 @@ TEST(ModeWatch, AGuardThatIsNotAskedForBehindASwitchNeedsNoValue) {
 // The mode of every step is that of its beginning, and none is left without a switch.
 TEST(ModeWatch, SystemsWithoutSwitchesHaveNoMode) {
   const RobotDescription model = read_urdf({"slide.urdf", slide()});
-  const auto plain = make_system(model, read_study({"study.yaml", study("${3*sin(5*t)}")}, model)),
-             switched =
-                 make_system(model, read_study({"study.yaml", study("${max(0, t - 1)}")}, model));
+  const auto plain = make_system(model,
+                                 read_study({"study.yaml", loaded_study("${3*sin(5*t)}")}, model)),
+             switched = make_system(
+                 model, read_study({"study.yaml", loaded_study("${max(0, t - 1)}")}, model));
   EXPECT_FALSE(plain->has_switches());
   ASSERT_TRUE(switched->has_switches());
   RosenbrockIntegrator integrator(*switched);
