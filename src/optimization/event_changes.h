@@ -24,7 +24,7 @@ class EventChanges {
                     const Eigen::VectorXd& ranges, const std::string& file) const;
 
  private:
-  static constexpr std::size_t kKept = 50;
+  static constexpr std::size_t kKept = 500;
 
   struct Neighbour {
     Eigen::VectorXd rho;

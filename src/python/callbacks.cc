@@ -15,7 +15,7 @@ Tell Told::tell() {
 bool Told::call(const std::string& line, const Json& fields) {
   const Locked locked;
   try {
-    progress_(line, to_python(fields));
+    outlive_python([&] { progress_(line, to_python(fields)); });
     return true;
   } catch (py::error_already_set& error) {
     interruption_->fail(std::move(error));

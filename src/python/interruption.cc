@@ -106,7 +106,8 @@ void EventWatch::watch(py::handle event, Interruption* interruption) {
     {
       const Locked locked;
       try {
-        const int is_set = PyObject_IsTrue(event.attr("is_set")().ptr());
+        const int is_set =
+            outlive_python([&] { return PyObject_IsTrue(event.attr("is_set")().ptr()); });
         if (is_set < 0) throw py::error_already_set();
         if (is_set > 0) interruption->stop();
       } catch (py::error_already_set& error) {

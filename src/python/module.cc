@@ -268,7 +268,6 @@ void add_jobs(py::module_* module) {
 
 void add_session(py::module_* module) {
   made_here<RunNotes>(module, "RunNotes").def("record", &RunNotes::record);
-  module->def("open", &open);
   made_here<Session>(module, "Session")
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("joints", &joints)
@@ -302,6 +301,7 @@ void add_session(py::module_* module) {
           return identify(of.problem(), arrays, tell, stop);
         });
       });
+  module->def("open", &open);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(JobFolder, AFailedTrialLeavesItsNumbersEmpty) {
   trial.rho = problem.start();
   job.add(trial);
   const std::string text = read_text_file(folder.path("job/convergence.csv"));
-  EXPECT_NE(text.find("\n2,1,assembly_failed,,0.25,,0.08,0.3,0.05,0.025,1\n"), std::string::npos)
+  EXPECT_NE(text.find("\n2,1,assembly_failed,,0.25,,0,0.08,0.3,0.05,0.025,1\n"), std::string::npos)
       << text;
 }
 

@@ -39,7 +39,7 @@ TEST(EventChanges, WarnsOfOtherEventsOrAnotherOrderBesideTheBestPoint) {
 TEST(EventChanges, OnlyTheLastPointsCount) {
   EventChanges changes;
   changes.note(kBest, {{}, 1, "a"});
-  for (int k = 0; k < 50; ++k) changes.note(kBest, {{}, 2, "b"});
+  for (int k = 0; k < 500; ++k) changes.note(kBest, {{}, 2, "b"});
   EXPECT_TRUE(changes.warnings(kBest, {{}, 2, "b"}, kRanges, "study.yaml").empty());
 }
 

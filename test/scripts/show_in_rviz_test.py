@@ -93,7 +93,7 @@ class ShowInRviz(unittest.TestCase):
             for display in config["Visualization Manager"]["Displays"]:
                 if display["Name"] == "Initial mechanism":
                     self.assertEqual(display.pop("Alpha"), 1 if config is replay else 0.3)
-                if display["Name"] == "Initial friction":
+                if display["Name"] in ("Initial friction", "Initial events"):
                     self.assertEqual((display.pop("Enabled"), display.pop("Value")), (config is replay,) * 2)
         self.assertEqual(overlay, replay)
 
