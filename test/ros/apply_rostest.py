@@ -12,7 +12,6 @@ import tempfile
 import threading
 import unittest
 
-import roslib.packages
 import rosnode
 import rospy
 import rostest
@@ -21,7 +20,7 @@ from std_msgs.msg import Empty, Float64
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mock_robot import START, MockGains, MockJoints  # noqa: E402
-from node_process import PATIENCE, NodesTestCase, wait_until  # noqa: E402
+from node_process import PATIENCE, NodesTestCase, program_path, wait_until  # noqa: E402
 
 MODEL = """<robot name="arm">
   <link name="base"/>
@@ -55,7 +54,7 @@ BEFORE = {name: START[name] for name in ("p", "i", "d")}
 
 
 def program():
-    return roslib.packages.find_node("mechanism_codesign", "codesign")[0]
+    return program_path("codesign")
 
 
 class ApplyTest(NodesTestCase):

@@ -24,6 +24,21 @@ from patience import PATIENCE, wait_until  # noqa: E402,F401
 SHARE = rospkg.RosPack().get_path("mechanism_codesign")
 
 
+def program_path(name):
+    """Of one of our programs. find_node walks through the package's folder and fails where a file vanishes meanwhile, such as one of another test."""
+    found = []
+
+    def is_found():
+        try:
+            found[:] = roslib.packages.find_node("mechanism_codesign", name)
+        except FileNotFoundError:
+            return False
+        return True
+
+    wait_until(is_found, f"{name} is not found")
+    return found[0]
+
+
 class Node:
     """One node with its own name and the given parameters. `model`: a shipped case, or the path of a URDF. `prefix`: the words of a launch-prefix."""
 
@@ -36,7 +51,7 @@ class Node:
         self.log = tempfile.TemporaryFile("w+")
         remappings = [f"{topic}:=/{name}/{topic}" for topic in
                       ("optimize", "evaluate", "identify", "apply", "optimization_progress", "identification_progress", "identified/robot_description")]
-        path = roslib.packages.find_node("mechanism_codesign", program)[0]
+        path = program_path(program)
         self.process = subprocess.Popen([*prefix, path, f"__name:={name}", *remappings], stdout=self.log, stderr=subprocess.STDOUT)
 
     def optimize(self, request):

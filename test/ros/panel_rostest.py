@@ -13,14 +13,13 @@ import unittest
 import urllib.error
 import urllib.request
 
-import roslib.packages
 import rospy
 import rostest
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "scripts")]
 import browser  # noqa: E402
-from node_process import PATIENCE, SHARE, Node, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, Node, program_path, wait_until  # noqa: E402
 from robot_node import Robot, time_in  # noqa: E402
 
 
@@ -71,7 +70,7 @@ class PanelTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.robot = Robot()
-        path = roslib.packages.find_node("mechanism_codesign", "panel")[0]
+        path = program_path("panel")
         environment = {**os.environ, "ROS_NAMESPACE": "/robot"}
         cls.panel = subprocess.Popen([path, "--port", "0", "--optimization", "/job"] + [
             f"{topic}:=/job/{topic}" for topic in ("optimization_progress", "identification_progress", *(
@@ -178,7 +177,7 @@ class PanelTest(unittest.TestCase):
         self.start_jobs("slider_crank_identify")
         self.page.done("identify")
         self.page.wait(lambda state: state["job"]["result"] and "slider_crank_identify.csv" in state["job"]["result"]["message"], "the missing recording is not told")
-        codesign = roslib.packages.find_node("mechanism_codesign", "codesign")[0]
+        codesign = program_path("codesign")
         run = f"{self.folder}/run.csv"
         subprocess.run([codesign, "simulate", f"{SHARE}/urdf/slider_crank_identify.urdf", f"{self.folder}/study.yaml", "--set", "mu_static=0.4", "--quiet",
                         "--signals", "crank_joint/velocity,crank_joint/effort", "--samples", "3001", "--csv", run], check=True, stdout=subprocess.DEVNULL)

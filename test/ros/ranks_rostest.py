@@ -9,14 +9,13 @@ import sys
 import threading
 import unittest
 
-import roslib.packages
 import rosbag
 import rospy
 import rostest
 from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, SHARE, Launch, NodesTestCase, files, state_of, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, Launch, NodesTestCase, files, program_path, state_of, wait_until  # noqa: E402
 
 CASE = "pendulum_robust"
 FEW = OptimizeRequest(max_evaluations=2)
@@ -26,7 +25,7 @@ os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1"
 
 
 def has_mpi():
-    node = roslib.packages.find_node("mechanism_codesign", "optimization")[0]
+    node = program_path("optimization")
     return shutil.which("mpirun") and b"libmpi" in subprocess.run(["ldd", node], stdout=subprocess.PIPE, check=True).stdout
 
 

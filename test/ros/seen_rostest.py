@@ -8,7 +8,6 @@ import sys
 import threading
 import urllib.request
 
-import roslib.packages
 import rospy
 import rostest
 from mechanism_codesign.msg import OptimizationProgress, Scene
@@ -19,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, Launch, NodesTestCase, listeners, study_of, wait_until  # noqa: E402
+from node_process import PATIENCE, Launch, NodesTestCase, listeners, program_path, study_of, wait_until  # noqa: E402
 
 LONG, SECONDS = OptimizeRequest(relative_tolerance=1e-15, max_evaluations=100000), 100.0  # of a run: minutes of computing
 # A pendulum without a visual.
@@ -41,7 +40,7 @@ class Watch:
     """The program watch, and its page."""
 
     def __init__(self, name):
-        path = roslib.packages.find_node("mechanism_codesign", "watch")[0]
+        path = program_path("watch")
         remappings = [f"{topic}:=/{name}/{topic}" for topic in ("optimization_progress", "identification_progress")]
         self.process = subprocess.Popen([path, "--port", "0", *remappings], stdout=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().split()[0]
@@ -166,7 +165,7 @@ class SeenTest(NodesTestCase):
                 launch.end()
 
     def test_an_overlay_of_what_has_none_is_refused(self):
-        path = roslib.packages.find_node("mechanism_codesign", "play_bag")[0]
+        path = program_path("play_bag")
         import rosbag
         with rosbag.Bag(f"{self.folder}/old.bag", "w") as bag:
             bag.write("labels", String("an old one"), rospy.Time(1))
