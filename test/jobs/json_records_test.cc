@@ -35,6 +35,7 @@ TEST(ParameterRecords, TellWhatLiesOnABound) {
 TEST(ParameterRecords, TheGradientAgreesWithItsReference) {
   const Problem problem = pendulum();
   const Json check = gradient_check_json(problem, result_at(problem, 0.5, 1.0), nullptr);
+  if (check.contains("skipped")) GTEST_SKIP() << "a slow machine leaves the check out";
   EXPECT_EQ(check["method"], "complex_step");
   EXPECT_EQ(check["gradient"].size(), 2U);
   EXPECT_EQ(check["directions"], 1);

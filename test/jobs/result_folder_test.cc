@@ -102,9 +102,13 @@ TEST_F(TakenAway, EveryFileIsThere) {
   EXPECT_EQ(details["files"]["study"], "pendulum.yaml");
   for (const char* side : {"initial", "tuned"})
     EXPECT_EQ(details[side]["status"]["code"], "success") << side;
-  const Json& check = details.at("gradient_check").at("largest_relative_difference");
-  ASSERT_TRUE(check.is_number()) << details.at("gradient_check").dump();
-  EXPECT_LT(check.get<double>(), 1e-8);
+  // A slow machine leaves the check out, and says so.
+  const Json& check = details.at("gradient_check");
+  if (check.contains("skipped"))
+    EXPECT_NE(check["skipped"].get<std::string>().find("it would take about"), std::string::npos)
+        << check.dump();
+  else
+    EXPECT_LT(check.at("largest_relative_difference").get<double>(), 1e-8) << check.dump();
 }
 
 /// So that job_study.yaml finds them.

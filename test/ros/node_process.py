@@ -25,18 +25,10 @@ SHARE = rospkg.RosPack().get_path("mechanism_codesign")
 
 
 def program_path(name):
-    """Of one of our programs. find_node walks through the package's folder and fails where a file vanishes meanwhile, such as one of another test."""
-    found = []
-
-    def is_found():
-        try:
-            found[:] = roslib.packages.find_node("mechanism_codesign", name)
-        except FileNotFoundError:
-            return False
-        return True
-
-    wait_until(is_found, f"{name} is not found")
-    return found[0]
+    """Of one of our programs or scripts. find_node walks through the package's folder, and a build there that is not done stops it."""
+    folders = [os.path.join(prefix, "lib", "mechanism_codesign") for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)]
+    found = [path for path in (os.path.join(folder, name) for folder in [*folders, os.path.join(SHARE, "scripts")]) if os.access(path, os.X_OK)]
+    return found[0] if found else roslib.packages.find_node("mechanism_codesign", name)[0]
 
 
 class Node:
