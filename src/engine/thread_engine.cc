@@ -91,8 +91,8 @@ ThreadEngine::~ThreadEngine() {
 std::vector<Evaluation> ThreadEngine::evaluate(const std::vector<EvaluationTask>& tasks,
                                                const std::atomic<bool>* cancel) {
   if (tasks.empty()) return {};
-  Batch batch{tasks, cancel, std::vector<Evaluation>(tasks.size()), 0, 0, nullptr};
   if (threads_.empty()) return alone_.evaluate(tasks, cancel);
+  Batch batch{tasks, cancel, std::vector<Evaluation>(tasks.size()), 0, 0, nullptr};
   std::unique_lock<std::mutex> lock(mutex_);
   batches_.push_back(&batch);
   has_work_.notify_all();

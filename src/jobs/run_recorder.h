@@ -90,9 +90,9 @@ struct RunSummary {
   std::vector<LimitCrossing> crossings;  ///< found at the sampled instants
   Events events;                         ///< Simulation::events()
   Warnings warnings;                     ///< Simulation::warnings()
-  /// The study's objective; empty if the study has none or a peak, or if the run does not end at
-  /// the study's duration.
-  double end = 0.0;  ///< of the run [s]
+  double end = 0.0;                      ///< of the run [s]
+  /// The study's objective; empty if the study has none or a peak, or if the run stops before its
+  /// end.
   std::optional<double> objective;
 };
 

@@ -34,8 +34,9 @@ TEST(ParameterRecords, TellWhatLiesOnABound) {
 
 TEST(ParameterRecords, TheGradientAgreesWithItsReference) {
   const Problem problem = pendulum();
-  const Json check = gradient_check_json(problem, result_at(problem, 0.5, 1.0), nullptr);
-  if (check.contains("skipped")) GTEST_SKIP() << "a slow machine leaves the check out";
+  OptimizationResult result = result_at(problem, 0.5, 1.0);
+  result.cost.statistics.cpu_seconds = 0.0;  // else a slow machine leaves the check out
+  const Json check = gradient_check_json(problem, result, nullptr);
   EXPECT_EQ(check["method"], "complex_step");
   EXPECT_EQ(check["gradient"].size(), 2U);
   EXPECT_EQ(check["directions"], 1);

@@ -91,6 +91,7 @@ TEST_F(TakenAway, TheFilesAloneReproduceBothObjectives) {
 }
 
 TEST_F(TakenAway, EveryFileIsThere) {
+  result_.cost.statistics.cpu_seconds = 0.0;  // else a slow machine leaves the check out
   EXPECT_TRUE(folder_.write_design(to_text(optimization_json(problem_, result_)), result_).empty());
   EXPECT_TRUE(folder_.write_runs(result_, nullptr).empty());
   for (const std::string& name : ResultFolder::file_names()) {
@@ -102,13 +103,9 @@ TEST_F(TakenAway, EveryFileIsThere) {
   EXPECT_EQ(details["files"]["study"], "pendulum.yaml");
   for (const char* side : {"initial", "tuned"})
     EXPECT_EQ(details[side]["status"]["code"], "success") << side;
-  // A slow machine leaves the check out, and says so.
   const Json& check = details.at("gradient_check");
-  if (check.contains("skipped"))
-    EXPECT_NE(check["skipped"].get<std::string>().find("it would take about"), std::string::npos)
-        << check.dump();
-  else
-    EXPECT_LT(check.at("largest_relative_difference").get<double>(), 1e-8) << check.dump();
+  ASSERT_TRUE(check.contains("largest_relative_difference")) << check.dump();
+  EXPECT_LT(check["largest_relative_difference"].get<double>(), 1e-8);
 }
 
 /// So that job_study.yaml finds them.
