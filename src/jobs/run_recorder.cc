@@ -98,6 +98,7 @@ void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watch
 
 std::vector<SignalDescription> signals_in(const std::vector<ShownSignal>& shown) {
   std::vector<SignalDescription> signals;
+  signals.reserve(shown.size());
   for (const ShownSignal& signal : shown) signals.push_back(signal.signal);
   return signals;
 }
