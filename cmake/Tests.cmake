@@ -149,6 +149,8 @@ add_test(NAME features COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/s
 # Forty of the random hybrid studies; --studies 200 compares all. doc/testing.md
 add_test(NAME hybrid COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/hybrid/hybrid_test.py $<TARGET_FILE:codesign>)
 add_test(NAME hybrid_solver COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/hybrid/event_solver_test.py)
+# Motions whose objective has a formula, several ways each. doc/events.md
+add_test(NAME closed_forms COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/hybrid/closed_forms_test.py $<TARGET_FILE:codesign>)
 add_test(NAME json_schema COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/json_schema_test.py $<TARGET_FILE:codesign>)
 add_test(NAME pages COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/pages_test.py)
 add_test(NAME readme COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/readme_test.py $<TARGET_FILE:codesign>)

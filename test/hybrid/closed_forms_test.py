@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Objective and gradient of `codesign gradient` against closed forms, in several ways of computing them.
+Usage: closed_forms_test.py CODESIGN [--write]      --write: the table of doc/events.md from what is computed now"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from closed_forms import CASES  # noqa: E402
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "doc" / "events.md"
+TIGHT = "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10"
+# name: (options of the solver, relative error that is allowed)
+WAYS = {"default": ("", 2e-4), "joint": (TIGHT, 2e-6), "absolute": (TIGHT + ", coordinates: absolute", 2e-6), "implicit": (TIGHT + ", method: rodas5p", 2e-6),
+        "idas": (TIGHT + ", integrator: idas", 1e-5), "adjoint": (TIGHT + ", gradient: adjoint", 2e-6)}
+Answer = collections.namedtuple("Answer", "value gradient events")
+
+
+def errors(case, answer):
+    """(relative error of the objective, largest one of the gradient). A derivative that hardly counts, by the parameter's own size, is compared with those that do."""
+    value, gradient = case.expected()
+    size = {name: max(abs(number), 1e-3 * (upper - lower)) for name, (number, lower, upper) in case.numbers.items()}
+    most = max(abs(gradient[name]) * size[name] for name in gradient)
+    return (abs(answer.value - value) / abs(value),
+            max(abs(answer.gradient[name] - gradient[name]) / max(abs(gradient[name]), 1e-3 * most / size[name]) for name in gradient))
+
+
+def evaluate(codesign, case, solver):
+    with tempfile.TemporaryDirectory() as folder:
+        model, study = pathlib.Path(folder, "model.urdf"), pathlib.Path(folder, "study.yaml")
+        model.write_text(case.model_text(), encoding="utf-8")
+        study.write_text(case.study_text(solver), encoding="utf-8")
+        done = subprocess.run([codesign, "gradient", model, study, "--json", "--quiet"], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{case.name} ({solver}): {done.stderr}")
+    answer = json.loads(done.stdout)
+    return Answer(answer["objective"], answer["gradient"], answer.get("event_count", 0))
+
+
+def row(case, answers):
+    value, gradient = case.expected()
+    listed = ", ".join(f"{name} {derivative:.10g}" for name, derivative in gradient.items())
+    cells = [f"{errors(case, answers[way])[1]:.0e}" for way in WAYS]
+    return f"| {case.name} | {answers['default'].events} | {value:.10g} | {listed} | " + " | ".join(cells) + " |"
+
+
+def table(rows):
+    head = "| motion | events | objective | gradient | " + " | ".join(f"`{way}`" for way in WAYS) + " |"
+    return "\n".join([head, "|---|---:|---:|---|" + "---:|" * len(WAYS), *rows])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("codesign")
+    parser.add_argument("--write", action="store_true")
+    given = parser.parse_args()
+    codesign, faults, rows = os.path.abspath(given.codesign), [], []
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        runs = {(case.name, way): pool.submit(evaluate, codesign, case, solver) for case in CASES for way, (solver, _) in WAYS.items()}
+        for case in CASES:
+            answers = {way: runs[case.name, way].result() for way in WAYS}
+            for way, (_, allowed) in WAYS.items():
+                for what, error in zip(("objective", "gradient"), errors(case, answers[way])):
+                    if not error < allowed:
+                        faults.append(f"{case.name}, {way}: the {what} is off by {error:.1e}, {allowed:.0e} is allowed: {answers[way]} for {case.expected()}")
+            rows.append(row(case, answers))
+    text = PAGE.read_text(encoding="utf-8")
+    if given.write:
+        begin = text.index("| motion | events |")
+        PAGE.write_text(text[:begin] + table(rows) + text[re.compile(r"\n(?!\|)").search(text, begin).start():], encoding="utf-8")
+    elif re.findall(r"^\| (a\w* [^|]+) \|", text, re.MULTILINE) != [case.name for case in CASES]:
+        faults.append("the table of doc/events.md lists other motions: closed_forms_test.py CODESIGN --write")
+    print("\n".join(faults) or f"{len(CASES)} closed forms agree, each in {len(WAYS)} ways")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
