@@ -84,8 +84,12 @@ target_include_directories(codesign_ros SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/inc
 target_link_libraries(codesign_ros PUBLIC codesign_core codesign_bags ${catkin_LIBRARIES} PRIVATE yaml-cpp)
 codesign_warnings(codesign_ros)
 codesign_optimize_little(codesign_ros)
-# One unit: two of them, with a precompiled header, parsed and instantiated most of it twice.
-codesign_unite(codesign_ros ros ${ros_sources})
+# Two units, so that an edit of one source compiles in less than 20 s; together they take a fifth longer than one would.
+set(ros_requests ${ros_sources})
+list(FILTER ros_requests INCLUDE REGEX "/src/ros/(apply|jobs)/")
+list(REMOVE_ITEM ros_sources ${ros_requests})
+codesign_unite(codesign_ros ros_runs ${ros_sources})
+codesign_unite(codesign_ros ros_requests ${ros_requests})
 codesign_sanitize(codesign_ros)
 codesign_precompile_files(codesign_ros <ros/ros.h>)
 
