@@ -121,7 +121,7 @@ class Multistart {
         results[k].total.status.code = StatusCode::kCancelled;
         return;
       }
-      if (all_met(study_, parameter_rows_.margins(round[k])))
+      if (may_begin(study_, parameter_rows_.margins(round[k])))
         results[k] = ensemble_.evaluate(round[k], false, cancel_);
       if (results[k].values.size() > 0) meter_.count_point();
     });
