@@ -71,6 +71,15 @@ Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
     : Ensemble({own_run(std::move(system))}, RobustOptions{},
                make_engine({EngineKind::kSerial, 0}, 1)) {}
 
+Ensemble Ensemble::with(Scenario scenario) const {
+  std::vector<Scenario> all = scenarios_;
+  const double sum = 1.0 + scenario.weight;
+  scenario.sample = all.back().sample + 1;
+  all.push_back(std::move(scenario));
+  for (Scenario& one : all) one.weight /= sum;
+  return Ensemble(std::move(all), options_, engine_);
+}
+
 std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios,
                                      const Eigen::VectorXd& rho, Derivatives derivatives) {
   std::vector<EvaluationTask> tasks;

@@ -40,6 +40,8 @@ class Ensemble {
   /// @param designs the largest number of designs evaluated at the same time. @param records memory
   /// and counts of the job.
   explicit Ensemble(const Problem& problem, int designs = 1, EngineRecords records = {});
+  /// The same with one scenario more; the weights are scaled to the sum 1.
+  Ensemble with(Scenario scenario) const;
   /// Takes the run of a compiled study as the only scenario.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 

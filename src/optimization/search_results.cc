@@ -265,6 +265,23 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
   result->termination = name_of(failure.code);
 }
 
+Scenario scenario_of(const Problem& problem, const ScenarioResult& result) {
+  const std::vector<Parameter>& parameters = study_of(problem).parameters;
+  std::vector<Scenario> known = make_scenarios(problem);
+  Scenario scenario = *std::find_if(known.begin(), known.end(), [&](const Scenario& one) {
+    return one.run == result.run && one.friction_law == result.friction_law;
+  });
+  scenario.sample = result.sample;
+  scenario.weight = result.weight;
+  scenario.values.clear();
+  for (const auto& [name, value] : result.values) {
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [&name = name](const Parameter& p) { return p.name == name; });
+    scenario.values.emplace_back(static_cast<int>(found - parameters.begin()), value);
+  }
+  return scenario;
+}
+
 std::string stop_sentence(const OptimizationResult& result) {
   if (!std::isfinite(result.optimality.stationarity)) return "";
   const std::string to = readable(result.optimality.stationarity, 2);

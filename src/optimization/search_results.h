@@ -20,6 +20,9 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
                         const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result);
 
+/// The scenario that a result describes; one that was added to the samples of the problem, too.
+Scenario scenario_of(const Problem& problem, const ScenarioResult& result);
+
 /// Warnings about a finished search: `max_evaluations_reached`, `not_stationary`,
 /// `parameter_on_bound`, `parameter_without_influence`, `flat_direction`.
 Warnings search_warnings(const Study& study, const OptimizerOptions& options,
