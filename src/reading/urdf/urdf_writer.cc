@@ -112,11 +112,31 @@ void fill_in_twins(XmlDocument* document) {
   write_twins(document->robot(), "robot", {*document, ParameterTable(parameters), values});
 }
 
-std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws) {
+namespace {
+
+/// Notes where the elements of a printed document came from. @param printed, original the same
+/// element of both.
+void note_origins(const XMLElement* printed, const XMLElement* original,
+                  const XmlDocument& document, std::vector<SourceLocation>* origins) {
+  const auto line = to_index(printed->GetLineNum());
+  if (origins->size() < line) origins->resize(line);
+  if ((*origins)[line - 1].line == 0) (*origins)[line - 1] = document.location(original);
+  const XMLElement* from = original->FirstChildElement();
+  for (const XMLElement* child = printed->FirstChildElement(); child != nullptr && from != nullptr;
+       child = child->NextSiblingElement(), from = from->NextSiblingElement())
+    note_origins(child, from, document, origins);
+}
+
+}  // namespace
+
+SourceText write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                             const Laws& laws) {
   XmlDocument document = load_annotated_urdf(urdf, overlays, laws, PlainNumbers::kFilledIn);
-  read_robot(document, laws);  // with the lines of the files, which the text no longer has
-  return document.text();
+  read_robot(document, laws);
+  SourceText filled{urdf.name, document.text()};
+  const XmlDocument printed(filled);
+  note_origins(printed.robot(), document.robot(), document, &filled.origins);
+  return filled;
 }
 
 namespace {
