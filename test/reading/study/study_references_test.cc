@@ -145,7 +145,9 @@ TEST(StudyReferences, ATrajectoryInATable) {
   // The comma is the decimal point of the names, and the semicolon the separator.
   const std::string semicolons = "t;height,left\n0;0.5\n0.5;0.7\n";
   const std::string of_left = "{type: trajectory, csv: road.csv, column: \"height,left\", time: t";
-  EXPECT_NE(fault(of_left + ", delimiter: comma}", semicolons).find("`delimiter` gives"),
+  EXPECT_NE(fault(of_left + ", delimiter: comma}", semicolons).find("column of road.csv"),
+            std::string::npos);
+  EXPECT_NE(fault(reference, "t,height\n0,0.5\n1,0.7,3\n").find("road.csv:3: a row of 3 cells"),
             std::string::npos);
   EXPECT_EQ(read(of_left + ", delimiter: semicolon}", semicolons)
                 .integral.at(0)
