@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "description/expression.h"
+#include "description/parameter_switches.h"
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"
@@ -232,6 +233,7 @@ struct RobotDescription {
   std::vector<Parameter> parameters;
   std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file
                                   ///< depends, visuals included
+  std::vector<ParameterSwitch> switches;  ///< of its numbers
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order

@@ -88,7 +88,8 @@ GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, 
                           const std::atomic<bool>* cancel = nullptr);
 
 /// Sets GradientCheck::finer and largest_change of an ended check, with the warning
-/// `coarse_gradient` in its evaluation if the gradient changes by more than a hundredth. Does
+/// `coarse_gradient` in its evaluation if the gradient changes by more than a hundredth, and where
+/// check_other_steps() was called before, by more than what moves no optimum. Does
 /// nothing where a run cannot be repeated (idas, postures, bands), where its steps obey
 /// solver.sensitivity_tolerance, and if a run with smaller tolerances fails.
 void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,

@@ -12,8 +12,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kFirstStep = 0.25, kLastStep = 1.0 / 128.0;
-constexpr std::size_t kMostEvaluations = 2000;
+constexpr double kFirstClimb = 0.25, kLastClimb = 1.0 / 128.0;
+constexpr std::size_t kMostClimbed = 2000;
 
 /// A parameter that lies anywhere between two values.
 struct Interval {
@@ -30,7 +30,7 @@ std::vector<Interval> intervals_of(const Study& study) {
   return intervals;
 }
 
-double& value_of(int parameter, Scenario* scenario) {
+double& uncertain_value(int parameter, Scenario* scenario) {
   return std::find_if(scenario->values.begin(), scenario->values.end(),
                       [parameter](const auto& value) { return value.first == parameter; })
       ->second;
@@ -48,7 +48,7 @@ class Climb {
     result_.scenario = ensemble_.scenarios()[to_index(worst)];
     // The nominal values of a single sample are no values of the scenario.
     result_.is_known = !intervals_.empty() && result_.scenario.sample >= 0;
-    for (double step = kFirstStep; result_.is_known && step >= kLastStep;)
+    for (double step = kFirstClimb; result_.is_known && step >= kLastClimb;)
       if (!take_step(step)) step *= 0.5;
     return std::move(result_);
   }
@@ -59,7 +59,7 @@ class Climb {
     for (const Interval& interval : intervals_)
       for (const double sign : {1.0, -1.0}) {
         beside.push_back(result_.scenario);
-        double& value = value_of(interval.parameter, &beside.back());
+        double& value = uncertain_value(interval.parameter, &beside.back());
         value = std::clamp(value + sign * step * (interval.upper - interval.lower), interval.lower,
                            interval.upper);
       }
@@ -71,7 +71,7 @@ class Climb {
       if (!(gains[better] > 0.0)) continue;
       ++improving;
       const int parameter = intervals_[k].parameter;
-      value_of(parameter, &together) = value_of(parameter, &beside[better]);
+      uncertain_value(parameter, &together) = uncertain_value(parameter, &beside[better]);
     }
     const auto best = std::max_element(gains.begin(), gains.end()) - gains.begin();
     double gain = gains[to_index(best)];
@@ -81,7 +81,7 @@ class Climb {
         gain = of_all;
         next = std::move(together);
       }
-    if (!(gain > 0.0) || !result_.status.ok() || evaluations_ > kMostEvaluations) return false;
+    if (!(gain > 0.0) || !result_.status.ok() || evaluations_ > kMostClimbed) return false;
     result_.scenario = std::move(next);
     result_.objective += gain;
     return true;
@@ -91,7 +91,7 @@ class Climb {
   /// cannot be integrated.
   std::vector<double> gains_of(const std::vector<Scenario>& scenarios) {
     std::vector<double> gains(scenarios.size(), -1.0);
-    if (!result_.status.ok() || evaluations_ > kMostEvaluations) return gains;
+    if (!result_.status.ok() || evaluations_ > kMostClimbed) return gains;
     const std::vector<Evaluation> members =
         ensemble_.engine().evaluate(tasks_at(scenarios, rho_, Derivatives::kNone), cancel_);
     evaluations_ += members.size();

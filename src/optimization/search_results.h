@@ -45,10 +45,14 @@ constexpr double kFlatShare = 1e-8;
 Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
                                 const std::vector<bool>& held);
 
-/// The least value of psi + g^T p + |R p|^2 over steps p of the parameters that are not held: of a
-/// sum of squares beside a design of a curved valley, its floor there. @param value, gradient,
-/// root: psi, g and R. @param active, held as above.
-double valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
-                    const Eigen::MatrixXd& active, const std::vector<bool>& held);
+/// The least value of psi + g^T p + |R p|^2 over steps p of the parameters that are not held, and
+/// the shortest step to it: of a sum of squares beside a design of a curved valley, its floor there.
+struct ValleyFloor {
+  double value = 0.0;
+  Eigen::VectorXd step;
+};
+/// @param value, gradient, root: psi, g and R. @param active, held as above.
+ValleyFloor valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
+                         const Eigen::MatrixXd& active, const std::vector<bool>& held);
 
 }  // namespace codesign

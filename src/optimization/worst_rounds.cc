@@ -17,7 +17,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kSame = 1e-4;  // of the objective
+constexpr double kSamePromise = 1e-4;  // of the objective
 
 class WorstRounds {
  public:
@@ -39,7 +39,7 @@ class WorstRounds {
       result_.cost.statistics += found.statistics;
       if (!found.status.ok()) return interrupt(found.status);
       const double promised = result_.best.objective;
-      if (!found.is_known || !(found.objective > promised + kSame * std::abs(promised))) return;
+      if (!found.is_known || !(found.objective > promised + kSamePromise * std::abs(promised))) return;
       const int left = options_.max_evaluations - result_.cost.evaluations;
       if (round == kMostWorstRounds || left < 1) return warn_of(found);
       Ensemble more = ensemble_.with(std::move(found.scenario));

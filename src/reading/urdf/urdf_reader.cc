@@ -151,6 +151,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
   robot.used_parameters = context.table.used;
+  robot.switches = context.table.switches;
   check_names(robot);
   robot.root = find_root(robot);
   warn_of_foreign_loops(element, robot, &robot.warnings);
