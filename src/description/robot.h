@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"
+#include "math/mesh_moments.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
 #include "mechanism_codesign/warning.h"
@@ -64,12 +66,14 @@ struct PoseDescription {
   QuantityVector rpy;  ///< fixed-axis roll, pitch, yaw [rad]
 };
 
-/// A visual or collision solid. The volume of a mesh is not computed; it counts as zero.
+/// A visual or collision solid.
 struct ShapeDescription {
   enum class Kind { kBox, kCylinder, kSphere, kMesh };
   Kind kind = Kind::kMesh;
   PoseDescription origin;        ///< in the link frame; a cylinder's axis is its z
-  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m]
+  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m];
+                                 ///< mesh: its scale
+  std::shared_ptr<const MeshMoments> mesh;  ///< kMesh: in the unit of its file
 };
 
 /// Mass properties of a link, given as numbers or computed from its shapes.

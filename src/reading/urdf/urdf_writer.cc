@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/urdf_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -80,14 +81,35 @@ void write_inertial(XMLElement* inertial, const MassProperties<double>& properti
           to_decimal(properties.inertia(static_cast<int>(i), static_cast<int>(j))).c_str());
 }
 
+/// Whether a link has meshes, and no parameter changes its mass.
+bool has_constant_meshes(const InertialDescription& inertial) {
+  const auto is_constant = [](const Quantity& quantity) { return quantity.is_constant(); };
+  const auto all_constant = [&](const QuantityVector& vector) {
+    return std::all_of(vector.begin(), vector.end(), is_constant);
+  };
+  return is_constant(*inertial.density) &&
+         std::any_of(inertial.shapes.begin(), inertial.shapes.end(),
+                     [](const ShapeDescription& shape) { return shape.mesh != nullptr; }) &&
+         std::all_of(inertial.shapes.begin(), inertial.shapes.end(),
+                     [&](const ShapeDescription& shape) {
+                       return all_constant(shape.size) && all_constant(shape.origin.xyz) &&
+                              all_constant(shape.origin.rpy);
+                     });
+}
+
 void write_inertials(XMLElement* robot, const std::vector<LinkDescription>& links,
                      const std::vector<double>& values) {
   std::size_t k = 0;
   for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link"), ++k) {
     const std::optional<InertialDescription>& inertial = links[k].inertial;
-    if (inertial && inertial->density)
-      write_inertial(link->FirstChildElement("inertial"), mass_properties(*inertial, values));
+    if (!inertial || !inertial->density) continue;
+    XMLElement* node = link->FirstChildElement("inertial");
+    write_inertial(node, mass_properties(*inertial, values));
+    // The file may be moved away from its meshes, whose numbers it has.
+    if (has_constant_meshes(*inertial))
+      for (const char* attribute : {"codesign:density", "codesign:from"})
+        node->DeleteAttribute(attribute);
   }
 }
 
